@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-using lane_transpose::Doubles;
+using BatchDoubles = Lanes<double>::Vector;
 
 // Rows ahead of the one being gathered that are asked for: their addresses are too far apart for the
 // processor to foresee.
@@ -111,11 +111,11 @@ template class AnyLengthFourier<1>;
 template class AnyLengthFourier<Lanes<double>::count>;
 
 BatchFourier::Work::Work(const BatchFourier& batch)
-    : values(static_cast<std::size_t>(batch.length())), more(batch.fourier_.work_length()) {}
+    : values(static_cast<std::size_t>(batch.length()) * parts), more(batch.fourier_.work_length()) {}
 
 std::size_t BatchFourier::work_values(int n) {
-  const int length = convolution_length<columns>(n);
-  return static_cast<std::size_t>(length == n ? n : n + length);
+  const int length = convolution_length<lanes>(n);
+  return static_cast<std::size_t>(length == n ? n * parts : n * parts + length);
 }
 
 const BatchFourier& BatchFourier::of_length(int n) {
@@ -127,59 +127,71 @@ const BatchFourier& BatchFourier::of_length(int n) {
   return *batch;
 }
 
-// Lane l holds signal l as its real part and signal l + columns as its imaginary one.
+// Column l holds signal l as its real part and signal l + columns as its imaginary one.
 void BatchFourier::load_reals(Work& work, const double* const* in, int given, int count) const {
-  Lane* const values = work.values.data();
   const auto signal = [&](int r) { return in[std::min(r, count - 1)]; };
-  const int whole = given / columns * columns;
-  for (int i = 0; i < whole; i += columns) {
-    Doubles re[columns], im[columns];
-    for (int l = 0; l < columns; ++l) {
-      std::memcpy(&re[l], signal(l) + i, sizeof re[l]);
-      std::memcpy(&im[l], signal(l + columns) + i, sizeof im[l]);
+  const int whole = given / lanes * lanes;
+  for (int p = 0; p < parts; ++p) {
+    Lane* const values = part(work, p);
+    const int first = p * lanes;
+    for (int i = 0; i < whole; i += lanes) {
+      BatchDoubles re[lanes], im[lanes];
+      for (int l = 0; l < lanes; ++l) {
+        std::memcpy(&re[l], signal(first + l) + i, sizeof re[l]);
+        std::memcpy(&im[l], signal(first + l + columns) + i, sizeof im[l]);
+      }
+      lane_transpose::transpose<lanes>(re);
+      lane_transpose::transpose<lanes>(im);
+      for (int k = 0; k < lanes; ++k) values[i + k] = {re[k], im[k]};
     }
-    lane_transpose::transpose<columns>(re);
-    lane_transpose::transpose<columns>(im);
-    for (int k = 0; k < columns; ++k) values[i + k] = {re[k], im[k]};
+    for (int i = whole; i < given; ++i)
+      for (int l = 0; l < lanes; ++l) {
+        values[i].re[l] = signal(first + l)[i];
+        values[i].im[l] = signal(first + l + columns)[i];
+      }
+    std::fill(values + given, values + length(), Lane{});
   }
-  for (int i = whole; i < given; ++i)
-    for (int l = 0; l < columns; ++l) {
-      values[i].re[l] = signal(l)[i];
-      values[i].im[l] = signal(l + columns)[i];
-    }
-  std::fill(values + given, values + length(), Lane{});
 }
 
 void BatchFourier::store_reals(const Work& work, int count, int wanted, double scale,
                                double* const* out) const {
-  const Lane* const values = work.values.data();
-  const int whole = wanted / columns * columns;
-  for (int i = 0; i < whole; i += columns) {
-    Doubles re[columns], im[columns];
-    for (int k = 0; k < columns; ++k) {
-      re[k] = values[i + k].re * scale;
-      im[k] = values[i + k].im * scale;
+  const int whole = wanted / lanes * lanes;
+  for (int p = 0; p < parts; ++p) {
+    const Lane* const values = part(work, p);
+    const int first = p * lanes;
+    for (int i = 0; i < whole; i += lanes) {
+      BatchDoubles re[lanes], im[lanes];
+      for (int k = 0; k < lanes; ++k) {
+        re[k] = values[i + k].re * scale;
+        im[k] = values[i + k].im * scale;
+      }
+      lane_transpose::transpose<lanes>(re);
+      lane_transpose::transpose<lanes>(im);
+      for (int l = 0; l < lanes; ++l) {
+        if (first + l < count) std::memcpy(out[first + l] + i, &re[l], sizeof re[0]);
+        if (first + l + columns < count) std::memcpy(out[first + l + columns] + i, &im[l], sizeof im[0]);
+      }
     }
-    lane_transpose::transpose<columns>(re);
-    lane_transpose::transpose<columns>(im);
-    for (int r = 0; r < count; ++r)
-      std::memcpy(out[r] + i, r < columns ? &re[r] : &im[r - columns], sizeof re[0]);
+    for (int i = whole; i < wanted; ++i)
+      for (int l = 0; l < lanes; ++l) {
+        if (first + l < count) out[first + l][i] = values[i].re[l] * scale;
+        if (first + l + columns < count) out[first + l + columns][i] = values[i].im[l] * scale;
+      }
   }
-  for (int i = whole; i < wanted; ++i)
-    for (int r = 0; r < count; ++r)
-      out[r][i] = (r < columns ? values[i].re[r] : values[i].im[r - columns]) * scale;
 }
 
 void BatchFourier::multiply_even(Work& work, const double* factors) const {
-  Lane* const values = work.values.data();
-  const auto multiply = [&](int bin, double factor) {
-    Lane& value = values[place(bin)];
-    value.re *= factor;
-    value.im *= factor;
-  };
-  for (int b = 0; b < bins(); ++b) {
-    multiply(b, factors[b]);
-    if (b > 0 && 2 * b < length()) multiply(length() - b, factors[b]);
+  for (int p = 0; p < parts; ++p) {
+    Lane* const values = part(work, p);
+    const auto multiply = [&](int bin, double factor) {
+      Lane& value = values[place(bin)];
+      value.re *= factor;
+      value.im *= factor;
+    };
+    for (int b = 0; b < bins(); ++b) {
+      multiply(b, factors[b]);
+      if (b > 0 && 2 * b < length()) multiply(length() - b, factors[b]);
+    }
   }
 }
 
@@ -188,27 +200,31 @@ void BatchFourier::real_forward(Work& work, const double* const* in, int given, 
   const int n = length();
   load_reals(work, in, given, count);
   forward(work);
-  const Lane* const values = work.values.data();
   // Z = A + iB: A(k) = (Z(k) + conj Z(−k))/2, B(k) = (Z(k) − conj Z(−k))/2i.
-  for (int first = 0; first < bins(); first += columns) {
-    Doubles part[4][columns];  // A's real and imaginary, B's real and imaginary part
-    const int here = std::min(columns, bins() - first);
-    for (int c = 0; c < columns; ++c) {
-      const int k = first + std::min(c, here - 1);
-      const Lane& low = values[place(k)];
-      const Lane& high = values[place(k == 0 ? 0 : n - k)];
-      part[0][c] = (low.re + high.re) * 0.5;
-      part[1][c] = (low.im - high.im) * 0.5;
-      part[2][c] = (low.im + high.im) * 0.5;
-      part[3][c] = (high.re - low.re) * 0.5;
-    }
-    for (auto& square : part) lane_transpose::transpose<columns>(square);
-    for (int r = 0; r < count; ++r) {
-      const int of = r < columns ? 0 : 2, l = r % columns;
-      Doubles pairs[2];
-      lane_transpose::interleave(part[of][l], part[of + 1][l], pairs[0], pairs[1]);
-      std::memcpy(static_cast<void*>(out[r] + first), pairs,
-                  sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+  for (int p = 0; p < parts; ++p) {
+    const Lane* const values = part(work, p);
+    for (int first = 0; first < bins(); first += lanes) {
+      BatchDoubles square[4][lanes];  // A's real and imaginary, B's real and imaginary part
+      const int here = std::min(lanes, bins() - first);
+      for (int c = 0; c < lanes; ++c) {
+        const int k = first + std::min(c, here - 1);
+        const Lane& low = values[place(k)];
+        const Lane& high = values[place(k == 0 ? 0 : n - k)];
+        square[0][c] = (low.re + high.re) * 0.5;
+        square[1][c] = (low.im - high.im) * 0.5;
+        square[2][c] = (low.im + high.im) * 0.5;
+        square[3][c] = (high.re - low.re) * 0.5;
+      }
+      for (auto& one : square) lane_transpose::transpose<lanes>(one);
+      for (int of = 0; of < 4; of += 2)
+        for (int l = 0; l < lanes; ++l) {
+          const int r = p * lanes + l + (of == 0 ? 0 : columns);
+          if (r >= count) break;
+          BatchDoubles pairs[2];
+          lane_transpose::interleave(square[of][l], square[of + 1][l], pairs[0], pairs[1]);
+          std::memcpy(static_cast<void*>(out[r] + first), pairs,
+                      sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+        }
     }
   }
 }
@@ -216,26 +232,29 @@ void BatchFourier::real_forward(Work& work, const double* const* in, int given, 
 void BatchFourier::real_inverse(Work& work, const std::complex<double>* const* in, int count, int wanted,
                                 double scale, double* const* out) const {
   const int n = length();
-  Lane* const values = work.values.data();
-  for (int first = 0; first < bins(); first += columns) {
-    Doubles part[4][columns];
-    const int here = std::min(columns, bins() - first);
-    for (int r = 0; r < rows; ++r) {
-      const int of = r < columns ? 0 : 2, l = r % columns;
-      Doubles pairs[2] = {};
-      std::memcpy(pairs, in[std::min(r, count - 1)] + first,
-                  sizeof(std::complex<double>) * static_cast<std::size_t>(here));
-      lane_transpose::separate(pairs[0], pairs[1], part[of][l], part[of + 1][l]);
-    }
-    for (auto& square : part) lane_transpose::transpose<columns>(square);
-    for (int c = 0; c < here; ++c) {
-      const int k = first + c;
-      const Doubles &a = part[0][c], &b = part[1][c], &x = part[2][c], &y = part[3][c];
-      if (k == 0 || 2 * k == n) {
-        values[place(k)] = {a, x};
-      } else {
-        values[place(k)] = {a - y, b + x};
-        values[place(n - k)] = {a + y, x - b};
+  for (int p = 0; p < parts; ++p) {
+    Lane* const values = part(work, p);
+    for (int first = 0; first < bins(); first += lanes) {
+      BatchDoubles square[4][lanes];
+      const int here = std::min(lanes, bins() - first);
+      for (int of = 0; of < 4; of += 2)
+        for (int l = 0; l < lanes; ++l) {
+          const int r = p * lanes + l + (of == 0 ? 0 : columns);
+          BatchDoubles pairs[2] = {};
+          std::memcpy(pairs, in[std::min(r, count - 1)] + first,
+                      sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+          lane_transpose::separate(pairs[0], pairs[1], square[of][l], square[of + 1][l]);
+        }
+      for (auto& one : square) lane_transpose::transpose<lanes>(one);
+      for (int c = 0; c < here; ++c) {
+        const int k = first + c;
+        const BatchDoubles &a = square[0][c], &b = square[1][c], &x = square[2][c], &y = square[3][c];
+        if (k == 0 || 2 * k == n) {
+          values[place(k)] = {a, x};
+        } else {
+          values[place(k)] = {a - y, b + x};
+          values[place(n - k)] = {a + y, x - b};
+        }
       }
     }
   }
@@ -246,40 +265,45 @@ void BatchFourier::real_inverse(Work& work, const std::complex<double>* const* i
 template <class Place>
 void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
                            int count, Place place) const {
-  Lane* const values = work.values.data();
   for (int b = 0; b < given; ++b, from += stride) {
     const std::complex<double>* const ahead =
         from + (b + batch_rows_ahead < given ? batch_rows_ahead * stride : 0);
     __builtin_prefetch(ahead, 1);
     __builtin_prefetch(ahead + columns / 2, 1);
-    Doubles pairs[2] = {};
-    if (count == columns)
-      std::memcpy(pairs, static_cast<const void*>(from), sizeof pairs);
-    else
-      std::memcpy(pairs, static_cast<const void*>(from),
-                  sizeof(std::complex<double>) * static_cast<std::size_t>(count));
-    Lane& to = values[place(b)];
-    lane_transpose::separate(pairs[0], pairs[1], to.re, to.im);
+    for (int p = 0; p < parts; ++p) {
+      const int here = std::clamp(count - p * lanes, 0, lanes);
+      BatchDoubles pairs[2] = {};
+      if (here == lanes)
+        std::memcpy(pairs, static_cast<const void*>(from + p * lanes), sizeof pairs);
+      else
+        std::memcpy(pairs, static_cast<const void*>(from + p * lanes),
+                    sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+      Lane& to = part(work, p)[place(b)];
+      lane_transpose::separate(pairs[0], pairs[1], to.re, to.im);
+    }
   }
-  for (int b = given; b < length(); ++b) values[place(b)] = Lane{};
+  for (int p = 0; p < parts; ++p)
+    for (int b = given; b < length(); ++b) part(work, p)[place(b)] = Lane{};
 }
 
 template <class Place>
 void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
                               int count, Place place) const {
-  const Lane* const values = work.values.data();
   for (int b = 0; b < wanted; ++b, to += stride) {
     std::complex<double>* const ahead = to + (b + batch_rows_ahead < wanted ? batch_rows_ahead * stride : 0);
     __builtin_prefetch(ahead, 1);
     __builtin_prefetch(ahead + columns / 2, 1);
-    Doubles pairs[2];
-    const Lane& from = values[place(b)];
-    lane_transpose::interleave(from.re, from.im, pairs[0], pairs[1]);
-    if (count == columns)
-      std::memcpy(static_cast<void*>(to), pairs, sizeof pairs);
-    else
-      std::memcpy(static_cast<void*>(to), pairs,
-                  sizeof(std::complex<double>) * static_cast<std::size_t>(count));
+    for (int p = 0; p < parts; ++p) {
+      const int here = std::clamp(count - p * lanes, 0, lanes);
+      BatchDoubles pairs[2];
+      const Lane& from = part(work, p)[place(b)];
+      lane_transpose::interleave(from.re, from.im, pairs[0], pairs[1]);
+      if (here == lanes)
+        std::memcpy(static_cast<void*>(to + p * lanes), pairs, sizeof pairs);
+      else
+        std::memcpy(static_cast<void*>(to + p * lanes), pairs,
+                    sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+    }
   }
 }
 

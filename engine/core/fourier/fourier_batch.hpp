@@ -50,13 +50,16 @@ extern template class AnyLengthFourier<Lanes<double>::count>;
 // The batch of one length.
 class BatchFourier {
  public:
-  static constexpr int columns = Lanes<double>::count;  // complex signals of a batch
-  static constexpr int rows = 2 * columns;              // real signals of a batch
+  // Complex signals of a batch. Real signals r and r + columns are transformed as one, so that the number is
+  // part of the bits; vectors take them in parts, as many as they hold.
+  static constexpr int columns = 8;
+  static constexpr int lanes = Lanes<double>::count, parts = columns / lanes;
+  static constexpr int rows = 2 * columns;  // real signals of a batch
   using Lane = Lanes<double>::Complex;
 
   // Buffers of one thread.
   struct Work {
-    UnsetArray<Lane> values, more;
+    UnsetArray<Lane> values, more;  // part after part, and of one part
     explicit Work(const BatchFourier& batch);
     Work(const Work&) = default;
   };
@@ -93,8 +96,19 @@ class BatchFourier {
   void load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int count) const;
   void store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count) const;
   void store_bins(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int count) const;
-  void forward(Work& work) const { fourier_.forward(work.values.data(), work.more.data()); }
-  void inverse(Work& work) const { fourier_.inverse(work.values.data(), work.more.data()); }
+  void forward(Work& work) const {
+    for (int p = 0; p < parts; ++p) fourier_.forward(part(work, p), work.more.data());
+  }
+  void inverse(Work& work) const {
+    for (int p = 0; p < parts; ++p) fourier_.inverse(part(work, p), work.more.data());
+  }
+  // The values of columns p·lanes … (p + 1)·lanes − 1.
+  Lane* part(Work& work, int p) const {
+    return work.values.data() + static_cast<std::ptrdiff_t>(length()) * p;
+  }
+  const Lane* part(const Work& work, int p) const {
+    return work.values.data() + static_cast<std::ptrdiff_t>(length()) * p;
+  }
 
  private:
   template <class Place>
@@ -104,7 +118,7 @@ class BatchFourier {
   void store_from(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count,
                   Place place) const;
 
-  AnyLengthFourier<columns> fourier_;
+  AnyLengthFourier<lanes> fourier_;
 };
 
 }  // namespace asperity

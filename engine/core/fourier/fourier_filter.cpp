@@ -46,7 +46,7 @@ struct FourierFilter::Scratch {
         packed(static_cast<std::size_t>(across_y.length())),
         factors(static_cast<std::size_t>(across_y.bins())),
         last_factors(factors),
-        lane_factors(factors.size()) {}
+        lane_factors(factors.size() * BatchFourier::parts) {}
 };
 
 ScratchPool<FourierFilter::Scratch>::Loan FourierFilter::borrow() {
@@ -142,7 +142,7 @@ void FourierFilter::multiply_packed(Scratch& scratch, const Multiplier& multipli
   multiplier(period_x_ / 2, scratch.last_factors);
   const double half = 0.5 / (static_cast<double>(period_x_) * static_cast<double>(period_y_));
   const auto bin = [&](int b) {
-    const BatchFourier::Lane& value = scratch.across.values[static_cast<std::size_t>(across_.place(b))];
+    const BatchFourier::Lane& value = across_.part(scratch.across, 0)[across_.place(b)];
     return Complex(value.re[0], value.im[0]);
   };
   for (int b = 0; 2 * b <= period_y_; ++b) {
@@ -168,24 +168,29 @@ void FourierFilter::columns(const Multiplier& multiplier) {
     across_.forward(work);
     const bool with_packed = packed && first == 0;
     if (with_packed) multiply_packed(*scratch, multiplier);
+    const std::size_t waves = scratch->factors.size();
+    constexpr int lanes = BatchFourier::lanes;
     for (int c = with_packed ? 1 : 0; c < here; ++c) {
       multiplier(first + c, scratch->factors);
-      for (std::size_t b = 0; b < scratch->factors.size(); ++b)
-        scratch->lane_factors[b].re[c] = scratch->factors[b] * scale;
+      auto* const to = scratch->lane_factors.data() + static_cast<std::size_t>(c / lanes) * waves;
+      for (std::size_t b = 0; b < waves; ++b) to[b].re[c % lanes] = scratch->factors[b] * scale;
     }
-    const auto multiply = [&](int b, const auto& factor) {
-      BatchFourier::Lane& value = work.values[static_cast<std::size_t>(across_.place(b))];
-      value.re *= factor.re;
-      value.im *= factor.re;
-    };
-    for (int b = 0; 2 * b <= period_y_; ++b) {
-      const auto& factor = scratch->lane_factors[static_cast<std::size_t>(b)];
-      multiply(b, factor);
-      if (b > 0 && 2 * b < period_y_) multiply(period_y_ - b, factor);
+    for (int p = 0; p < BatchFourier::parts; ++p) {
+      BatchFourier::Lane* const values = across_.part(work, p);
+      const auto* const factors = scratch->lane_factors.data() + static_cast<std::size_t>(p) * waves;
+      const auto multiply = [&](int b, const auto& factor) {
+        BatchFourier::Lane& value = values[across_.place(b)];
+        value.re *= factor.re;
+        value.im *= factor.re;
+      };
+      for (int b = 0; 2 * b <= period_y_; ++b) {
+        multiply(b, factors[b]);
+        if (b > 0 && 2 * b < period_y_) multiply(period_y_ - b, factors[b]);
+      }
     }
     if (with_packed)
       for (int b = 0; b < period_y_; ++b) {
-        BatchFourier::Lane& value = work.values[static_cast<std::size_t>(across_.place(b))];
+        BatchFourier::Lane& value = across_.part(work, 0)[across_.place(b)];
         value.re[0] = scratch->packed[static_cast<std::size_t>(b)].real();
         value.im[0] = scratch->packed[static_cast<std::size_t>(b)].imag();
       }

@@ -23,27 +23,29 @@ namespace {
 // to foresee.
 constexpr int lane_rows_ahead = 16;
 
-using lane_transpose::Doubles;
-using lane_transpose::Singles;
+using Singles = Lanes<float>::Vector;
+using Doubles = Lanes<double>::Vector;
 using lane_transpose::transpose;
 
 inline void read(const double* from, double /*scale*/, Doubles& to) { std::memcpy(&to, from, sizeof to); }
-typedef float HalfSingles __attribute__((vector_size(32)));
+// Half a vector of floats becomes one of doubles.
+constexpr int half_lanes = Lanes<double>::count;
+typedef float HalfSingles __attribute__((vector_size(half_lanes * sizeof(float))));
 inline void read(const double* from, double scale, Singles& to) {
   for (int part = 0; part < 2; ++part) {
     Doubles values;
-    std::memcpy(&values, from + 8 * part, sizeof values);
+    std::memcpy(&values, from + half_lanes * part, sizeof values);
     const HalfSingles narrow = __builtin_convertvector(values * scale, HalfSingles);
-    std::memcpy(reinterpret_cast<char*>(&to) + 32 * part, &narrow, sizeof narrow);
+    std::memcpy(reinterpret_cast<char*>(&to) + sizeof narrow * part, &narrow, sizeof narrow);
   }
 }
 inline void write(const Doubles& from, double /*scale*/, double* to) { std::memcpy(to, &from, sizeof from); }
 inline void write(const Singles& from, double scale, double* to) {
   for (int part = 0; part < 2; ++part) {
     HalfSingles narrow;
-    std::memcpy(&narrow, reinterpret_cast<const char*>(&from) + 32 * part, sizeof narrow);
+    std::memcpy(&narrow, reinterpret_cast<const char*>(&from) + sizeof narrow * part, sizeof narrow);
     const Doubles values = __builtin_convertvector(narrow, Doubles) * scale;
-    std::memcpy(to + 8 * part, &values, sizeof values);
+    std::memcpy(to + half_lanes * part, &values, sizeof values);
   }
 }
 

@@ -13,9 +13,17 @@
 
 namespace asperity {
 
-// `count` numbers that are worked on together: two cache lines are the real and imaginary parts of as many
-// complex ones. One number is worked on by itself.
-template <class Real, int lanes = 64 / static_cast<int>(sizeof(Real))>
+// Of a register of the processor that is compiled for: a wider vector is kept in memory.
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+// `count` numbers that are worked on together, in a register. One number is worked on by itself.
+template <class Real, int lanes = register_bytes / static_cast<int>(sizeof(Real))>
 struct Lanes {
   static constexpr int count = lanes;
   static constexpr int bytes = count * static_cast<int>(sizeof(Real));

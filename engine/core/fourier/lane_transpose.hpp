@@ -3,43 +3,83 @@
 // (fourier_lanes.hpp), and back. Included only by sources of this folder.
 #pragma once
 
+#include <utility>
+
 #include "engine/core/fourier/fourier_lanes.hpp"
 
 namespace asperity::lane_transpose {
 
-using Singles = Lanes<float>::Vector;
-using Doubles = Lanes<double>::Vector;
+namespace places {
 
-// a0 b0 a1 b1 …, the first half in `low`.
-inline __attribute__((always_inline)) void interleave(const Doubles& a, const Doubles& b, Doubles& low,
-                                                      Doubles& high) {
-  const Doubles l = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
-  high = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
-  low = l;
+// Of `lanes` values of two vectors: where each of a result comes from.
+template <int lanes, class Of, int... l>
+inline __attribute__((always_inline)) void shuffle_by(const auto& a, const auto& b, auto& to, Of,
+                                                      std::integer_sequence<int, l...>) {
+  to = __builtin_shufflevector(a, b, Of::place(l)...);
+}
+template <int lanes, class Of, class Vector>
+inline __attribute__((always_inline)) void shuffle(const Vector& a, const Vector& b, Vector& to) {
+  shuffle_by<lanes>(a, b, to, Of{}, std::make_integer_sequence<int, lanes>{});
 }
 
-inline __attribute__((always_inline)) void interleave(const Singles& a, const Singles& b, Singles& low,
-                                                      Singles& high) {
-  const Singles l = __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-  high = __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
-  low = l;
+// Squares of `step` values on the diagonal stay, those beside it change places.
+template <int lanes, int step>
+struct Upper {
+  static constexpr int place(int l) { return (l & step) != 0 ? l - step + lanes : l; }
+};
+template <int lanes, int step>
+struct Lower {
+  static constexpr int place(int l) { return (l & step) != 0 ? l + lanes : l + step; }
+};
+template <int lanes, int first>
+struct Interleaved {
+  static constexpr int place(int l) { return (first + l) / 2 + ((l & 1) != 0 ? lanes : 0); }
+};
+template <int lanes, int first>
+struct EverySecond {
+  static constexpr int place(int l) { return 2 * l + first; }
+};
+
+}  // namespace places
+
+template <int lanes, int step, class Vector>
+inline __attribute__((always_inline)) void exchange(Vector* x) {
+  for (int i = 0; i < lanes; ++i) {
+    if ((i & step) != 0) continue;
+    Vector upper, lower;
+    places::shuffle<lanes, places::Upper<lanes, step>>(x[i], x[i + step], upper);
+    places::shuffle<lanes, places::Lower<lanes, step>>(x[i], x[i + step], lower);
+    x[i] = upper;
+    x[i + step] = lower;
+  }
+  if constexpr (2 * step < lanes) exchange<lanes, 2 * step>(x);
 }
 
-// x[i][l] and x[l][i] change places: as many perfect shuffles of rows as there are bits in an index.
+// x[i][l] and x[l][i] change places.
 template <int lanes, class Vector>
 inline __attribute__((always_inline)) void transpose(Vector* x) {
-  for (int step = 1; step < lanes; step *= 2) {
-    Vector y[lanes];
-    for (int i = 0; i < lanes / 2; ++i) interleave(x[i], x[i + lanes / 2], y[2 * i], y[2 * i + 1]);
-    for (int i = 0; i < lanes; ++i) x[i] = y[i];
-  }
+  exchange<lanes, 1>(x);
+}
+
+// a0 b0 a1 b1 …, the first half in `low`.
+template <class Vector>
+inline __attribute__((always_inline)) void interleave(const Vector& a, const Vector& b, Vector& low,
+                                                      Vector& high) {
+  constexpr int lanes = sizeof(Vector) / sizeof(a[0]);
+  Vector l;
+  places::shuffle<lanes, places::Interleaved<lanes, 0>>(a, b, l);
+  places::shuffle<lanes, places::Interleaved<lanes, lanes>>(a, b, high);
+  low = l;
 }
 
 // a0 a1 … from a0 b0 a1 b1 …: what interleave() undoes.
-inline __attribute__((always_inline)) void separate(const Doubles& low, const Doubles& high, Doubles& a,
-                                                    Doubles& b) {
-  const Doubles first = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
-  b = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+template <class Vector>
+inline __attribute__((always_inline)) void separate(const Vector& low, const Vector& high, Vector& a,
+                                                    Vector& b) {
+  constexpr int lanes = sizeof(Vector) / sizeof(low[0]);
+  Vector first;
+  places::shuffle<lanes, places::EverySecond<lanes, 0>>(low, high, first);
+  places::shuffle<lanes, places::EverySecond<lanes, 1>>(low, high, b);
   a = first;
 }
 

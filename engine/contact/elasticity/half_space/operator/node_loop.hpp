@@ -16,10 +16,11 @@
 #include <limits>
 #include <span>
 
-#if defined(__AVX512F__) && defined(__AVX512VL__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -70,17 +71,23 @@ void visit(std::size_t nodes, Take take, const Body& body) {
   });
 }
 
-// One number for each lane of a block, as a vector: left to itself, the compiler takes the lanes of a sum one
-// by one through memory.
-typedef double LaneVector __attribute__((vector_size(lanes_a_block * sizeof(double)), may_alias));
+// Of the lanes of a block, as many as a register holds: left to itself, the compiler takes the lanes of a sum
+// one by one through memory, and so it does where a vector is wider than a register.
+typedef double LaneVector __attribute__((vector_size(register_bytes), may_alias));
+inline constexpr std::size_t lanes_a_part = register_bytes / sizeof(double);
+inline constexpr std::size_t parts_a_block = lanes_a_block / lanes_a_part;
 
 // The lanes of a block.
 template <std::size_t sums, std::size_t minima>
 struct Lanes {
   static constexpr std::size_t size = sums + minima;
   using Parts = std::array<double, size>;
-  LaneVector lanes[size];
+  LaneVector lanes[size][parts_a_block];
 
+  double& lane(std::size_t i, std::size_t l) {
+    return reinterpret_cast<double*>(&lanes[i][l / lanes_a_part])[l % lanes_a_part];
+  }
+  double lane(std::size_t i, std::size_t l) const { return lanes[i][l / lanes_a_part][l % lanes_a_part]; }
   static constexpr double none(std::size_t i) {
     return i < sums ? 0.0 : std::numeric_limits<double>::infinity();
   }
@@ -89,7 +96,7 @@ struct Lanes {
   }
   Lanes() {
     for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t lane = 0; lane < lanes_a_block; ++lane) lanes[i][lane] = none(i);
+      for (LaneVector& part : lanes[i]) part = LaneVector{} + none(i);
   }
   // `k` is a whole number of lanes from the beginning of the block.
   template <class Term>
@@ -101,28 +108,30 @@ struct Lanes {
       for (std::size_t i = 0; i < size; ++i) values[i][j] = v[i];
     }
     for (std::size_t i = 0; i < size; ++i) {
-      LaneVector into = lanes[i];
-      for (std::size_t j = 0; j < nodes_a_chunk; j += lanes_a_block) {
-        const LaneVector from = *reinterpret_cast<const LaneVector*>(values[i] + j);
-        if (i < sums)
-          into += from;
-        else
-          into = from < into ? from : into;
-      }
-      lanes[i] = into;
+      LaneVector into[parts_a_block];
+      for (std::size_t part = 0; part < parts_a_block; ++part) into[part] = lanes[i][part];
+      for (std::size_t j = 0; j < nodes_a_chunk; j += lanes_a_block)
+        for (std::size_t part = 0; part < parts_a_block; ++part) {
+          const LaneVector from = *reinterpret_cast<const LaneVector*>(values[i] + j + part * lanes_a_part);
+          if (i < sums)
+            into[part] += from;
+          else
+            into[part] = from < into[part] ? from : into[part];
+        }
+      for (std::size_t part = 0; part < parts_a_block; ++part) lanes[i][part] = into[part];
     }
   }
   template <class Term>
-  void take(std::size_t k, std::size_t lane, const Term& term) {
+  void take(std::size_t k, std::size_t l, const Term& term) {
     double v[size];
     term(k, v);
-    for (std::size_t i = 0; i < size; ++i) lanes[i][lane] = merge(i, lanes[i][lane], v[i]);
+    for (std::size_t i = 0; i < size; ++i) lane(i, l) = merge(i, lane(i, l), v[i]);
   }
   Parts total() const {
     Parts total;
     for (std::size_t i = 0; i < size; ++i) {
-      total[i] = lanes[i][0];
-      for (std::size_t lane = 1; lane < lanes_a_block; ++lane) total[i] = merge(i, total[i], lanes[i][lane]);
+      total[i] = lane(i, 0);
+      for (std::size_t l = 1; l < lanes_a_block; ++l) total[i] = merge(i, total[i], lane(i, l));
     }
     return total;
   }
@@ -206,11 +215,12 @@ namespace lane_terms {
 
 using node_loop::LaneVector;
 static_assert(lanes_a_block == 8);
-typedef double Doubles __attribute__((vector_size(64), aligned(8), may_alias));
-typedef float Floats __attribute__((vector_size(32), aligned(4), may_alias));
-typedef std::uint8_t Bytes __attribute__((vector_size(8), aligned(1), may_alias));
-typedef std::uint16_t Words __attribute__((vector_size(16)));
-typedef std::int32_t Integers __attribute__((vector_size(32)));
+using node_loop::lanes_a_part;
+typedef double Doubles __attribute__((vector_size(register_bytes), aligned(8), may_alias));
+typedef float Floats __attribute__((vector_size(register_bytes / 2), aligned(4), may_alias));
+typedef std::uint8_t Bytes __attribute__((vector_size(register_bytes / 8), aligned(1), may_alias));
+typedef std::uint16_t Words __attribute__((vector_size(register_bytes / 4)));
+typedef std::int32_t Integers __attribute__((vector_size(register_bytes / 2)));
 
 inline void read(const double* from, double& to) { to = *from; }
 inline void read(const float* from, double& to) { to = static_cast<double>(*from); }
@@ -231,6 +241,15 @@ inline void read(const std::uint8_t* from, LaneVector& to) {
   const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
   to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtepi32_pd(0xff, _mm256_cvtepu8_epi32(bytes)));
 }
+#elif defined(__AVX2__)
+inline void read(const float* from, LaneVector& to) {
+  to = reinterpret_cast<LaneVector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
+}
+inline void read(const std::uint8_t* from, LaneVector& to) {
+  std::int32_t four;
+  std::memcpy(&four, from, sizeof four);
+  to = reinterpret_cast<LaneVector>(_mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four))));
+}
 #else
 inline void read(const float* from, LaneVector& to) {
   to = __builtin_convertvector(*reinterpret_cast<const Floats*>(from), LaneVector);
@@ -246,28 +265,44 @@ inline void put(const LaneVector& from, double* to) { *reinterpret_cast<Doubles*
 inline void put(const LaneVector& from, float* to) {
   *reinterpret_cast<Floats*>(to) = __builtin_convertvector(from, Floats);
 }
+#if defined(__AVX2__) && !defined(__AVX512F__)
+inline void put(const LaneVector& from, std::uint8_t* to) {
+  // The lowest byte of each of four integers.
+  const __m128i integers = _mm256_cvttpd_epi32(reinterpret_cast<__m256d>(from));
+  const __m128i bytes = _mm_shuffle_epi8(integers, _mm_set1_epi32(0x0c080400));
+  const std::int32_t four = _mm_cvtsi128_si32(bytes);
+  std::memcpy(to, &four, sizeof four);
+}
+#else
 inline void put(const LaneVector& from, std::uint8_t* to) {
   const Integers integers = __builtin_convertvector(from, Integers);
   const Words words = __builtin_convertvector(integers, Words);
   *reinterpret_cast<Bytes*>(to) = __builtin_convertvector(words, Bytes);
 }
+#endif
 
 template <std::size_t sums, std::size_t minima, class Term>
 std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
   node_loop::Lanes<sums, minima> block;
+  LaneVector lanes[sums + minima][node_loop::parts_a_block];
+  for (std::size_t i = 0; i < sums + minima; ++i)
+    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) lanes[i][part] = block.lanes[i][part];
   std::size_t k = begin;
-  for (; k + lanes_a_block <= end; k += lanes_a_block) {
-    LaneVector v[sums + minima];
-    own(k, v);
-    for (std::size_t i = 0; i < sums + minima; ++i) {
-      LaneVector& into = block.lanes[i];
-      if (i < sums)
-        into += v[i];
-      else
-        into = v[i] < into ? v[i] : into;
+  for (; k + lanes_a_block <= end; k += lanes_a_block)
+    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) {
+      LaneVector v[sums + minima];
+      own(k + part * lanes_a_part, v);
+      for (std::size_t i = 0; i < sums + minima; ++i) {
+        LaneVector& into = lanes[i][part];
+        if (i < sums)
+          into += v[i];
+        else
+          into = v[i] < into ? v[i] : into;
+      }
     }
-  }
+  for (std::size_t i = 0; i < sums + minima; ++i)
+    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) block.lanes[i][part] = lanes[i][part];
   for (std::size_t lane = 0; k < end; ++k, ++lane) block.take(k, lane, own);
   return block.total();
 }
@@ -276,7 +311,7 @@ template <class Body>
 void visit_range(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
   std::size_t k = begin;
-  for (; k + lanes_a_block <= end; k += lanes_a_block) own.template operator()<LaneVector>(k);
+  for (; k + lanes_a_part <= end; k += lanes_a_part) own.template operator()<LaneVector>(k);
   for (; k < end; ++k) own.template operator()<double>(k);
 }
 

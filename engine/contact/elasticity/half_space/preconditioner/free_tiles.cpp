@@ -23,7 +23,8 @@ typedef std::uint32_t EightWords __attribute__((vector_size(32)));
 // be aligned: references and arguments of templates lose that, with Clang, and so do values bound to a
 // reference.
 typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
-typedef double EightDoublesAnywhere __attribute__((vector_size(64), aligned(8), may_alias));
+typedef double FourDoubles __attribute__((vector_size(32)));
+typedef float Four __attribute__((vector_size(16)));
 typedef std::uint8_t EightBytes __attribute__((vector_size(8), aligned(1), may_alias));
 typedef std::uint16_t EightShorts __attribute__((vector_size(16)));
 typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
@@ -35,8 +36,15 @@ inline __attribute__((always_inline)) const EightAnywhere* eight(const float* at
 inline __attribute__((always_inline)) EightAnywhere* eight(float* at) {
   return reinterpret_cast<EightAnywhere*>(at);
 }
-inline __attribute__((always_inline)) const EightDoublesAnywhere* eight(const double* at) {
-  return reinterpret_cast<const EightDoublesAnywhere*>(at);
+// offset + slope·value of eight values, in two halves: a register holds four of them.
+inline __attribute__((always_inline)) void eight_along(const double* at, double slope, double offset,
+                                                       Eight& to) {
+  FourDoubles first, last;
+  std::memcpy(&first, at, sizeof first);
+  std::memcpy(&last, at + 4, sizeof last);
+  const Four low = __builtin_convertvector(offset + slope * first, Four);
+  const Four high = __builtin_convertvector(offset + slope * last, Four);
+  to = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 // Not 0 where the even, and the odd, of sixteen bytes are not.
@@ -168,7 +176,9 @@ void add_residual(const std::uint8_t* free, const double* values, double slope, 
   const SmoothExtension::Sums::Row<float> to = sums;
   std::size_t k = 0;
   for (; k + group <= n; k += group) {
-    const Eight all = __builtin_convertvector(offset + slope * *eight(values + k), Eight), none = {};
+    const Eight none = {};
+    Eight all;
+    eight_along(values + k, slope, offset, all);
     EightMarks marks;
     read_marks(free + k, marks);
     const Eight value = marks != 0 ? all : none;
@@ -217,11 +227,13 @@ void start_free(const std::uint8_t* __restrict free, const double* __restrict va
   };
   while (k < n && (place + k) % columns != 0) one();
   for (; k + columns <= n; k += columns) {
-    Eight low, high;
-    eight_of(less, k, low);
-    eight_of(less, k + group, high);
-    low = __builtin_convertvector(offset + slope * *eight(values + k), Eight) - low;
-    high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight) - high;
+    Eight low, high, smooth_low, smooth_high;
+    eight_of(less, k, smooth_low);
+    eight_of(less, k + group, smooth_high);
+    eight_along(values + k, slope, offset, low);
+    eight_along(values + k + group, slope, offset, high);
+    low -= smooth_low;
+    high -= smooth_high;
     Eight even, odd;
     take_apart(low, high, even, odd);
     EightMarks free_even, free_odd;

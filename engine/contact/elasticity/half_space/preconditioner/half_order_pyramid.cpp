@@ -8,6 +8,7 @@
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/fourier/lane_transpose.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -74,11 +75,11 @@ void weigh_every_second(const float* __restrict from, int n, float* __restrict t
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (from[2 * i - 1] + from[2 * i + 1]) + 0.5f * from[2 * i];
 }
 
-typedef float Sixteen __attribute__((vector_size(64)));
-typedef float Eight __attribute__((vector_size(32)));
-typedef float SixteenAnywhere __attribute__((vector_size(64), aligned(4), may_alias));
-typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
-constexpr int lanes = 16;
+constexpr int lanes = register_bytes / static_cast<int>(sizeof(float));
+typedef float Sixteen __attribute__((vector_size(register_bytes)));
+typedef float Eight __attribute__((vector_size(register_bytes / 2)));
+typedef float SixteenAnywhere __attribute__((vector_size(register_bytes), aligned(4), may_alias));
+typedef float EightAnywhere __attribute__((vector_size(register_bytes / 2), aligned(4), may_alias));
 
 inline __attribute__((always_inline)) void read(const float* from, Sixteen& to) {
   to = *reinterpret_cast<const SixteenAnywhere*>(from);
@@ -93,7 +94,9 @@ inline __attribute__((always_inline)) void interpolate(const float* coarse, int 
   const Eight even = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2);
   const Eight next = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2 + 1);
   const Eight odd = 0.5f * (even + next);
-  to = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+  using lane_transpose::places::Interleaved;
+  lane_transpose::places::shuffle_by<lanes>(even, odd, to, Interleaved<lanes / 2, 0>{},
+                                            std::make_integer_sequence<int, lanes>{});
 }
 inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, float& to) {
   to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
@@ -141,20 +144,21 @@ void stencil_rows(const float* c0, const float* c1, const float* c2, int n, floa
   });
 }
 
-// a·b, added up in double precision but for 32 terms at a time.
+// a·b, added up in sixteen lanes and in double precision but for 32 terms at a time.
 double product_of_rows(const float* a, const float* b, int n) {
-  constexpr int chunk = 32 * lanes;
+  constexpr int summed = 16, chunk = 32 * summed;
   double sum = 0;
   int i = 0;
-  while (i + lanes <= n) {
-    Sixteen part = {};
-    for (const int end = std::min(i + chunk, n); i + lanes <= end; i += lanes) {
-      Sixteen x, y;
-      read(a + i, x);
-      read(b + i, y);
-      part += x * y;
-    }
-    for (int lane = 0; lane < lanes; ++lane) sum += static_cast<double>(part[lane]);
+  while (i + summed <= n) {
+    Sixteen part[summed / lanes] = {};
+    for (const int end = std::min(i + chunk, n); i + summed <= end; i += summed)
+      for (int of = 0; of < summed / lanes; ++of) {
+        Sixteen x, y;
+        read(a + i + of * lanes, x);
+        read(b + i + of * lanes, y);
+        part[of] += x * y;
+      }
+    for (int lane = 0; lane < summed; ++lane) sum += static_cast<double>(part[lane / lanes][lane % lanes]);
   }
   for (; i < n; ++i) sum += static_cast<double>(a[i] * b[i]);
   return sum;
