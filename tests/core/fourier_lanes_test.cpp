@@ -35,8 +35,8 @@ Array<typename Lanes<Real>::Complex> noise(int n) {
   return values;
 }
 
-constexpr int lengths[] = {1,  2,  3,  4,  5,  6,  7,   8,   9,   14,  16,
-                           21, 25, 32, 49, 60, 64, 105, 128, 210, 343, 512};
+constexpr int lengths[] = {1,   2,   3,   4,   5,   6,  7,  8,  9,  14, 16, 21, 25,  32,  49,  60, 64,
+                           105, 128, 210, 343, 512, 11, 13, 17, 19, 23, 29, 31, 143, 374, 527, 957};
 
 TYPED_TEST(InLanes, BinsAreTheSumOfTheDefinition) {
   using Real = TypeParam;
@@ -46,7 +46,7 @@ TYPED_TEST(InLanes, BinsAreTheSumOfTheDefinition) {
     const auto in = noise<Real>(n);
     auto out = in;
     fourier.forward(out.data());
-    for (int l = 0; l < Lanes<Real>::count; l += 3)
+    for (int l = 0; l < Lanes<Real>::count; ++l)
       for (int k = 0; k < n; ++k) {
         std::complex<long double> sum = 0;
         for (int j = 0; j < n; ++j) {
@@ -90,27 +90,61 @@ TYPED_TEST(InLanes, PlacesAreAPermutation) {
   }
 }
 
-// What one lane holds has no say in another.
-TYPED_TEST(InLanes, LanesAreApart) {
+// A lane does not depend on the contents of another lane.
+TYPED_TEST(InLanes, LanesAreIndependent) {
   using Real = TypeParam;
-  const int n = 60;
+  const int n = 660, last = Lanes<Real>::count - 1;
   const LaneFourier<Real> fourier(n);
   auto all = noise<Real>(n), one = all;
   for (auto& value : one)
-    for (int l = 0; l < Lanes<Real>::count; ++l)
-      if (l != 5) value.re[l] = value.im[l] = std::numeric_limits<Real>::quiet_NaN();
+    for (int l = 0; l < last; ++l) value.re[l] = value.im[l] = std::numeric_limits<Real>::quiet_NaN();
   fourier.forward(all.data());
   fourier.forward(one.data());
   for (std::size_t k = 0; k < all.size(); ++k) {
-    ASSERT_EQ(all[k].re[5], one[k].re[5]);
-    ASSERT_EQ(all[k].im[5], one[k].im[5]);
+    ASSERT_EQ(all[k].re[last], one[k].re[last]);
+    ASSERT_EQ(all[k].im[last], one[k].im[last]);
   }
 }
 
-TEST(LaneFourier, TakesLengthsOfSmallPrimes) {
-  for (const int n : {1, 2, 7, 490, 8192}) EXPECT_TRUE(LaneFourier<double>::possible(n)) << n;
-  for (const int n : {11, 13, 22, 8191}) EXPECT_FALSE(LaneFourier<double>::possible(n)) << n;
-  for (const int n : {11, 0, -4}) EXPECT_THROW(LaneFourier<float>{n}, Error) << n;
+// Plain numbers pass through the same operations as the lanes of a vector.
+TEST(LaneFourier, OneSignalAloneHasTheBitsOfALane) {
+  constexpr int last = Lanes<double>::count - 1;
+  for (const int n : lengths) {
+    const LaneFourier<double> in_lanes(n);
+    const LaneFourier<double, 1> alone(n);
+    auto all = noise<double>(n);
+    std::vector<Lanes<double, 1>::Complex> one;
+    for (const auto& value : all) one.push_back({value.re[last], value.im[last]});
+    const auto compare = [&] {
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        ASSERT_EQ(all[k].re[last], one[k].re) << n;
+        ASSERT_EQ(all[k].im[last], one[k].im) << n;
+      }
+    };
+    in_lanes.forward(all.data());
+    alone.forward(one.data());
+    compare();
+    in_lanes.inverse(all.data());
+    alone.inverse(one.data());
+    compare();
+  }
+}
+
+TEST(LaneFourier, TakesLengthsWithoutAPrimeAbove31) {
+  for (const int n : {1, 2, 7, 490, 8192, 11, 520, 31 * 29 * 23})
+    EXPECT_TRUE(LaneFourier<double>::possible(n)) << n;
+  for (const int n : {37, 74, 8191, 521, 0, -4}) {
+    EXPECT_FALSE(LaneFourier<double>::possible(n)) << n;
+    EXPECT_THROW(LaneFourier<float>{n}, Error) << n;
+  }
+}
+
+TEST(SmoothLength, IsTheLeastWithoutAPrimeAbove7) {
+  EXPECT_EQ(smooth_length(-3), 1);
+  EXPECT_EQ(smooth_length(1), 1);
+  EXPECT_EQ(smooth_length(11), 12);
+  EXPECT_EQ(smooth_length(210), 210);
+  EXPECT_EQ(smooth_length(1041), 1050);
 }
 
 }  // namespace

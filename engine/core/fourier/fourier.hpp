@@ -2,7 +2,7 @@
 // Real Fourier transforms in one and two dimensions: rows first, then columns, in batches of lanes
 // (fourier_batch.hpp), so that the bits depend neither on the number of threads nor on the processor.
 // Unnormalised forwards; inverse divides by n. Tables are made once per length and kept. Thread-safe. Any
-// length from 1; one with a prime factor above 7 takes some six times as long.
+// length from 1; one with a prime factor above 31 takes some six times as long.
 #pragma once
 
 #include <complex>

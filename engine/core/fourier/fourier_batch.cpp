@@ -6,8 +6,6 @@
 #include <map>
 #include <mutex>
 
-#include "engine/core/fourier/lane_transpose.hpp"
-
 namespace asperity {
 
 namespace {
@@ -20,10 +18,7 @@ constexpr int batch_rows_ahead = 12;
 
 template <int lanes>
 int convolution_length(int n) {
-  if (LaneFourier<double, lanes>::possible(n)) return n;
-  int length = 2 * n - 1;
-  while (!LaneFourier<double, lanes>::possible(length)) ++length;
-  return length;
+  return LaneFourier<double, lanes>::possible(n) ? n : smooth_length(2 * n - 1);
 }
 
 }  // namespace
@@ -140,8 +135,8 @@ void BatchFourier::load_reals(Work& work, const double* const* in, int given, in
         std::memcpy(&re[l], signal(first + l) + i, sizeof re[l]);
         std::memcpy(&im[l], signal(first + l + columns) + i, sizeof im[l]);
       }
-      lane_transpose::transpose<lanes>(re);
-      lane_transpose::transpose<lanes>(im);
+      register_vectors::transpose(re);
+      register_vectors::transpose(im);
       for (int k = 0; k < lanes; ++k) values[i + k] = {re[k], im[k]};
     }
     for (int i = whole; i < given; ++i)
@@ -165,8 +160,8 @@ void BatchFourier::store_reals(const Work& work, int count, int wanted, double s
         re[k] = values[i + k].re * scale;
         im[k] = values[i + k].im * scale;
       }
-      lane_transpose::transpose<lanes>(re);
-      lane_transpose::transpose<lanes>(im);
+      register_vectors::transpose(re);
+      register_vectors::transpose(im);
       for (int l = 0; l < lanes; ++l) {
         if (first + l < count) std::memcpy(out[first + l] + i, &re[l], sizeof re[0]);
         if (first + l + columns < count) std::memcpy(out[first + l + columns] + i, &im[l], sizeof im[0]);
@@ -215,13 +210,13 @@ void BatchFourier::real_forward(Work& work, const double* const* in, int given, 
         square[2][c] = (low.im + high.im) * 0.5;
         square[3][c] = (high.re - low.re) * 0.5;
       }
-      for (auto& one : square) lane_transpose::transpose<lanes>(one);
+      for (auto& one : square) register_vectors::transpose(one);
       for (int of = 0; of < 4; of += 2)
         for (int l = 0; l < lanes; ++l) {
           const int r = p * lanes + l + (of == 0 ? 0 : columns);
           if (r >= count) break;
           BatchDoubles pairs[2];
-          lane_transpose::interleave(square[of][l], square[of + 1][l], pairs[0], pairs[1]);
+          register_vectors::interleave(square[of][l], square[of + 1][l], pairs[0], pairs[1]);
           std::memcpy(static_cast<void*>(out[r] + first), pairs,
                       sizeof(std::complex<double>) * static_cast<std::size_t>(here));
         }
@@ -243,9 +238,9 @@ void BatchFourier::real_inverse(Work& work, const std::complex<double>* const* i
           BatchDoubles pairs[2] = {};
           std::memcpy(pairs, in[std::min(r, count - 1)] + first,
                       sizeof(std::complex<double>) * static_cast<std::size_t>(here));
-          lane_transpose::separate(pairs[0], pairs[1], square[of][l], square[of + 1][l]);
+          register_vectors::separate(pairs[0], pairs[1], square[of][l], square[of + 1][l]);
         }
-      for (auto& one : square) lane_transpose::transpose<lanes>(one);
+      for (auto& one : square) register_vectors::transpose(one);
       for (int c = 0; c < here; ++c) {
         const int k = first + c;
         const BatchDoubles &a = square[0][c], &b = square[1][c], &x = square[2][c], &y = square[3][c];
@@ -279,7 +274,7 @@ void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::pt
         std::memcpy(pairs, static_cast<const void*>(from + p * lanes),
                     sizeof(std::complex<double>) * static_cast<std::size_t>(here));
       Lane& to = part(work, p)[place(b)];
-      lane_transpose::separate(pairs[0], pairs[1], to.re, to.im);
+      register_vectors::separate(pairs[0], pairs[1], to.re, to.im);
     }
   }
   for (int p = 0; p < parts; ++p)
@@ -297,7 +292,7 @@ void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::p
       const int here = std::clamp(count - p * lanes, 0, lanes);
       BatchDoubles pairs[2];
       const Lane& from = part(work, p)[place(b)];
-      lane_transpose::interleave(from.re, from.im, pairs[0], pairs[1]);
+      register_vectors::interleave(from.re, from.im, pairs[0], pairs[1]);
       if (here == lanes)
         std::memcpy(static_cast<void*>(to + p * lanes), pairs, sizeof pairs);
       else

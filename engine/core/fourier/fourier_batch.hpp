@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fourier transforms of any length, of a batch of signals side by side in lanes (fourier_lanes.hpp): the same
-// bits on every processor. A length with a prime factor above 7 goes by Bluestein's (1970) convolution with a
-// chirp of a longer length, at about six times the cost of a smooth one. Real signals go in pairs, as real
-// and imaginary part of a complex one. Unnormalised.
+// Fourier transforms of any length, of a batch of signals at once in lanes (fourier_lanes.hpp): the same bits
+// on every processor. A length with a prime factor above 31 is computed as a convolution with a chirp
+// (Bluestein 1970) at about twice the length, at about six times the cost. Two real signals are transformed
+// as one complex signal. Unnormalised.
 #pragma once
 
 #include <complex>

@@ -199,14 +199,6 @@ void FourierFilter::columns(const Multiplier& multiplier) {
   });
 }
 
-int good_fourier_length(int least) {
-  if (least <= 1) return 1;
-  for (int n = least + least % 2;; n += 2) {
-    int rest = n;
-    for (const int factor : {2, 3, 5, 7})
-      while (rest % factor == 0) rest /= factor;
-    if (rest == 1) return n;
-  }
-}
+int good_fourier_length(int least) { return least <= 1 ? 1 : 2 * smooth_length((least + 1) / 2); }
 
 }  // namespace asperity

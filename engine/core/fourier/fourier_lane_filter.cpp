@@ -12,7 +12,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_blocks.hpp"
-#include "engine/core/fourier/lane_transpose.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -25,27 +24,25 @@ constexpr int lane_rows_ahead = 16;
 
 using Singles = Lanes<float>::Vector;
 using Doubles = Lanes<double>::Vector;
-using lane_transpose::transpose;
+using register_vectors::transpose;
 
-inline void read(const double* from, double /*scale*/, Doubles& to) { std::memcpy(&to, from, sizeof to); }
-// Half a vector of floats becomes one of doubles.
-constexpr int half_lanes = Lanes<double>::count;
-typedef float HalfSingles __attribute__((vector_size(half_lanes * sizeof(float))));
+// A vector of floats holds the values of two vectors of doubles.
+inline void read(const double* from, double /*scale*/, Doubles& to) { register_vectors::read(from, to); }
 inline void read(const double* from, double scale, Singles& to) {
-  for (int part = 0; part < 2; ++part) {
+  for (int half = 0; half < 2; ++half) {
     Doubles values;
-    std::memcpy(&values, from + half_lanes * part, sizeof values);
-    const HalfSingles narrow = __builtin_convertvector(values * scale, HalfSingles);
-    std::memcpy(reinterpret_cast<char*>(&to) + sizeof narrow * part, &narrow, sizeof narrow);
+    register_vectors::read(from + Lanes<double>::count * half, values);
+    values *= scale;
+    register_vectors::write(values, reinterpret_cast<float*>(&to) + Lanes<double>::count * half);
   }
 }
-inline void write(const Doubles& from, double /*scale*/, double* to) { std::memcpy(to, &from, sizeof from); }
+inline void write(const Doubles& from, double /*scale*/, double* to) { register_vectors::write(from, to); }
 inline void write(const Singles& from, double scale, double* to) {
-  for (int part = 0; part < 2; ++part) {
-    HalfSingles narrow;
-    std::memcpy(&narrow, reinterpret_cast<const char*>(&from) + sizeof narrow * part, sizeof narrow);
-    const Doubles values = __builtin_convertvector(narrow, Doubles) * scale;
-    std::memcpy(to + half_lanes * part, &values, sizeof values);
+  for (int half = 0; half < 2; ++half) {
+    Doubles values;
+    register_vectors::read(reinterpret_cast<const float*>(&from) + Lanes<double>::count * half, values);
+    values *= scale;
+    register_vectors::write(values, to + Lanes<double>::count * half);
   }
 }
 
@@ -166,7 +163,7 @@ void FourierLaneFilter<Real>::load_rows(Scratch& scratch, const Source& source, 
   for (int i = 0; i < whole; i += lanes) {
     Vector x[lanes];
     for (int r = 0; r < lanes; ++r) read(rows[r] + i, scale, x[r]);
-    transpose<lanes>(x);
+    transpose(x);
     for (int k = 0; k < lanes / 2; ++k) to[i / 2 + k] = {x[2 * k], x[2 * k + 1]};
   }
   for (int k = whole / 2; k < half_; ++k) to[k] = {Vector{}, Vector{}};
@@ -231,8 +228,8 @@ void FourierLaneFilter<Real>::rows_forward(const Source& source, double scale) {
           re[l] = im[l] = Vector{};
         }
       }
-      transpose<lanes>(re);
-      transpose<lanes>(im);
+      transpose(re);
+      transpose(im);
       Complex* const to = row(first) + block;
       for (int r = 0; r < rows; ++r) to[static_cast<std::ptrdiff_t>(r) * stride_] = {re[r], im[r]};
     }
@@ -255,8 +252,8 @@ void FourierLaneFilter<Real>::rows_inverse(const Sink& sink, std::span<double> o
         re[r] = value.re;
         im[r] = value.im;
       }
-      transpose<lanes>(re);
-      transpose<lanes>(im);
+      transpose(re);
+      transpose(im);
       for (int l = 0; l < lanes && block * lanes + l < half_; ++l)
         values[along_.place(block * lanes + l)] = {re[l], im[l]};
     }
@@ -272,7 +269,7 @@ void FourierLaneFilter<Real>::rows_inverse(const Sink& sink, std::span<double> o
         x[2 * k] = values[i / 2 + k].re;
         x[2 * k + 1] = values[i / 2 + k].im;
       }
-      transpose<lanes>(x);
+      transpose(x);
       for (int r = 0; r < rows; ++r) write(x[r], scale, to[r] + i);
     }
     for (int i = whole; i < nx_; ++i) {

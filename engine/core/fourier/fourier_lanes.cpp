@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/fourier/fourier_lanes.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -9,6 +10,15 @@
 #include "engine/core/error.hpp"
 
 namespace asperity {
+
+int smooth_length(int least) {
+  for (int n = std::max(least, 1);; ++n) {
+    int rest = n;
+    for (const int factor : {2, 3, 5, 7})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return n;
+  }
+}
 
 UnitTurn unit_turn(std::int64_t k, std::int64_t n) {
   const std::int64_t eighths = 8 * k / n;
@@ -92,15 +102,18 @@ inline __attribute__((always_inline)) void butterfly8(Complex* x) {
   for (int k = 0; k < 8; ++k) x[k] = y[k];
 }
 
+// cos and sin of 2π k (q + 1)/radix at [k − 1][q].
 template <int radix, class Real>
 struct OddFactors {
-  Real cosine[radix], sine[radix];
+  static constexpr int half = radix / 2;
+  Real cosine[half][half], sine[half][half];
   OddFactors() {
-    for (int k = 0; k < radix; ++k) {
-      const UnitTurn t = unit_turn(k, radix);
-      cosine[k] = static_cast<Real>(t.cosine);
-      sine[k] = static_cast<Real>(t.sine);
-    }
+    for (int k = 1; k <= half; ++k)
+      for (int q = 0; q < half; ++q) {
+        const UnitTurn t = unit_turn((q + 1) * k % radix, radix);
+        cosine[k - 1][q] = static_cast<Real>(t.cosine);
+        sine[k - 1][q] = static_cast<Real>(t.sine);
+      }
   }
 };
 
@@ -119,7 +132,7 @@ inline __attribute__((always_inline)) void butterfly_odd(const OddFactors<radix,
   for (int k = 1; k <= half; ++k) {
     Complex even = x[0], odd;
     for (int q = 0; q < half; ++q) {
-      const Real c = factors.cosine[(q + 1) * k % radix], s = factors.sine[(q + 1) * k % radix];
+      const Real c = factors.cosine[k - 1][q], s = factors.sine[k - 1][q];
       even.re += c * sum[q].re;
       even.im += c * sum[q].im;
       if (q == 0) {
@@ -137,12 +150,17 @@ inline __attribute__((always_inline)) void butterfly_odd(const OddFactors<radix,
   for (int k = 0; k < radix; ++k) x[k] = y[k];
 }
 
+// The largest first.
+constexpr int odd_radices[] = {31, 29, 23, 19, 17, 13, 11, 7, 5, 3};
+
 }  // namespace
 
 template <class Real, int lanes>
 bool LaneFourier<Real, lanes>::possible(int n) {
-  for (const int factor : {2, 3, 5, 7})
-    while (n > 1 && n % factor == 0) n /= factor;
+  if (n < 1) return false;
+  while (n % 2 == 0) n /= 2;
+  for (const int factor : odd_radices)
+    while (n % factor == 0) n /= factor;
   return n == 1;
 }
 
@@ -153,7 +171,7 @@ LaneFourier<Real, lanes>::LaneFourier(int n) : n_(n), places_(static_cast<std::s
   int rest = n, twos = 0;
   for (; rest % 2 == 0; rest /= 2) ++twos;
   std::vector<int> radices;
-  for (const int factor : {7, 5, 3})
+  for (const int factor : odd_radices)
     for (; rest % factor == 0; rest /= factor) radices.push_back(factor);
   int eights = 0;  // last: the last stage has no factors of its own
   for (; twos > 4 || twos == 3; twos -= 3) ++eights;
@@ -246,8 +264,29 @@ void LaneFourier<Real, lanes>::run(std::size_t number, Complex* values) const {
     case 7:
       butterflies<forwards, 7>(stage, values);
       break;
-    default:
+    case 8:
       butterflies<forwards, 8>(stage, values);
+      break;
+    case 11:
+      butterflies<forwards, 11>(stage, values);
+      break;
+    case 13:
+      butterflies<forwards, 13>(stage, values);
+      break;
+    case 17:
+      butterflies<forwards, 17>(stage, values);
+      break;
+    case 19:
+      butterflies<forwards, 19>(stage, values);
+      break;
+    case 23:
+      butterflies<forwards, 23>(stage, values);
+      break;
+    case 29:
+      butterflies<forwards, 29>(stage, values);
+      break;
+    default:
+      butterflies<forwards, 31>(stage, values);
       break;
   }
   if constexpr (forwards) parts();

@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complex Fourier transforms of several signals side by side, one in each lane of a vector, in place:
-// decimation in frequency leaves the bins in an order of its own, place(), and decimation in time takes them
-// back from it, so that a filter never sorts. Lengths whose prime factors are 2, 3, 5 and 7. A lane
-// meets the same operations whatever the width of the machine's vectors: the same bits. Unnormalised.
-// All transforms of one process are built of it (fourier_batch.hpp). FFTW, which does those of one contact
-// over the ranks of mpirun, chooses its operations by the processor, and takes its factors from the C
-// library, which does so too: the last bits differ.
+// Complex Fourier transforms of several signals at once, one in each lane of a vector, in place. The forward
+// transform (decimation in frequency) leaves the bins in the order of place(); the inverse (decimation in
+// time) takes them in this order, so that a filter never sorts. Lengths without a prime factor above 31.
+// Unnormalised.
+//
+// A lane passes through the same operations at any vector width, so the bits are the same on every processor.
+// FFTW chooses its operations by the processor: its last bits differ. FFTW transforms one contact over the
+// ranks of mpirun, and is the reference that tests and benches compare with.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/arithmetic/register_vectors.hpp"
+
 namespace asperity {
 
-// Of a register of the processor that is compiled for: a wider vector is kept in memory.
-#if defined(__AVX512F__)
-inline constexpr int register_bytes = 64;
-#elif defined(__AVX__)
-inline constexpr int register_bytes = 32;
-#else
-inline constexpr int register_bytes = 16;
-#endif
-
-// `count` numbers that are worked on together, in a register. One number is worked on by itself.
-template <class Real, int lanes = register_bytes / static_cast<int>(sizeof(Real))>
+// Real and imaginary parts of one value of `count` signals, a register each. With one lane they are plain
+// numbers.
+template <class Real, int lanes = register_vectors::register_lanes<Real>>
 struct Lanes {
   static constexpr int count = lanes;
-  static constexpr int bytes = count * static_cast<int>(sizeof(Real));
-  typedef Real Vector __attribute__((vector_size(bytes), may_alias));
+  using Vector = typename register_vectors::Of<Real, lanes>::Vector;
   struct Complex {
     Vector re, im;
   };
@@ -41,6 +35,9 @@ struct Lanes<Real, 1> {
   };
 };
 
+// The least length >= `least` whose prime factors are 2, 3, 5 and 7: these are the cheapest to transform.
+int smooth_length(int least);
+
 // cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
 struct UnitTurn {
   double cosine, sine;
@@ -52,7 +49,7 @@ class LaneFourier {
  public:
   using Complex = typename Lanes<Real, lanes>::Complex;
 
-  // n >= 1 with no prime factor but 2, 3, 5 and 7.
+  // Throws Error{internal} unless possible(n): n >= 1 without a prime factor above 31.
   explicit LaneFourier(int n);
   static bool possible(int n);
 

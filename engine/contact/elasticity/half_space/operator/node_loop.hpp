@@ -16,11 +16,7 @@
 #include <limits>
 #include <span>
 
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
-
-#include "engine/core/fourier/fourier_lanes.hpp"
+#include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -71,23 +67,20 @@ void visit(std::size_t nodes, Take take, const Body& body) {
   });
 }
 
-// Of the lanes of a block, as many as a register holds: left to itself, the compiler takes the lanes of a sum
-// one by one through memory, and so it does where a vector is wider than a register.
-typedef double LaneVector __attribute__((vector_size(register_bytes), may_alias));
-inline constexpr std::size_t lanes_a_part = register_bytes / sizeof(double);
+// A register holds a part of the eight lanes.
+using LaneVector = register_vectors::Of<double>::Vector;
+inline constexpr std::size_t lanes_a_part = register_vectors::register_lanes<double>;
 inline constexpr std::size_t parts_a_block = lanes_a_block / lanes_a_part;
 
-// The lanes of a block.
+// The sums and minima of a block, eight lanes each.
 template <std::size_t sums, std::size_t minima>
 struct Lanes {
   static constexpr std::size_t size = sums + minima;
   using Parts = std::array<double, size>;
   LaneVector lanes[size][parts_a_block];
 
-  double& lane(std::size_t i, std::size_t l) {
-    return reinterpret_cast<double*>(&lanes[i][l / lanes_a_part])[l % lanes_a_part];
-  }
-  double lane(std::size_t i, std::size_t l) const { return lanes[i][l / lanes_a_part][l % lanes_a_part]; }
+  double& lane(std::size_t i, std::size_t l) { return reinterpret_cast<double*>(lanes[i])[l]; }
+  double lane(std::size_t i, std::size_t l) const { return reinterpret_cast<const double*>(lanes[i])[l]; }
   static constexpr double none(std::size_t i) {
     return i < sums ? 0.0 : std::numeric_limits<double>::infinity();
   }
@@ -213,14 +206,9 @@ std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) 
 // comparison chooses between values of it: `a < b ? c : d`.
 namespace lane_terms {
 
-using node_loop::LaneVector;
-static_assert(lanes_a_block == 8);
 using node_loop::lanes_a_part;
-typedef double Doubles __attribute__((vector_size(register_bytes), aligned(8), may_alias));
-typedef float Floats __attribute__((vector_size(register_bytes / 2), aligned(4), may_alias));
-typedef std::uint8_t Bytes __attribute__((vector_size(register_bytes / 8), aligned(1), may_alias));
-typedef std::uint16_t Words __attribute__((vector_size(register_bytes / 4)));
-typedef std::int32_t Integers __attribute__((vector_size(register_bytes / 2)));
+using node_loop::LaneVector;
+using node_loop::parts_a_block;
 
 inline void read(const double* from, double& to) { to = *from; }
 inline void read(const float* from, double& to) { to = static_cast<double>(*from); }
@@ -231,66 +219,25 @@ inline void put(const double& from, std::uint8_t* to) {
   *to = static_cast<std::uint8_t>(static_cast<int>(from));
 }
 
-inline void read(const double* from, LaneVector& to) { to = *reinterpret_cast<const Doubles*>(from); }
-#if defined(__AVX512F__) && defined(__AVX512VL__)
-// What takes a compiler left to itself several instructions each.
-inline void read(const float* from, LaneVector& to) {
-  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
+template <class Number>
+inline void read(const Number* from, LaneVector& to) {
+  register_vectors::read(from, to);
 }
-inline void read(const std::uint8_t* from, LaneVector& to) {
-  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
-  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtepi32_pd(0xff, _mm256_cvtepu8_epi32(bytes)));
+template <class Number>
+inline void put(const LaneVector& from, Number* to) {
+  register_vectors::write(from, to);
 }
-#elif defined(__AVX2__)
-inline void read(const float* from, LaneVector& to) {
-  to = reinterpret_cast<LaneVector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
-}
-inline void read(const std::uint8_t* from, LaneVector& to) {
-  std::int32_t four;
-  std::memcpy(&four, from, sizeof four);
-  to = reinterpret_cast<LaneVector>(_mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four))));
-}
-#else
-inline void read(const float* from, LaneVector& to) {
-  to = __builtin_convertvector(*reinterpret_cast<const Floats*>(from), LaneVector);
-}
-// In steps that are single instructions.
-inline void read(const std::uint8_t* from, LaneVector& to) {
-  const Words words = __builtin_convertvector(*reinterpret_cast<const Bytes*>(from), Words);
-  const Integers integers = __builtin_convertvector(words, Integers);
-  to = __builtin_convertvector(integers, LaneVector);
-}
-#endif
-inline void put(const LaneVector& from, double* to) { *reinterpret_cast<Doubles*>(to) = from; }
-inline void put(const LaneVector& from, float* to) {
-  *reinterpret_cast<Floats*>(to) = __builtin_convertvector(from, Floats);
-}
-#if defined(__AVX2__) && !defined(__AVX512F__)
-inline void put(const LaneVector& from, std::uint8_t* to) {
-  // The lowest byte of each of four integers.
-  const __m128i integers = _mm256_cvttpd_epi32(reinterpret_cast<__m256d>(from));
-  const __m128i bytes = _mm_shuffle_epi8(integers, _mm_set1_epi32(0x0c080400));
-  const std::int32_t four = _mm_cvtsi128_si32(bytes);
-  std::memcpy(to, &four, sizeof four);
-}
-#else
-inline void put(const LaneVector& from, std::uint8_t* to) {
-  const Integers integers = __builtin_convertvector(from, Integers);
-  const Words words = __builtin_convertvector(integers, Words);
-  *reinterpret_cast<Bytes*>(to) = __builtin_convertvector(words, Bytes);
-}
-#endif
 
 template <std::size_t sums, std::size_t minima, class Term>
 std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
   node_loop::Lanes<sums, minima> block;
-  LaneVector lanes[sums + minima][node_loop::parts_a_block];
-  for (std::size_t i = 0; i < sums + minima; ++i)
-    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) lanes[i][part] = block.lanes[i][part];
+  // A copy, because the compiler keeps members in memory.
+  LaneVector lanes[sums + minima][parts_a_block];
+  std::memcpy(lanes, block.lanes, sizeof lanes);
   std::size_t k = begin;
   for (; k + lanes_a_block <= end; k += lanes_a_block)
-    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) {
+    for (std::size_t part = 0; part < parts_a_block; ++part) {
       LaneVector v[sums + minima];
       own(k + part * lanes_a_part, v);
       for (std::size_t i = 0; i < sums + minima; ++i) {
@@ -301,8 +248,7 @@ std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t en
           into = v[i] < into ? v[i] : into;
       }
     }
-  for (std::size_t i = 0; i < sums + minima; ++i)
-    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) block.lanes[i][part] = lanes[i][part];
+  std::memcpy(block.lanes, lanes, sizeof lanes);
   for (std::size_t lane = 0; k < end; ++k, ++lane) block.take(k, lane, own);
   return block.total();
 }
