@@ -186,8 +186,7 @@ const Block<AccuracyKeys>& accuracy_block() {
               "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
               "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
               "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. "
-              "The certificate is double always. A periodic tile of odd `nx`, or of a side with a prime "
-              "factor over 7, stays in double; boxes refuse it")
+              "The certificate is double always. Boxes refuse it")
            .shown_by([](const K& keys) {
              return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
            })

@@ -12,6 +12,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -280,18 +281,38 @@ TEST(HalfSpaceCompliance, HoldsAGridAndAQuarterOrThree) {
   set_thread_count(0);
 }
 
-TEST(HalfSpaceCompliance, SaysBeforehandWhereItCanBeSingle) {
-  int possible = 0;
-  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
-    for (const int nx : {1, 2, 15, 16, 22, 28, 101})
-      for (const int ny : {1, 2, 15, 16, 22, 28, 101}) {
-        const bool said = HalfSpaceCompliance::single_possible(nx, ny, boundary);
-        EXPECT_EQ(said, HalfSpaceCompliance(nx, ny, 1, boundary, 1, true).single()) << nx << " " << ny;
-        EXPECT_FALSE(HalfSpaceCompliance(nx, ny, 1, boundary).single());
-        possible += said ? 1 : 0;
+// Sides that are odd or have a large prime factor are padded, in one or both directions.
+TEST(HalfSpaceCompliance, OnPaddedTilesIsTheMultiplierOfTheTile) {
+  for (const int nx : {1, 2, 15, 22, 37, 74, 101})
+    for (const int ny : {1, 2, 15, 22, 37, 101}) {
+      const double aspect = 1.3;
+      HalfSpaceCompliance exact(nx, ny, aspect, Boundary::periodic);
+      HalfSpaceCompliance rounded(nx, ny, aspect, Boundary::periodic, 1, true);
+      EXPECT_TRUE(rounded.single());
+      const Field p = noise(nx, ny, 1);
+      Field expected(nx, ny);
+      FourierFilter(nx, ny, nx, ny)
+          .apply(p.values(), expected.values(), [&](int a, std::span<double> factors) {
+            for (std::size_t b = 0; b < factors.size(); ++b) {
+              const double q =
+                  2 * std::numbers::pi *
+                  std::hypot(static_cast<double>(a) / nx, static_cast<double>(b) / (ny * aspect));
+              factors[b] = q > 0 ? 2 / q : 0;
+            }
+          });
+      double most = 1e-3;
+      for (const double value : expected.values()) most = std::max(most, std::abs(value));
+      const Field u = applied(exact, p), v = applied(rounded, p);
+      for (std::size_t k = 0; k < u.size(); ++k) {
+        ASSERT_NEAR(u[k], expected[k], 2e-14 * most) << nx << " x " << ny;
+        ASSERT_NEAR(v[k], expected[k], 4e-6 * most) << nx << " x " << ny;
       }
-  EXPECT_GT(possible, 0);
-  EXPECT_LT(possible, 98);
+      Field back(nx, ny);
+      exact.apply_inverse(u.values(), back.values());
+      const double average = mean(p.values());
+      for (std::size_t k = 0; k < u.size(); ++k)
+        ASSERT_NEAR(back[k], p[k] - average, 1e-11) << nx << " x " << ny;
+    }
 }
 
 TEST(HalfSpaceCompliance, MovesWithItsWorkSpace) {

@@ -133,17 +133,18 @@ TEST_P(SinglePrecision, HoldsHalfInItsTransforms) {
 
 INSTANTIATE_TEST_SUITE_P(Boundaries, SinglePrecision, ::testing::Values(Boundary::periodic, Boundary::free));
 
-// Odd rows and sides with a prime factor over 7 are transformed in double precision, and say so.
-TEST(SinglePrecisionOf, OtherSidesIsDouble) {
-  for (const auto& [nx, ny] : {std::pair(45, 40), std::pair(44, 40), std::pair(40, 39)}) {
+TEST(SinglePrecisionOf, OddAndPrimeSidesMeetsTheTolerance) {
+  for (const auto& [nx, ny] : {std::pair(45, 40), std::pair(44, 40), std::pair(40, 37), std::pair(41, 43)}) {
     const Grid grid = make_grid(nx, ny, nx, ny);
     Field heights(nx, ny);
     const Stream stream(1, "heights");
     for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = stream.normal(k);
     const HalfSpaceProblem problem = half_space_test::problem_of(grid, heights, Boundary::periodic);
     const HalfSpaceAnswer single = solved(problem, 0.05, true), exact = solved(problem, 0.05, false);
-    EXPECT_EQ(single.solver.find("single"), std::string::npos) << single.solver;
-    EXPECT_EQ(apart(single.pressure.values(), exact.pressure.values()), 0);
+    EXPECT_NE(single.solver.find("single"), std::string::npos) << single.solver;
+    EXPECT_LE(single.certificate.worst(), problem.tolerance);
+    EXPECT_LE(apart(single.pressure.values(), exact.pressure.values()),
+              10 * std::sqrt(problem.tolerance) * most(exact.pressure.values()));
   }
 }
 

@@ -22,6 +22,12 @@ local rough = S.weierstrass_mandelbrot{ cells=150, D=2.5, seed=7, material=al }
 local counter = S.weierstrass_mandelbrot{ cells=150, D=2.3, seed=8, material=quartz }
 local ground = S.self_affine{ cells=64, size="1 mm", hurst=0.8, ra="1 um", short_wave="50 um", seed=1, material=soft }
 local odd = S.self_affine{ cells={ 101, 97 }, size="1 mm", hurst=0.6, rms_slope=0.1, short_wave="25 um", material=soft }
+-- Sides that g++ 12 compiled to other products in a build for processors with fused operations.
+local primes = {}
+for _, cells in ipairs{ { 47, 71 }, { 79, 109 }, { 127, 163 } } do
+  primes[#primes + 1] = S.self_affine{ cells=cells, size="1 mm", hurst=0.6, rms_slope=0.1, short_wave="60 um", material=soft }
+end
+local thirteens = S.self_affine{ cells={ 52, 44 }, size="1 mm", hurst=0.6, rms_slope=0.1, short_wave="60 um", material=soft }
 local dome = S.sphere{ cells=63, size="1 mm", radius="2 mm", material=soft }
 local wave = S.sine{ cells=60, size="1 mm", amplitude="1 um", wavelength="0.25 mm", directions=2, material=soft }
 local beads = S.bead_blasted{ cells=128, size="0.6 mm", ra="3 um", seed=3, material=soft }
@@ -30,6 +36,7 @@ show("golden", S.weierstrass_mandelbrot{ cells={ 131, 96 }, D=2.7, phases="golde
 show("narrow", S.weierstrass_mandelbrot{ cells={ 3, 41 }, D=2.7 }.digest)
 show("self_affine", ground.digest)
 show("self_affine, primes", odd.digest)
+for _, tile in ipairs(primes) do show(("self_affine, %d x %d"):format(table.unpack(tile.cells)), tile.digest) end
 show("sphere", dome.digest)
 show("sine", wave.digest)
 show("bead_blasted", beads.digest)
@@ -60,6 +67,10 @@ show("half-space, periodic", st.digest)
 numbers("its numbers", st, "area_fraction", "stiffness", "energy", "mean_gap")
 show("half-space, primes", lab.contact{ lower=odd, upper=lab.rigid, boundary="periodic",
   effects={ elasticity="half_space" } }:press{ pressure="2 MPa" }.digest)
+show("half-space, 52 x 44", lab.contact{ lower=thirteens, upper=lab.rigid, boundary="periodic",
+  effects={ elasticity="half_space" } }:press{ pressure="2 MPa" }.digest)
+show("half-space, 79 x 109", lab.contact{ lower=primes[2], upper=lab.rigid, boundary="periodic",
+  accuracy={ precision="single", tolerance=1e-5 }, effects={ elasticity="half_space" } }:press{ pressure="2 MPa" }.digest)
 show("half-space, free", lab.contact{ lower=dome, upper=lab.rigid, boundary="free",
   effects={ elasticity="half_space" } }:press{ load="1 N" }.digest)
 show("half-space, capped", lab.contact{ lower=ground, upper=lab.rigid, boundary="periodic",

@@ -50,15 +50,14 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const auto nodes = static_cast<double>(grid.nodes());
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
-  // Transforms of lengths with a large prime factor need a field and a spectrum of their own, and longer
-  // rows.
-  const bool smooth = FourierLaneFilter<double>::possible(grid.nx, grid.ny), roomy = !periodic || !smooth;
-  plan.buffers.push_back({"work of the solver", grids(roomy ? 11 : single ? 7.5 : 8), false});
+  // Free tiles are padded, and periodic ones with odd sides or a large prime factor.
+  const bool padded = !periodic || !FourierLaneFilter<double>::possible(grid.nx, grid.ny);
+  plan.buffers.push_back({"work of the solver", grids(padded ? 11 : single ? 7.5 : 8), false});
   // Measured: what does not go with the nodes counts on small and on narrow tiles.
   constexpr std::int64_t always = 300'000;
-  const std::int64_t per_row = smooth ? 512 : 1536;
-  plan.buffers.push_back({"rows and threads at work",
-                          always + per_row * (grid.nx + grid.ny) * (periodic ? 1 : 2), false, false});
+  constexpr std::int64_t per_row = 512;
+  plan.buffers.push_back(
+      {"rows and threads at work", always + per_row * (grid.nx + grid.ny) * (padded ? 2 : 1), false, false});
   // The last two answers and what the next begins from, while the approach or the load that flattens by so
   // much is sought.
   plan.bytes_to_flatten = grids(7.5);

@@ -134,8 +134,18 @@ double LoveKernel::far(double x, double y) const {
 
 namespace {
 
-int period(int n, Boundary boundary) {
-  return boundary == Boundary::periodic ? n : good_fourier_length(2 * n - 1);
+// A convolution of n values that does not wrap into itself.
+int padded(int n) { return std::max(2, good_fourier_length(2 * n - 1)); }
+
+// The period of the operator: a side of the periodic tile, or of the padded free one.
+int period(int n, Boundary boundary) { return boundary == Boundary::periodic ? n : padded(n); }
+
+// The period of the transforms: that of the operator where FourierLaneFilter takes it.
+int transform_period_x(int n, Boundary boundary) {
+  return boundary == Boundary::periodic && n % 2 == 0 && LaneFourier<double>::possible(n) ? n : padded(n);
+}
+int transform_period_y(int n, Boundary boundary) {
+  return boundary == Boundary::periodic && LaneFourier<double>::possible(n) ? n : padded(n);
 }
 
 // K of the waves (a, b), b = 0 … period/2: 2/|q| of a half-space, 0 for its mean.
@@ -174,10 +184,11 @@ void transform_even(const BatchFourier& fourier, std::span<double* const> halves
     std::transform(to[r], to[r] + bins, halves[r], [](std::complex<double> bin) { return bin.real(); });
 }
 
-// Love's coefficients at all distances up to half the padded period, evenly continued, transformed. The
-// distances that no pair of nodes has are multiplied with zeros only.
-void free_multiplier(int period_x, int period_y, double aspect, std::span<double> multiplier) {
-  const LoveKernel love(aspect);
+// The transform of an even kernel: coefficient(i, j) is the displacement at a distance of i and j cells,
+// asked for up to half a period. multiplier[a (period_y/2 + 1) + b] belongs to the wave (a, b).
+template <class Coefficient>
+void transform_kernel(int period_x, int period_y, const Coefficient& coefficient,
+                      std::span<double> multiplier) {
   const BatchFourier along(period_x), across(period_y);
   const int bins_x = period_x / 2 + 1, bins_y = period_y / 2 + 1;
   const auto batches = [](int count) { return (count + sequences_at_once - 1) / sequences_at_once; };
@@ -189,7 +200,7 @@ void free_multiplier(int period_x, int period_y, double aspect, std::span<double
     std::vector<double*> halves;
     for (int j = 0; j < rows; ++j) {
       double* const row = values.data() + static_cast<std::size_t>(j) * row_length;
-      for (int i = 0; i < bins_x; ++i) row[i] = love(i, first + j);
+      for (int i = 0; i < bins_x; ++i) row[i] = coefficient(i, first + j);
       halves.push_back(row);
     }
     transform_even(along, halves);
@@ -207,22 +218,48 @@ void free_multiplier(int period_x, int period_y, double aspect, std::span<double
   });
 }
 
+// The periodic tile on a longer period: the kernel of the tile at the distances between its nodes, which are
+// below its sides. Longer distances are multiplied by zeros only.
+void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny, double aspect, int period_x,
+                            int period_y, std::span<double> multiplier) {
+  const auto half_y = static_cast<std::size_t>(ny / 2 + 1);
+  Array<double> waves(static_cast<std::size_t>(nx / 2 + 1) * half_y);
+  const std::span all(waves);
+  parallel_for(nx / 2 + 1, [&](std::int64_t a) {
+    periodic_multiplier(of_wave, nx, ny, aspect, static_cast<int>(a),
+                        all.subspan(static_cast<std::size_t>(a) * half_y, half_y));
+  });
+  // Even in both waves: the inverse transform is the forward one, divided by the number of nodes.
+  Array<double> kernel(waves.size());
+  transform_kernel(
+      nx, ny,
+      [&](int a, int b) { return waves[static_cast<std::size_t>(a) * half_y + static_cast<std::size_t>(b)]; },
+      kernel);
+  const double nodes = static_cast<double>(nx) * ny;
+  const auto nearest = [](int distance, int side) {
+    return static_cast<std::size_t>(std::min(distance % side, side - distance % side));
+  };
+  transform_kernel(
+      period_x, period_y,
+      [&](int i, int j) { return kernel[nearest(i, nx) * half_y + nearest(j, ny)] / nodes; }, multiplier);
+}
+
 }  // namespace
 
-// By lanes of rows where the period allows, else by transforms of any length. Of two precisions one rests:
-// what double alone would hold, and the multiplier in single.
+// Two filters, one for each precision; one of the two rests: it keeps its multiplier and gives back its
+// spectrum.
 struct HalfSpaceCompliance::Parts {
-  int nx, ny, period_x, period_y;
+  int nx, ny;
+  int period_x, period_y;        // of the operator
+  int transform_x, transform_y;  // of the transforms
   double aspect;
   Boundary boundary;
   double weight;
   ComplianceMultiplier of_wave;  // of a periodic tile
   std::optional<FourierLaneFilter<double>> lanes;
   std::optional<FourierLaneFilter<float>> singles;
-  double scale = 1;  // of pressures, for `singles`
-  std::optional<FourierFilter> plain;
-  Array<double> multiplier;  // of `plain`; the y wave runs fastest
-  Array<double> field;       // where `plain` works if its result is kept nowhere
+  double scale = 1;     // of pressures, for `singles`
+  Array<double> field;  // for results that the caller does not store
 
   Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single,
         const ComplianceMultiplier& of_wave_)
@@ -230,37 +267,35 @@ struct HalfSpaceCompliance::Parts {
         ny(ny_),
         period_x(period(nx, boundary_)),
         period_y(period(ny, boundary_)),
+        transform_x(transform_period_x(nx, boundary_)),
+        transform_y(transform_period_y(ny, boundary_)),
         aspect(aspect_),
         boundary(boundary_),
         weight(weight_),
         of_wave(of_wave_) {
-    const bool by_lanes = FourierLaneFilter<double>::possible(period_x, period_y);
-    if (!by_lanes || boundary == Boundary::free) {
-      multiplier.resize(bins_x() * bins_y());
+    Array<double> multiplier;
+    const auto waves_y = static_cast<std::size_t>(transform_y / 2 + 1);
+    if (!of_tile()) {
+      multiplier.resize(static_cast<std::size_t>(transform_x / 2 + 1) * waves_y);
       if (boundary == Boundary::periodic)
-        parallel_for(period_x / 2 + 1, [&](std::int64_t a) {
-          periodic_multiplier(of_wave, nx, ny, aspect, static_cast<int>(a), column(static_cast<int>(a)));
-        });
+        padded_tile_multiplier(of_wave, nx, ny, aspect, transform_x, transform_y, multiplier);
       else
-        free_multiplier(period_x, period_y, aspect, multiplier);
+        transform_kernel(transform_x, transform_y, LoveKernel(aspect), multiplier);
     }
-    if (!by_lanes) {
-      plain.emplace(nx, ny, period_x, period_y);
-      return;
-    }
-    const auto factors = [this](int a, std::span<double> to) {
-      if (boundary == Boundary::periodic)
+    const auto factors = [&](int a, std::span<double> to) {
+      if (of_tile())
         periodic_multiplier(of_wave, nx, ny, aspect, a, to);
       else
-        std::copy_n(column(a).data(), to.size(), to.data());
+        std::copy_n(multiplier.data() + static_cast<std::size_t>(a) * waves_y, waves_y, to.data());
     };
     if (single)
-      singles.emplace(nx, ny, period_x, period_y, factors);
+      singles.emplace(nx, ny, transform_x, transform_y, factors);
     else
-      lanes.emplace(nx, ny, period_x, period_y, factors);
-    multiplier = Array<double>();
+      lanes.emplace(nx, ny, transform_x, transform_y, factors);
   }
 
+  // Whether the transforms have the period of a periodic tile, so that each wave has a factor in closed form.
+  bool of_tile() const { return boundary == Boundary::periodic && transform_x == nx && transform_y == ny; }
   FourierLaneFilter<double>& in_double() {
     if (singles) singles->rest();
     return *lanes;
@@ -268,46 +303,25 @@ struct HalfSpaceCompliance::Parts {
   FourierLaneFilter<float>& in_single() {
     lanes->rest();
     if (!singles)
-      singles.emplace(nx, ny, period_x, period_y, [this](int a, std::span<double> to) {
-        if (boundary == Boundary::periodic)
+      singles.emplace(nx, ny, transform_x, transform_y, [this](int a, std::span<double> to) {
+        if (of_tile())
           periodic_multiplier(of_wave, nx, ny, aspect, a, to);
         else
-          factors_of(a, to);
+          for (std::size_t b = 0; b < to.size(); ++b) to[b] = lanes->factor(a, static_cast<int>(b));
       });
     return *singles;
   }
 
-  std::size_t bins_x() const { return static_cast<std::size_t>(period_x / 2 + 1); }
   std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
-  std::span<double> column(int a) {
-    return std::span(multiplier).subspan(static_cast<std::size_t>(a) * bins_y(), bins_y());
-  }
-  // filter(u) of what the source gives.
-  template <class Filter>
-  void by_field(const Source& source, const Sink& sink, std::span<double> u, const Filter& filter) {
-    const auto width = static_cast<std::size_t>(nx);
-    if (u.empty()) {
-      field.resize(width * static_cast<std::size_t>(ny));
-      u = field;
-    }
-    const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * width; };
-    parallel_for(ny, [&](std::int64_t j) {
-      const double* const from = source(static_cast<int>(j), row(j));
-      if (from != row(j)) std::copy_n(from, width, row(j));
-    });
-    filter(u);
-    if (sink) parallel_for(ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
-  }
-  // The factors of the waves (a, b), b = 0 … period_y/2.
+  // The factors of the waves (a, b), b = 0 … period_y/2, of the operator's period.
   void factors_of(int a, std::span<double> factors) {
-    if (lanes)
+    const bool periodic = boundary == Boundary::periodic;
+    if (lanes && (!periodic || of_tile()))
       for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = lanes->factor(a, static_cast<int>(b));
-    else if (singles && boundary == Boundary::periodic)
+    else if (periodic)
       periodic_multiplier(of_wave, nx, ny, aspect, a, factors);
-    else if (singles)
-      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = singles->factor(a, static_cast<int>(b));
     else
-      std::copy_n(column(a).data(), factors.size(), factors.data());
+      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = singles->factor(a, static_cast<int>(b));
   }
 };
 
@@ -332,10 +346,7 @@ void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::spa
   Parts& parts = *parts_;
   cost::count_transforms(2 * parts.weight);
   if (parts.lanes) return parts.in_double().apply(source, sink, u);
-  if (parts.singles) return parts.singles->apply(source, sink, u);
-  parts.by_field(source, sink, u, [&](std::span<double> field) {
-    parts.plain->apply(field, field, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
-  });
+  parts.singles->apply(source, sink, u);
 }
 
 void HalfSpaceCompliance::apply_rounded(const Source& source, const Sink& sink, std::span<double> u) {
@@ -345,10 +356,6 @@ void HalfSpaceCompliance::apply_rounded(const Source& source, const Sink& sink, 
 }
 
 bool HalfSpaceCompliance::single() const { return parts_->singles && !parts_->lanes; }
-
-bool HalfSpaceCompliance::single_possible(int nx, int ny, Boundary boundary) {
-  return FourierLaneFilter<double>::possible(period(nx, boundary), period(ny, boundary));
-}
 
 void HalfSpaceCompliance::count_pressures_in(double unit) {
   if (unit > 0 && std::isfinite(unit))
@@ -364,12 +371,21 @@ void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink
     return exact.apply(source, sink, u);
   }
   cost::count_transforms(2 * parts.weight);
-  parts.by_field(source, sink, u, [&](std::span<double> field) {
-    FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
-    filter.apply(field, field, [&](int a, std::span<double> factors) {
-      periodic_multiplier(parts.of_wave, parts.nx, parts.ny, parts.aspect, a, factors);
-    });
+  const auto width = static_cast<std::size_t>(parts.nx);
+  if (u.empty()) {
+    parts.field.resize(width * static_cast<std::size_t>(parts.ny));
+    u = parts.field;
+  }
+  const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * width; };
+  parallel_for(parts.ny, [&](std::int64_t j) {
+    const double* const from = source(static_cast<int>(j), row(j));
+    if (from != row(j)) std::copy_n(from, width, row(j));
   });
+  FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+  filter.apply(u, u, [&](int a, std::span<double> factors) {
+    periodic_multiplier(parts.of_wave, parts.nx, parts.ny, parts.aspect, a, factors);
+  });
+  if (sink) parallel_for(parts.ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
 }
 
 void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p, double softer) {

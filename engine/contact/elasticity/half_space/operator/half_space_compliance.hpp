@@ -2,9 +2,12 @@
 // The elastic half-space as an operator: u = K p, the surface displacement under a pressure, in cell
 // units (hx = 1, hy = aspect, E* = 1). Periodic: the Fourier multiplier 2/|q|, and 0 for the mean, so
 // that only displacement from the mean is given; or that of a layer on a rigid base, ComplianceMultiplier.
-// Free: the sum of Love's coefficients over the loaded cells, by a transform padded with zeros; no wrap.
-// Symmetric, positive (periodic: semi-definite). Rectangular, odd and prime grids of any aspect; no friction,
-// one material. Also both kernels by themselves, the multiplier of a wave and Love's coefficient of a cell.
+// Free: the sum of Love's coefficients over the loaded cells, by a transform padded with zeros; no wrap. A
+// periodic side that is odd along x or has a prime factor above 31 is padded in the same way, with the kernel
+// of the tile: some two times the cost of its neighbours, where a transform of the side itself costs six
+// times as much. Symmetric, positive (periodic: semi-definite). Rectangular, odd and prime grids of any
+// aspect; no friction, one material. Also both kernels by themselves, the multiplier of a wave and Love's
+// coefficient of a cell.
 #pragma once
 
 #include <cstdint>
@@ -50,9 +53,9 @@ class HalfSpaceCompliance {
  public:
   // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms: the cost of one transform of
   // this grid in transforms of the finest. Making one costs less than an application and counts none.
-  // `single`: transforms and multiplier in single precision, where single() says so; fields stay double.
-  // `multiplier`: of a periodic tile; half-spaces unless one is given. An object holds a grid and a quarter
-  // on a periodic tile, three grids on a free one; in single precision about half of that.
+  // `single`: transforms and multiplier in single precision; fields stay double. `multiplier`: of a periodic
+  // tile; half-spaces unless one is given. An object holds a grid and a quarter on a periodic tile, three
+  // grids on a free or padded one; in single precision about half of that.
   HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                       bool single = false, const ComplianceMultiplier& multiplier = {});
   ~HalfSpaceCompliance();
@@ -64,11 +67,9 @@ class HalfSpaceCompliance {
   // is its own.
   void apply(std::span<const double> p, std::span<double> u);
 
-  // Whether transforms are in single precision: asked for, and the period even and without a prime factor
-  // over 7. u is then K p to some 1e-6 of the greatest u. `unit` is about what pressures are, to within
-  // twenty powers of ten; 1 at first.
+  // Whether transforms are in single precision. u is then K p to some 1e-6 of the greatest u. `unit` is about
+  // the size of the pressures, to within twenty powers of ten; 1 at first.
   bool single() const;
-  static bool single_possible(int nx, int ny, Boundary boundary);
   void count_pressures_in(double unit);
 
   // The same row by row, as FourierLaneFilter::apply: `source` gives rows of p, `sink` takes rows of u,
@@ -78,7 +79,7 @@ class HalfSpaceCompliance {
   void apply(const Source& source, const Sink& sink, std::span<double> u);
   // In double precision all the same, of any p.
   void apply_in_double(const Source& source, const Sink& sink, std::span<double> u);
-  // In single precision all the same, where single_possible(); rows of p must be near 1.
+  // In single precision all the same; rows of p must be near 1.
   void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
   // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Where the

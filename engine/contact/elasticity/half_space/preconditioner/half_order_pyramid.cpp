@@ -8,7 +8,6 @@
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/fourier/lane_transpose.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -66,47 +65,49 @@ void weigh(const float* __restrict below, const float* __restrict here, const fl
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (below[i] + above[i]) + 0.5f * here[i];
 }
 
-// to = (a + b)/4: 2 W up of one coarse row, a = b, or of the two beside a row.
+// to = (a + b)/4: 2 W up of one coarse row, a = b, or of the two next to a row.
 void add_quarters(const float* a, const float* b, int n, float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (a[i] + b[i]);
+}
+// to += a/4.
+void add_quarter(const float* a, int n, float* __restrict to) {
+  for (int i = 0; i < n; ++i) to[i] += 0.25f * a[i];
 }
 
 void weigh_every_second(const float* __restrict from, int n, float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (from[2 * i - 1] + from[2 * i + 1]) + 0.5f * from[2 * i];
 }
 
-constexpr int lanes = register_bytes / static_cast<int>(sizeof(float));
-typedef float Sixteen __attribute__((vector_size(register_bytes)));
-typedef float Eight __attribute__((vector_size(register_bytes / 2)));
-typedef float SixteenAnywhere __attribute__((vector_size(register_bytes), aligned(4), may_alias));
-typedef float EightAnywhere __attribute__((vector_size(register_bytes / 2), aligned(4), may_alias));
+constexpr int lanes = register_vectors::register_lanes<float>;
+using Nodes = register_vectors::Of<float>::Vector;
+using NodesAnywhere = register_vectors::Of<float>::Anywhere;
+using HalfOfNodes = register_vectors::Of<float, lanes / 2>::Vector;
+using HalfAnywhere = register_vectors::Of<float, lanes / 2>::Anywhere;
 
-inline __attribute__((always_inline)) void read(const float* from, Sixteen& to) {
-  to = *reinterpret_cast<const SixteenAnywhere*>(from);
+inline __attribute__((always_inline)) void read(const float* from, Nodes& to) {
+  to = *reinterpret_cast<const NodesAnywhere*>(from);
 }
 inline __attribute__((always_inline)) void read(const float* from, float& to) { to = *from; }
-inline __attribute__((always_inline)) void put(const Sixteen& from, float* to) {
-  *reinterpret_cast<SixteenAnywhere*>(to) = from;
+inline __attribute__((always_inline)) void put(const Nodes& from, float* to) {
+  *reinterpret_cast<NodesAnywhere*>(to) = from;
 }
 inline __attribute__((always_inline)) void put(const float& from, float* to) { *to = from; }
 // At node i of a row that has twice the nodes of `coarse`: its values, and between them their means.
-inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Sixteen& to) {
-  const Eight even = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2);
-  const Eight next = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2 + 1);
-  const Eight odd = 0.5f * (even + next);
-  using lane_transpose::places::Interleaved;
-  lane_transpose::places::shuffle_by<lanes>(even, odd, to, Interleaved<lanes / 2, 0>{},
-                                            std::make_integer_sequence<int, lanes>{});
+inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Nodes& to) {
+  const HalfOfNodes even = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2);
+  const HalfOfNodes next = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2 + 1);
+  const HalfOfNodes odd = 0.5f * (even + next);
+  register_vectors::shuffle<register_vectors::Interleaved<lanes / 2, 0>>(even, odd, to);
 }
 inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, float& to) {
   to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
 }
 
-// Calls loop.operator()<Value>(i) for sixteen nodes at a time, and then for each that is left.
+// Calls loop.operator()<Value>(i) for as many nodes at a time as a register holds, then for each of the rest.
 template <class Loop>
 inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
   int i = 0;
-  for (; i + lanes <= n; i += lanes) loop.template operator()<Sixteen>(i);
+  for (; i + lanes <= n; i += lanes) loop.template operator()<Nodes>(i);
   for (; i < n; ++i) loop.template operator()<float>(i);
 }
 
@@ -144,24 +145,24 @@ void stencil_rows(const float* c0, const float* c1, const float* c2, int n, floa
   });
 }
 
-// a·b, added up in sixteen lanes and in double precision but for 32 terms at a time.
+// a·b: sixteen sums of up to 32 terms each in single precision, added up in double precision.
 double product_of_rows(const float* a, const float* b, int n) {
-  constexpr int summed = 16, chunk = 32 * summed;
-  double sum = 0;
+  constexpr int sums = 16, chunk = 32 * sums, parts = sums / lanes;
+  double total = 0;
   int i = 0;
-  while (i + summed <= n) {
-    Sixteen part[summed / lanes] = {};
-    for (const int end = std::min(i + chunk, n); i + summed <= end; i += summed)
-      for (int of = 0; of < summed / lanes; ++of) {
-        Sixteen x, y;
-        read(a + i + of * lanes, x);
-        read(b + i + of * lanes, y);
-        part[of] += x * y;
+  while (i + sums <= n) {
+    Nodes part[parts] = {};
+    for (const int end = std::min(i + chunk, n); i + sums <= end; i += sums)
+      for (int p = 0; p < parts; ++p) {
+        Nodes x, y;
+        read(a + i + p * lanes, x);
+        read(b + i + p * lanes, y);
+        part[p] += x * y;
       }
-    for (int lane = 0; lane < summed; ++lane) sum += static_cast<double>(part[lane / lanes][lane % lanes]);
+    for (int l = 0; l < sums; ++l) total += static_cast<double>(part[l / lanes][l % lanes]);
   }
-  for (; i < n; ++i) sum += static_cast<double>(a[i] * b[i]);
-  return sum;
+  for (; i < n; ++i) total += static_cast<double>(a[i] * b[i]);
+  return total;
 }
 
 double work(double nodes) { return nodes * elementary::log2(std::max(nodes, 2.0)); }
@@ -175,11 +176,10 @@ std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, dou
   const bool wraps = boundary == Boundary::periodic;
   double thickness = multiplier.length;
   while (std::min(levels.back().nx, levels.back().ny) > coarsest && thickness >= least_thickness) {
-    const int fine_x = levels.back().nx, fine_y = levels.back().ny;
-    if (wraps && (fine_x % 2 != 0 || fine_y % 2 != 0)) break;
-    // Beyond a free rim, one coarse node may still feel the last fine one.
-    const int more = wraps ? 0 : 1;
-    levels.push_back({fine_x / 2 + more, fine_y / 2 + more, {}, {}});
+    // Beyond a free rim, one coarse node may still feel the last fine one. On an odd periodic side the first
+    // and the last coarse node are neighbours on the fine grid.
+    const auto half = [wraps](int n) { return wraps ? (n + 1) / 2 : n / 2 + 1; };
+    levels.push_back({half(levels.back().nx), half(levels.back().ny), {}, {}});
     thickness /= 2;
   }
   return levels;
@@ -262,6 +262,8 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int rows = rows_per_block(nx);
   const std::int64_t blocks = block_count(fine.ny, rows);
   const bool finest = &fine == &levels_.front();
+  // Where the first and the last node of a side are both coarse nodes, W takes each of the two to the other.
+  const bool seam_x = wraps_ && nx % 2 != 0, seam_y = wraps_ && fine.ny % 2 != 0;
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {
     MarginedRow near_columns(nx, wraps_), far_columns(nx, wraps_), weighted(coarse.nx, wraps_);
@@ -271,11 +273,17 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
       const float* const from = row(coarse.out, coarse, j / 2);
       const float* const next = j % 2 == 0 ? from : row(coarse.out, coarse, j / 2 + 1);
       add_quarters(from, next, coarse.nx, weighted.values());
+      if (seam_y && j == 0) add_quarter(row(coarse.out, coarse, -1), coarse.nx, weighted.values());
+      if (seam_y && j == fine.ny - 1) add_quarter(row(coarse.out, coarse, 0), coarse.nx, weighted.values());
       weighted.close();
       const FiveRows five{row(fine.in, fine, j - 2), row(fine.in, fine, j - 1), row(fine.in, fine, j),
                           row(fine.in, fine, j + 1), row(fine.in, fine, j + 2)};
       stencil_columns(five, weighted.values(), nx, centre.data(), near_columns.values(),
                       far_columns.values());
+      if (seam_x) {
+        centre[0] += 0.5f * weighted.values()[coarse.nx - 1];
+        centre[static_cast<std::size_t>(nx - 1)] += 0.5f * weighted.values()[0];
+      }
       near_columns.close();
       far_columns.close();
       stencil_rows(centre.data(), near_columns.values(), far_columns.values(), nx, fine.row_out(j));

@@ -3,11 +3,11 @@
 // of sum zero takes the short waves and a coarser grid the long ones, B a = S a + 2 W up(B(down(W a))),
 // W being full weighting, down every second node and up its transpose; only the coarsest grid is
 // transformed. Within 0.7 … 1.3 of |q|/2 for every wave, symmetric, and 0 for a constant on a periodic
-// grid. Single precision. On a free boundary the field is 0 beyond the rim. A grid that does not halve
-// (periodic and odd) or whose cells are far from square is transformed as it is: exact, and dearer. On a
-// layer 1/K in place of |q|/2, the mean left out: grids are halved as long as their stencil meets waves that
-// know nothing of its base, and under a layer of less than one and a half cells the grid is transformed as it
-// is.
+// grid. Single precision. On a free boundary the field is 0 beyond the rim. On an odd periodic side the
+// coarse grid is one fine cell longer than the side; waves across this seam are less accurate. A grid whose
+// cells are far from square is transformed as it is: exact, but at a higher cost. On a layer 1/K in place of
+// |q|/2, the mean left out: grids are halved as long as their stencil meets waves that know nothing of its
+// base, and under a layer of less than one and a half cells the grid is transformed as it is.
 #pragma once
 
 #include <span>

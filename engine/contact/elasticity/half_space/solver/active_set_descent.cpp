@@ -146,9 +146,8 @@ class Descent {
         exact_(exact),
         dear_(Limit::hardens || level.shape.boundary == Boundary::free),
         keeps_line_loads_(keeps_line_loads(level.shape.aspect)),
-        rounds_(
-            HalfSpaceCompliance::single_possible(level.shape.nx, level.shape.ny, level.shape.boundary) &&
-            (level.shape.single || (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding))),
+        rounds_(level.shape.single ||
+                (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding)),
         steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
         no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
