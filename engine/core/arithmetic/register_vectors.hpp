@@ -62,6 +62,10 @@ template <int first>
 struct EverySecond {
   static constexpr int of(int l) { return 2 * l + first; }
 };
+template <int first>
+struct Stretch {
+  static constexpr int of(int l) { return first + l; }
+};
 // Two rows of blocks of `step` lanes each: the blocks off the diagonal change rows.
 template <int lanes, int step>
 struct UpperRow {
@@ -154,6 +158,22 @@ inline __attribute__((always_inline)) void write(const Doubles& from, std::uint8
   const Words words = __builtin_convertvector(__builtin_convertvector(from, Integers), Words);
   *reinterpret_cast<typename Of<std::uint8_t, lanes_of<Doubles>>::Anywhere*>(to) =
       __builtin_convertvector(words, Bytes);
+}
+
+// Two vectors of doubles hold as many numbers as one vector of floats.
+template <class Doubles, class Floats>
+inline __attribute__((always_inline)) void narrow(const Doubles& low, const Doubles& high, Floats& to) {
+  using Half = typename Of<float, lanes_of<Doubles>>::Vector;
+  const Half first = __builtin_convertvector(low, Half), last = __builtin_convertvector(high, Half);
+  shuffle<Stretch<0>>(first, last, to);
+}
+template <class Floats, class Doubles>
+inline __attribute__((always_inline)) void widen(const Floats& from, Doubles& low, Doubles& high) {
+  typename Of<float, lanes_of<Doubles>>::Vector half;
+  shuffle<Stretch<0>>(from, from, half);
+  low = __builtin_convertvector(half, Doubles);
+  shuffle<Stretch<lanes_of<Doubles>>>(from, from, half);
+  high = __builtin_convertvector(half, Doubles);
 }
 
 // GCC 12 needs several instructions for these conversions, and four bytes it takes one by one.

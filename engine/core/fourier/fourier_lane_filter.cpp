@@ -26,24 +26,23 @@ using Singles = Lanes<float>::Vector;
 using Doubles = Lanes<double>::Vector;
 using register_vectors::transpose;
 
-// A vector of floats holds the values of two vectors of doubles.
 inline void read(const double* from, double /*scale*/, Doubles& to) { register_vectors::read(from, to); }
 inline void read(const double* from, double scale, Singles& to) {
-  for (int half = 0; half < 2; ++half) {
-    Doubles values;
-    register_vectors::read(from + Lanes<double>::count * half, values);
-    values *= scale;
-    register_vectors::write(values, reinterpret_cast<float*>(&to) + Lanes<double>::count * half);
-  }
+  Doubles low, high;
+  register_vectors::read(from, low);
+  register_vectors::read(from + Lanes<double>::count, high);
+  low *= scale;
+  high *= scale;
+  register_vectors::narrow(low, high, to);
 }
 inline void write(const Doubles& from, double /*scale*/, double* to) { register_vectors::write(from, to); }
 inline void write(const Singles& from, double scale, double* to) {
-  for (int half = 0; half < 2; ++half) {
-    Doubles values;
-    register_vectors::read(reinterpret_cast<const float*>(&from) + Lanes<double>::count * half, values);
-    values *= scale;
-    register_vectors::write(values, to + Lanes<double>::count * half);
-  }
+  Doubles low, high;
+  register_vectors::widen(from, low, high);
+  low *= scale;
+  high *= scale;
+  register_vectors::write(low, to);
+  register_vectors::write(high, to + Lanes<double>::count);
 }
 
 // Whole cache lines and an odd number of pairs of them: rows a power of two apart would compete for the same

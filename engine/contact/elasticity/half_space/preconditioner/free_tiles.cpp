@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -16,66 +17,62 @@ namespace edge_rows {
 
 namespace {
 
-typedef float Eight __attribute__((vector_size(32)));
-typedef std::int32_t EightMarks __attribute__((vector_size(32)));
-typedef std::uint32_t EightWords __attribute__((vector_size(32)));
-// The same anywhere in memory. Only what is read or written through a pointer to such a type is taken not to
-// be aligned: references and arguments of templates lose that, with Clang, and so do values bound to a
-// reference.
-typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
-typedef double FourDoubles __attribute__((vector_size(32)));
-typedef float Four __attribute__((vector_size(16)));
-typedef std::uint8_t EightBytes __attribute__((vector_size(8), aligned(1), may_alias));
-typedef std::uint16_t EightShorts __attribute__((vector_size(16)));
-typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
+// NodeVector that are worked on together: a register of them, at most a group. What is done to a node does
+// not depend on their number.
+constexpr int node_lanes = std::min(group, register_vectors::register_lanes<float>);
+constexpr int node_pairs = 2 * node_lanes;  // columns of as many even and odd nodes
+using NodeVector = register_vectors::Of<float, node_lanes>::Vector;
+using NodeVectorAnywhere = register_vectors::Of<float, node_lanes>::Anywhere;
+using MarkVector = register_vectors::Of<std::int32_t, node_lanes>::Vector;
+using DoubleVector = register_vectors::Of<double>::Vector;
+typedef std::uint16_t BytePairs __attribute__((vector_size(2 * node_lanes), aligned(1), may_alias));
+using register_vectors::interleave;
+using register_vectors::separate;
 
 // Vectors are passed and returned by reference or pointer alone.
-inline __attribute__((always_inline)) const EightAnywhere* eight(const float* at) {
-  return reinterpret_cast<const EightAnywhere*>(at);
+inline __attribute__((always_inline)) const NodeVectorAnywhere* nodes_at(const float* at) {
+  return reinterpret_cast<const NodeVectorAnywhere*>(at);
 }
-inline __attribute__((always_inline)) EightAnywhere* eight(float* at) {
-  return reinterpret_cast<EightAnywhere*>(at);
+inline __attribute__((always_inline)) NodeVectorAnywhere* nodes_at(float* at) {
+  return reinterpret_cast<NodeVectorAnywhere*>(at);
 }
-// offset + slope·value of eight values, in two halves: a register holds four of them.
-inline __attribute__((always_inline)) void eight_along(const double* at, double slope, double offset,
-                                                       Eight& to) {
-  FourDoubles first, last;
-  std::memcpy(&first, at, sizeof first);
-  std::memcpy(&last, at + 4, sizeof last);
-  const Four low = __builtin_convertvector(offset + slope * first, Four);
-  const Four high = __builtin_convertvector(offset + slope * last, Four);
-  to = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+// offset + slope·value.
+template <class Vector>
+inline __attribute__((always_inline)) void along(const double* at, double slope, double offset, Vector& to) {
+  DoubleVector low, high;
+  register_vectors::read(at, low);
+  low = offset + slope * low;
+  if constexpr (sizeof(DoubleVector) == 2 * sizeof(Vector)) {
+    to = __builtin_convertvector(low, Vector);
+  } else {
+    register_vectors::read(at + node_lanes / 2, high);
+    high = offset + slope * high;
+    register_vectors::narrow(low, high, to);
+  }
 }
 
-// Not 0 where the even, and the odd, of sixteen bytes are not.
-inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& even,
-                                                      EightMarks& odd) {
-  const EightPairs pairs = *reinterpret_cast<const EightPairs*>(bytes);
+// Not 0 where the even, and the odd, bytes are not 0.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& even,
+                                                      MarkVector& odd) {
+  using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
+  const Words both = *reinterpret_cast<const BytePairs*>(bytes);
   constexpr bool little = std::endian::native == std::endian::little;
-  const EightPairs low = pairs & 0xff, high = pairs >> 8;
-  even = __builtin_convertvector(little ? low : high, EightMarks);
-  odd = __builtin_convertvector(little ? high : low, EightMarks);
+  const Words low = both & 0xff, high = both >> 8;
+  even = __builtin_convertvector(little ? low : high, MarkVector);
+  odd = __builtin_convertvector(little ? high : low, MarkVector);
 }
 
-// Not 0 where one of eight bytes is not; in steps that are single instructions.
-inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& marks) {
-  const EightShorts words = __builtin_convertvector(*reinterpret_cast<const EightBytes*>(bytes), EightShorts);
-  marks = __builtin_convertvector(words, EightMarks);
+// Not 0 where a byte is not 0; in steps that are single instructions.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& marks) {
+  using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
+  using Bytes = register_vectors::Of<std::uint8_t, node_lanes>::Anywhere;
+  marks = __builtin_convertvector(__builtin_convertvector(*reinterpret_cast<const Bytes*>(bytes), Words),
+                                  MarkVector);
 }
 
-inline __attribute__((always_inline)) void take_apart(const Eight& low, const Eight& high, Eight& even,
-                                                      Eight& odd) {
-  even = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
-  odd = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
-}
-
-inline __attribute__((always_inline)) void merge(const Eight& even, const Eight& odd, float* to) {
-  *eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
-  *eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
-}
-
-inline __attribute__((always_inline)) void eight_of(const SmoothRow<float>& row, std::size_t k, Eight& to) {
-  to = row.low_share * *eight(row.low + k) + row.high_share * *eight(row.high + k);
+inline __attribute__((always_inline)) void nodes_of(const SmoothRow<float>& row, std::size_t k,
+                                                    NodeVector& to) {
+  to = row.low_share * *nodes_at(row.low + k) + row.high_share * *nodes_at(row.high + k);
 }
 inline float at(const SmoothRow<float>& row, std::size_t k) {
   return row.low_share * row.low[k] + row.high_share * row.high[k];
@@ -175,15 +172,15 @@ void add_residual(const std::uint8_t* free, const double* values, double slope, 
                   const SmoothExtension::Sums::Row<float>& sums) {
   const SmoothExtension::Sums::Row<float> to = sums;
   std::size_t k = 0;
-  for (; k + group <= n; k += group) {
-    const Eight none = {};
-    Eight all;
-    eight_along(values + k, slope, offset, all);
-    EightMarks marks;
+  for (; k + node_lanes <= n; k += node_lanes) {
+    const NodeVector none = {};
+    NodeVector all;
+    along(values + k, slope, offset, all);
+    MarkVector marks;
     read_marks(free + k, marks);
-    const Eight value = marks != 0 ? all : none;
-    *eight(to.low + k) += to.low_share * value;
-    *eight(to.high + k) += to.high_share * value;
+    const NodeVector value = marks != 0 ? all : none;
+    *nodes_at(to.low + k) += to.low_share * value;
+    *nodes_at(to.high + k) += to.high_share * value;
   }
   for (; k < n; ++k) {
     const float value = free[k] != 0 ? static_cast<float>(offset + slope * values[k]) : 0.0f;
@@ -225,23 +222,23 @@ void start_free(const std::uint8_t* __restrict free, const double* __restrict va
         free[k] != 0 ? static_cast<float>(offset + slope * values[k]) - at(less, k) : 0.0f;
     ++k;
   };
-  while (k < n && (place + k) % columns != 0) one();
-  for (; k + columns <= n; k += columns) {
-    Eight low, high, smooth_low, smooth_high;
-    eight_of(less, k, smooth_low);
-    eight_of(less, k + group, smooth_high);
-    eight_along(values + k, slope, offset, low);
-    eight_along(values + k + group, slope, offset, high);
+  while (k < n && (place + k) % node_pairs != 0) one();
+  for (; k + node_pairs <= n; k += node_pairs) {
+    NodeVector low, high, smooth_low, smooth_high;
+    nodes_of(less, k, smooth_low);
+    nodes_of(less, k + node_lanes, smooth_high);
+    along(values + k, slope, offset, low);
+    along(values + k + node_lanes, slope, offset, high);
     low -= smooth_low;
     high -= smooth_high;
-    Eight even, odd;
-    take_apart(low, high, even, odd);
-    EightMarks free_even, free_odd;
+    NodeVector even, odd;
+    separate(low, high, even, odd);
+    MarkVector free_even, free_odd;
     read_marks(free + k, free_even, free_odd);
-    const Eight none = {};
+    const NodeVector none = {};
     float* const to = now + (place + k) / 2;
-    *eight(to) = free_even != 0 ? even : none;
-    *eight(to + half) = free_odd != 0 ? odd : none;
+    *nodes_at(to) = free_even != 0 ? even : none;
+    *nodes_at(to + half) = free_odd != 0 ? odd : none;
   }
   while (k < n) one();
 }
@@ -255,16 +252,16 @@ void start_bound(const float* __restrict values, std::size_t n, std::size_t plac
     now[at] = 0;
     ++k;
   };
-  while (k < n && (place + k) % columns != 0) one();
-  for (; k + columns <= n; k += columns) {
+  while (k < n && (place + k) % node_pairs != 0) one();
+  for (; k + node_pairs <= n; k += node_pairs) {
     const std::size_t to = (place + k) / 2;
-    Eight even, odd;
-    const Eight low = *eight(values + k), high = *eight(values + k + group);
-    take_apart(low, high, even, odd);
-    const Eight none = {};
-    *eight(given + to) = even;
-    *eight(given + to + half) = odd;
-    *eight(now + to) = *eight(now + to + half) = none;
+    NodeVector even, odd;
+    const NodeVector low = *nodes_at(values + k), high = *nodes_at(values + k + node_lanes);
+    separate(low, high, even, odd);
+    const NodeVector none = {};
+    *nodes_at(given + to) = even;
+    *nodes_at(given + to + half) = odd;
+    *nodes_at(now + to) = *nodes_at(now + to + half) = none;
   }
   while (k < n) one();
 }
@@ -280,46 +277,48 @@ Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
 
 namespace {
 inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
-// Not 0 for the nodes of a group that sweeps change.
-inline __attribute__((always_inline)) void read_bound(Group one, EightMarks& bound) {
-  constexpr std::uint32_t first = Group{1} << start_bits;
-  const EightWords bits_of = {first,      first << 1, first << 2, first << 3,
-                              first << 4, first << 5, first << 6, first << 7};
-  bound = reinterpret_cast<EightMarks>((EightWords{} + one) & bits_of);
+// Not 0 for those nodes of a group, from the `first` on, that sweeps change.
+inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
+  MarkVector bits_of;
+  for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;
+  bound = static_cast<std::int32_t>(one >> (start_bits + first)) & bits_of;
 }
 
 // The sum of the four neighbours.
 template <bool odd>
-inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, Eight& sum) {
+inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, NodeVector& sum) {
   const float* const neighbours = here + (odd ? -half : half - 1);
-  sum = (*eight(neighbours) + *eight(neighbours + 1)) + (*eight(here - 2 * half) + *eight(here + 2 * half));
+  sum = (*nodes_at(neighbours) + *nodes_at(neighbours + 1)) +
+        (*nodes_at(here - 2 * half) + *nodes_at(here + 2 * half));
 }
 
 template <bool odd>
 void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, float* now) {
-  for (const Group one : groups) {
-    float* const at = now + start_of(one);
-    Eight sum;
-    add_up<odd>(at, half, sum);
-    EightMarks bound;
-    read_bound(one, bound);
-    const Eight here = *eight(at);
-    *eight(at) = bound != 0 ? share * sum : here;
-  }
+  for (const Group one : groups)
+    for (int first = 0; first < group; first += node_lanes) {
+      float* const at = now + start_of(one) + first;
+      NodeVector sum;
+      add_up<odd>(at, half, sum);
+      MarkVector bound;
+      read_bound(one, first, bound);
+      const NodeVector here = *nodes_at(at);
+      *nodes_at(at) = bound != 0 ? share * sum : here;
+    }
 }
 
 template <bool odd>
 void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
                 const float* __restrict given, float* now) {
-  for (const Group one : groups) {
-    float* const at = now + start_of(one);
-    Eight sum;
-    add_up<odd>(at, half, sum);
-    EightMarks bound;
-    read_bound(one, bound);
-    const Eight none = {};
-    *eight(at) = bound != 0 ? share * (*eight(given + start_of(one)) + sum) : none;
-  }
+  for (const Group one : groups)
+    for (int first = 0; first < group; first += node_lanes) {
+      const std::size_t at = start_of(one) + static_cast<std::size_t>(first);
+      NodeVector sum;
+      add_up<odd>(now + at, half, sum);
+      MarkVector bound;
+      read_bound(one, first, bound);
+      const NodeVector none = {};
+      *nodes_at(now + at) = bound != 0 ? share * (*nodes_at(given + at) + sum) : none;
+    }
 }
 }  // namespace
 
@@ -337,15 +336,14 @@ void merge(const float* __restrict row, std::ptrdiff_t half, const SmoothRow<flo
            float* __restrict to) {
   const SmoothRow<float> more = smooth;
   std::size_t k = 0;
-  for (; k + columns <= n; k += columns) {
-    const Eight even = *eight(row + k / 2), odd = *eight(row + half + k / 2);
-    Eight low = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
-    Eight high = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
-    Eight smooth_low, smooth_high;
-    eight_of(more, k, smooth_low);
-    eight_of(more, k + group, smooth_high);
-    *eight(to + k) = low + smooth_low;
-    *eight(to + k + group) = high + smooth_high;
+  for (; k + node_pairs <= n; k += node_pairs) {
+    const NodeVector even = *nodes_at(row + k / 2), odd = *nodes_at(row + half + k / 2);
+    NodeVector low, high, smooth_low, smooth_high;
+    interleave(even, odd, low, high);
+    nodes_of(more, k, smooth_low);
+    nodes_of(more, k + node_lanes, smooth_high);
+    *nodes_at(to + k) = low + smooth_low;
+    *nodes_at(to + k + node_lanes) = high + smooth_high;
   }
   for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))] + at(more, k);
 }
@@ -353,19 +351,23 @@ void merge(const float* __restrict row, std::ptrdiff_t half, const SmoothRow<flo
 void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict values,
                     const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
   std::size_t k = 0;
-  for (; k + columns <= n; k += columns) {
-    Eight even, odd;
+  for (; k + node_pairs <= n; k += node_pairs) {
+    NodeVector even, odd, even_value, odd_value;
     add_up<false>(row + k / 2, half, even);
     add_up<true>(row + half + k / 2, half, odd);
-    Eight even_value, odd_value;
-    const Eight low = *eight(values + k), high = *eight(values + k + group);
-    take_apart(low, high, even_value, odd_value);
-    EightMarks free_even, free_odd;
+    const NodeVector low_value = *nodes_at(values + k), high_value = *nodes_at(values + k + node_lanes);
+    separate(low_value, high_value, even_value, odd_value);
+    MarkVector free_even, free_odd;
     read_marks(free + k, free_even, free_odd);
-    const Eight none = {};
+    const NodeVector none = {};
     even += even_value;
     odd += odd_value;
-    merge(free_even != 0 ? even : none, free_odd != 0 ? odd : none, to + k);
+    even = free_even != 0 ? even : none;
+    odd = free_odd != 0 ? odd : none;
+    NodeVector low, high;
+    interleave(even, odd, low, high);
+    *nodes_at(to + k) = low;
+    *nodes_at(to + k + node_lanes) = high;
   }
   for (; k < n; ++k) {
     const float* const here = row + split(k, static_cast<std::size_t>(half));
