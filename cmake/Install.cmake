@@ -5,6 +5,11 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 
+# Where the numeric library is, if it is one of its own (ASPERITY_LEVELS).
+if(ASPERITY_LEVELS)
+  set_target_properties(asperity PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/asperity")
+  set_target_properties(asperity_module PROPERTIES INSTALL_RPATH "$ORIGIN/../../asperity")
+endif()
 install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
 # Parts loaded when first needed: core/loaded_part.cpp looks here.
@@ -34,7 +39,13 @@ set_target_properties(asperity_engine PROPERTIES EXPORT_NAME engine)
 target_link_libraries(asperity_engine INTERFACE asperity_study)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/asperity)
 install(TARGETS asperity_engine EXPORT asperity COMPONENT development)
-install(DIRECTORY engine DESTINATION include/asperity COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+# Headers whose code depends on the vector width stay private: a program that includes them may have another width.
+set(private "/core/fourier/fourier_(batch|filter|lane_filter|lanes)\\.hpp|/lane_transpose\\.hpp|/register_vectors\\.hpp"
+            "/node_loop\\.hpp|/half_order_pyramid\\.hpp|/slabs/slab_(descent|level|nest|preconditioner|quality)\\.hpp"
+            "/half_space/solver/(contact_level|contact_quality|descent|free_set|load_projection|nested_descent)\\.hpp")
+list(JOIN private "|" private)
+install(DIRECTORY engine DESTINATION include/asperity COMPONENT development FILES_MATCHING PATTERN "*.hpp"
+        REGEX "${private}" EXCLUDE)
 install(EXPORT asperity NAMESPACE asperity:: FILE asperityTargets.cmake DESTINATION ${package_folder}
         COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/asperityConfig.cmake.in

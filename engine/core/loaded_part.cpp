@@ -35,8 +35,10 @@ Own own_object() {
   // The loader knows a program only by the name it was called by, which may be a word looked up on PATH.
   const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
   const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
-  const fs::path real = fs::canonical(file, failure);
-  return {failure ? fs::path() : real.parent_path(), program};
+  fs::path folder = fs::canonical(file, failure).parent_path();
+  // A copy for one level of processor is in FOLDER/glibc-hwcaps/LEVEL/, the parts are in FOLDER.
+  if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
+  return {std::move(folder), program};
 }
 
 bool is_below(const fs::path& folder, const fs::path& top) {

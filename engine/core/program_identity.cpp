@@ -26,12 +26,20 @@ namespace {
 
 constexpr const char anchor = 0;
 
-// The object that holds this code, and the build id among its notes.
-int look_for_build_id(dl_phdr_info* object, std::size_t, void* found) {
-  const auto here = std::bit_cast<std::uintptr_t>(&anchor);
+struct Search {
+  std::array<const void*, 2> addresses;
+  std::string identity;
+};
+
+// Appends the build id, which is among the notes of the object, if the object holds one of the addresses.
+int look_for_build_id(dl_phdr_info* object, std::size_t, void* of) {
+  Search& search = *static_cast<Search*>(of);
   const auto covers = [&](const ElfW(Phdr) & part) {
     const std::uintptr_t begin = object->dlpi_addr + part.p_vaddr;
-    return part.p_type == PT_LOAD && here >= begin && here < begin + part.p_memsz;
+    return part.p_type == PT_LOAD && std::ranges::any_of(search.addresses, [&](const void* address) {
+             const auto here = std::bit_cast<std::uintptr_t>(address);
+             return here >= begin && here < begin + part.p_memsz;
+           });
   };
   const std::span parts(object->dlpi_phdr, object->dlpi_phnum);
   if (std::ranges::none_of(parts, covers)) return 0;
@@ -47,23 +55,23 @@ int look_for_build_id(dl_phdr_info* object, std::size_t, void* found) {
       if (note.n_type == NT_GNU_BUILD_ID) {
         constexpr std::string_view digits = "0123456789abcdef";
         for (const unsigned char byte : std::span(content, note.n_descsz)) {
-          *static_cast<std::string*>(found) += digits[byte >> 4];
-          *static_cast<std::string*>(found) += digits[byte & 15];
+          search.identity += digits[byte >> 4];
+          search.identity += digits[byte & 15];
         }
-        return 1;
+        return 0;
       }
       at = content + padded(note.n_descsz);
     }
   }
-  return 1;
+  return 0;
 }
 
 }  // namespace
 
-std::string build_identity() {
-  std::string identity;
-  dl_iterate_phdr(look_for_build_id, &identity);
-  return identity;
+__attribute__((noinline)) std::string build_identity() {
+  Search search{{__builtin_return_address(0), &anchor}, {}};
+  dl_iterate_phdr(look_for_build_id, &search);
+  return search.identity;
 }
 
 std::string c_library_version() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What runs: the identity that the linker stamped on the object which holds this code (the GNU build id, a
-// digest of its machine code), for two builds of one version may round differently; and the C library, with
+// What runs: the identity that the linker stamped on the program or module, and on the numeric library if that
+// is apart (the GNU build id, a digest of the machine code), for two builds of one version may round
+// differently; and the C library, with
 // how its sines, exponentials and powers round here: it chooses them by the processor when the program
 // starts. Results of the engine do not depend on it (arithmetic/elementary_functions.hpp); what a script
 // computes itself by `^` and `math`, and contacts spread over ranks, do.
@@ -10,7 +11,8 @@
 
 namespace asperity {
 
-// Of the build, hexadecimal digits; "" where the linker stamped none.
+// Build ids of the object that calls and of the one that holds this code, hexadecimal digits; "" where the
+// linker stamped none. The numeric library has one build id at every level of processor.
 std::string build_identity();
 
 // "glibc 2.36"; "" where the library does not say.

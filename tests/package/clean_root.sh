@@ -19,6 +19,8 @@ fail() { echo "clean root: $*" >&2; exit 1; }
 cmake --preset package ${ASPERITY_CMAKE_FLAGS:-} > /dev/null
 cmake --build --preset package --parallel "$(nproc)"
 cpack --preset package > "$folder/cpack.log" 2>&1 || { cat "$folder/cpack.log"; fail "the packages were not made"; }
+sh tests/package/levels.sh build/package/asperity "$folder/levels"
+sh tests/package/library.sh "$PWD/build/package" "$PWD" "$folder/library"
 
 root=$folder/root
 debian_root "$root"
@@ -28,7 +30,8 @@ export LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive
 inside sh -c 'apt-get install -qq -y --no-install-recommends /tmp/asperity_*.deb lua5.4' > "$folder/install.log" 2>&1 ||
   { tail -n 40 "$folder/install.log"; fail "the package does not install"; }
 
-inside asperity version
+inside asperity version | tee "$folder/version"
+grep -qxF "$(build/package/asperity version | grep vectors)" "$folder/version" || fail "the program loads another numeric library"
 # As somebody who is not root, in a folder of theirs.
 inside useradd --create-home visitor
 visitor() { inside su - visitor -c "$*"; }

@@ -16,6 +16,9 @@ cd "$folder"
 
 cmake --install "$build" --prefix "$folder/installed" > output 2>&1 || { cat output; fail "it was not installed"; }
 grep -rl --include='*.cmake' -e "$source" -e "$build" installed && fail "what is installed names where it was built"
+grep -rlw register_bytes installed/include && fail "an installed header depends on the vector width"
+(cd installed/include/asperity && grep -rhoE '^#include "[^"]+"' . | cut -d '"' -f 2 | sort -u | xargs ls > /dev/null) ||
+  fail "an installed header includes one that is not installed"
 ends 0 "Generating done" cmake -S own -B build -DCMAKE_PREFIX_PATH="$folder/installed" -DCMAKE_BUILD_TYPE=Release
 ends 0 "Built target press" cmake --build build
 build/press > touches

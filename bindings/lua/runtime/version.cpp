@@ -2,14 +2,23 @@
 #include "bindings/lua/runtime/version.hpp"
 
 #include "bindings/lua/registry/lua_api.hpp"
+#include "engine/core/vector_width.hpp"
 
 namespace asperity::lua {
 
 std::string version_text() { return ASPERITY_VERSION; }
 
 std::vector<std::pair<std::string, std::string>> version_facts() {
-  return {{"asperity", version_text()}, {"build", ASPERITY_BUILD_TYPE},  {"compiler", ASPERITY_COMPILER},
-          {"lua", LUA_RELEASE},         {"fftw", ASPERITY_FFTW_VERSION}, {"eigen", ASPERITY_EIGEN_VERSION}};
+  std::string vectors = std::to_string(vector_bytes()) + " bytes";
+  if (const std::string_view level = vector_level(); !level.empty())
+    vectors += " (" + std::string(level) + ")";
+  return {{"asperity", version_text()},
+          {"build", ASPERITY_BUILD_TYPE},
+          {"compiler", ASPERITY_COMPILER},
+          {"vectors", vectors},
+          {"lua", LUA_RELEASE},
+          {"fftw", ASPERITY_FFTW_VERSION " (grids over MPI ranks only)"},
+          {"eigen", ASPERITY_EIGEN_VERSION}};
 }
 
 }  // namespace asperity::lua

@@ -1,0 +1,46 @@
+# The numeric floors as one shared library, compiled once for each level of processor (ASPERITY_LEVELS, for packages).
+# All copies have one file name. The loader takes the highest level that the processor supports, because it searches
+# glibc-hwcaps/LEVEL in each folder of its path first. Program, module and higher floors are compiled for the lowest level.
+set(levels)
+if(ASPERITY_LEVELS)
+  set(levels x86-64 x86-64-v3 x86-64-v4)
+endif()
+
+foreach(level IN LISTS levels)
+  set(copy asperity_numeric_${level})
+  add_library(${copy} SHARED)
+  if(level STREQUAL x86-64)
+    set(folder .)
+    set(export EXPORT asperity)
+  else()
+    set(folder glibc-hwcaps/${level})
+    set(export)
+    # The copies compute the same bits, and stored results name the build they come from: all have one build id.
+    add_dependencies(${copy} asperity_numeric_x86-64)
+    set_target_properties(${copy} PROPERTIES LINK_DEPENDS ${CMAKE_BINARY_DIR}/libasperity-numeric-${PROJECT_VERSION}.so)
+    add_custom_command(TARGET ${copy} POST_BUILD
+      COMMAND ${CMAKE_OBJCOPY} -O binary --only-section=.note.gnu.build-id --set-section-flags .note.gnu.build-id=alloc
+              $<TARGET_FILE:asperity_numeric_x86-64> ${level}.id
+      COMMAND ${CMAKE_OBJCOPY} --update-section .note.gnu.build-id=${level}.id $<TARGET_FILE:${copy}>)
+  endif()
+  set_target_properties(${copy} PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME asperity-numeric-${PROJECT_VERSION}
+                        LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${folder})
+  # No inline function of the program may replace one of a copy.
+  target_link_options(${copy} PRIVATE -Wl,-Bsymbolic)
+  target_link_libraries(${copy} PRIVATE $<BUILD_INTERFACE:asperity_options> Threads::Threads)
+  install(TARGETS ${copy} ${export} LIBRARY DESTINATION lib/asperity/${folder} COMPONENT program)
+endforeach()
+
+# asperity_levels(NAME SOURCES .. LIBRARIES ..): adds the sources to each copy.
+function(asperity_levels name)
+  cmake_parse_arguments(PART "" "" "SOURCES;LIBRARIES" ${ARGN})
+  foreach(level IN LISTS levels)
+    set(objects asperity_${name}_${level})
+    add_library(${objects} OBJECT ${PART_SOURCES})
+    target_link_libraries(${objects} PRIVATE asperity_options ${PART_LIBRARIES})
+    target_compile_options(${objects} PRIVATE -march=${level} -fno-semantic-interposition)
+    set_target_properties(${objects} PROPERTIES CXX_VISIBILITY_PRESET default)
+    target_sources(asperity_numeric_${level} PRIVATE $<TARGET_OBJECTS:${objects}>)
+    target_link_libraries(asperity_numeric_${level} PRIVATE ${PART_LIBRARIES})
+  endforeach()
+endfunction()
