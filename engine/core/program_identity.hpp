@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What runs: the identity that the linker stamped on the program or module, and on the numeric library if that
-// is apart (the GNU build id, a digest of the machine code), for two builds of one version may round
-// differently; and the C library, with
-// how its sines, exponentials and powers round here: it chooses them by the processor when the program
-// starts. Results of the engine do not depend on it (arithmetic/elementary_functions.hpp); what a script
-// computes itself by `^` and `math`, and contacts spread over ranks, do.
+// What runs: the identity that the linker stamped on the program or module, and on the numeric library if
+// that is apart (the GNU build id, a digest of the machine code), for two builds of one version may round
+// differently; and the C library, with how its sines, exponentials and powers round here: it chooses them
+// by the processor when the program starts. Results of the engine do not depend on it
+// (arithmetic/elementary_functions.hpp); what a script computes itself by `^` and `math`, and contacts
+// spread over ranks, do.
 #pragma once
 
 #include <string>
