@@ -6,28 +6,30 @@ if(ASPERITY_LEVELS)
   set(levels x86-64 x86-64-v3 x86-64-v4)
 endif()
 
+# The copies compute the same bits, and stored results name the build they come from: all have one build id, that of the
+# lowest level, which is written as an option for the linker of the others.
+set(build_id ${CMAKE_CURRENT_BINARY_DIR}/numeric-build-id)
 foreach(level IN LISTS levels)
   set(copy asperity_numeric_${level})
   add_library(${copy} SHARED)
   if(level STREQUAL x86-64)
     set(folder .)
     set(export EXPORT asperity)
+    target_link_options(${copy} PRIVATE -Wl,--build-id=sha1)
+    add_custom_command(TARGET ${copy} POST_BUILD BYPRODUCTS ${build_id} COMMAND ${CMAKE_READELF} -n $<TARGET_FILE:${copy}>
+                       | sed -n "s/.*Build ID: /-Wl,--build-id=0x/p" > ${build_id})
   else()
     set(folder glibc-hwcaps/${level})
     set(export)
-    # The copies compute the same bits, and stored results name the build they come from: all have one build id.
+    target_link_options(${copy} PRIVATE @${build_id})
+    set_target_properties(${copy} PROPERTIES LINK_DEPENDS ${build_id})
     add_dependencies(${copy} asperity_numeric_x86-64)
-    set_target_properties(${copy} PROPERTIES LINK_DEPENDS ${CMAKE_BINARY_DIR}/libasperity-numeric-${PROJECT_VERSION}.so)
-    add_custom_command(TARGET ${copy} POST_BUILD
-      COMMAND ${CMAKE_OBJCOPY} -O binary --only-section=.note.gnu.build-id --set-section-flags .note.gnu.build-id=alloc
-              $<TARGET_FILE:asperity_numeric_x86-64> ${level}.id
-      COMMAND ${CMAKE_OBJCOPY} --update-section .note.gnu.build-id=${level}.id $<TARGET_FILE:${copy}>)
   endif()
   set_target_properties(${copy} PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME asperity-numeric-${PROJECT_VERSION}
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${folder})
   # No inline function of the program may replace one of a copy.
   target_link_options(${copy} PRIVATE -Wl,-Bsymbolic)
-  target_link_libraries(${copy} PRIVATE $<BUILD_INTERFACE:asperity_options> Threads::Threads)
+  target_link_libraries(${copy} PRIVATE Threads::Threads)
   install(TARGETS ${copy} ${export} LIBRARY DESTINATION lib/asperity/${folder} COMPONENT program)
 endforeach()
 
