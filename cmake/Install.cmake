@@ -40,7 +40,7 @@ target_link_libraries(asperity_engine INTERFACE asperity_study)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/asperity)
 install(TARGETS asperity_engine EXPORT asperity COMPONENT development)
 # Headers whose code depends on the vector width stay private: a program that includes them may have another width.
-set(private "/core/fourier/fourier_(batch|filter|lane_filter|lanes)\\.hpp|/lane_transpose\\.hpp|/register_vectors\\.hpp"
+set(private "/core/fourier/fourier_(batch|filter|lane_filter|lanes)\\.hpp|/register_vectors\\.hpp"
             "/node_loop\\.hpp|/half_order_pyramid\\.hpp|/slabs/slab_(descent|level|nest|preconditioner|quality)\\.hpp"
             "/half_space/solver/(contact_level|contact_quality|descent|free_set|load_projection|nested_descent)\\.hpp")
 list(JOIN private "|" private)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/vector_width.hpp"
 
-#include "engine/core/fourier/fourier_lanes.hpp"
+#include "engine/core/arithmetic/register_vectors.hpp"
 
 namespace asperity {
 

@@ -190,6 +190,7 @@ TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
     EXPECT_EQ(outcome.error, "") << arguments[0];
   }
   EXPECT_NE(call({"materials"}).output.find("Al-2011"), std::string::npos);
+  EXPECT_NE(call({"version"}).output.find("vectors   "), std::string::npos);
   EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
 }
 
