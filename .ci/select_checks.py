@@ -17,6 +17,8 @@ import re
 import subprocess
 import sys
 
+import base as recorded
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 # Rooms and those they are built on, as CMake links them.
@@ -107,10 +109,10 @@ USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runne
                          "tests/web/client")
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
-# Files of the build: what differs there may change anything.
-BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
-# Says which commit was checked as a whole, and nothing else.
-CHECKED = ".ci/checked"
+# Files of the build: a change there may change anything. A CMakeLists.txt below a folder of tests/ changes the tests of that folder.
+BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/|tests/.+/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
+# The record of passes, which changes nothing.
+CHECKED = recorded.CHECKED
 
 
 # Headers of the library whose name stands in whatever uses them.
@@ -203,6 +205,15 @@ def poorer_sources(base):
             if any(misses(source, name) for name in names)}
 
 
+def groups_of_folder(folder):
+    """The groups whose tests a CMakeLists.txt of a folder of tests/ declares."""
+    found = {name for name, (_, _, places) in GROUPS.items()
+             if any(under(place, (folder,)) for place in places)} - {"checks"}
+    if folder == "tests/checks":
+        return {"checks"}
+    return found or {group_of(folder)} - {None}
+
+
 def group_of(path):
     """The group whose program a file of tests/ belongs to."""
     best = None
@@ -253,7 +264,21 @@ class Selection:
             if stem == "asperity":
                 self.release |= {"command_line"}
 
+    def add_folder(self, path):
+        groups = groups_of_folder(os.path.dirname(path))
+        if not groups:
+            self.everything = True  # a place that belongs to no group
+        self.release |= groups
+        self.sanitize |= groups & set(SANITIZED)
+        if path.startswith("tests/stability/dignity/"):
+            self.sanitize.add("dignity")
+        if "fuzz" in groups:
+            self.fuzz |= set(FUZZED)
+
     def add_test(self, path, stem):
+        if os.path.basename(path) == "CMakeLists.txt":
+            self.add_folder(path)
+            return
         for source in includers([path]) | {path}:
             group = group_of(source)
             if group is None:
@@ -303,29 +328,6 @@ class Selection:
                 "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release))}
 
 
-def git(*words):
-    answer = subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=False)
-    return answer.stdout if answer.returncode == 0 else None
-
-
-def changed_since(commit):
-    """The paths that differ from the commit, also those not yet committed; None where that is not known."""
-    if not commit or git("merge-base", "--is-ancestor", commit, "HEAD") is None:
-        return None
-    differing = git("diff", "--name-only", "--no-renames", commit)
-    untracked = git("ls-files", "--others", "--exclude-standard")
-    return None if differing is None or untracked is None else differing.split("\n")[:-1] + untracked.split("\n")[:-1]
-
-
-def last_checked():
-    try:
-        with open(os.path.join(ROOT, CHECKED), encoding="utf-8") as text:
-            found = re.search(r"^[0-9a-f]{40}$", text.read(), re.M)
-            return found and found[0]
-    except OSError:
-        return None
-
-
 def select(paths):
     selection = Selection()
     if paths is None:
@@ -345,7 +347,7 @@ def main():
     given = parser.parse_args()
     paths = None
     if not given.everything:
-        paths = given.paths if given.paths is not None else changed_since(given.since or last_checked())
+        paths = given.paths if given.paths is not None else recorded.differing(given.since or recorded.base()[0])
     if given.why:
         print("the difference is not known" if paths is None else "\n".join(paths), file=sys.stderr)
     for key, value in select(paths).lines().items():

@@ -61,8 +61,13 @@ for name, missed in (('"engine/core/digest.hpp', False), ('"engine/contact/plan.
            f"engine/core/digest.cpp {'has no way to' if missed else 'finds or does not name'} {name[1:]}")
 
 for path in ("CMakeLists.txt", "engine/CMakeLists.txt", "cmake/Packages.cmake", "CMakePresets.json", "lab", ".ci/run",
-             ".ci/select_checks.py", "tests/CMakeLists.txt", "tests/support/open_files.cpp"):
+             ".ci/select_checks.py", "tests/CMakeLists.txt", "tests/support/open_files.cpp", "tests/nowhere/CMakeLists.txt"):
     expect(chooser.select([path]).everything, f"{path} may change anything")
+for folder, groups in {"page": {"page"}, "web": {"web", "serve"}, "scripts": {"scripts", "command_line", "ranks"},
+                       "stability/dignity": {"stability"}, "checks": set(), "fuzz": {"fuzz"}}.items():
+    selection = chooser.select([f"tests/{folder}/CMakeLists.txt"])
+    expect(not selection.everything and selection.release == groups | {"checks"},
+           f"tests/{folder}/CMakeLists.txt calls for {' '.join(sorted(selection.release))}")
 expect(chooser.select(None).everything, "what is not known calls for everything")
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
                    "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/F1.sh": "reproductions: F1",
