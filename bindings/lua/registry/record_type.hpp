@@ -8,6 +8,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -121,7 +122,9 @@ class RecordField {
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, Dimension dimension, std::string sentence)
       : info{std::move(name), detail::type_of_held<Held<Read>>(), std::move(sentence), dimension},
-        read_([read](const T& of) { return detail::value_of_held(std::invoke(read, of)); }) {}
+        read_(read, [](const T& of, const void* held) {
+          return detail::value_of_held(std::invoke(*static_cast<const Read*>(held), of));
+        }) {}
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, std::string sentence)
       : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
@@ -129,17 +132,21 @@ class RecordField {
   template <std::invocable<const T&> Read, class U>
   RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
       : info{std::move(name), type.name + (std::same_as<Held<Read>, U> ? "" : "[]"), std::move(sentence), {}},
-        read_([read, &type](const T& of) -> Value {
+        read_(Typed<Read, U>{read, &type}, [](const T& of, const void* held) -> Value {
+          const auto& [how, made] = *static_cast<const Typed<Read, U>*>(held);
           if constexpr (std::same_as<Held<Read>, U>) {
-            return type(std::invoke(read, of));
+            return (*made)(std::invoke(how, of));
           } else {
-            return type.list(std::invoke(read, of));
+            return made->list(std::invoke(how, of));
           }
         }) {}
   // Any other value, of a type as the registry writes it.
   template <std::invocable<const T&> Read>
   RecordField(std::string name, std::string type, Read read, std::string sentence)
-      : info{std::move(name), std::move(type), std::move(sentence), {}}, read_(read) {}
+      : info{std::move(name), std::move(type), std::move(sentence), {}},
+        read_(read, [](const T& of, const void* held) -> Value {
+          return std::invoke(*static_cast<const Read*>(held), of);
+        }) {}
 
   // The record has the field only where the scene names this effect; otherwise asking for the field is an
   // error that names the effect.
@@ -176,7 +183,24 @@ class RecordField {
   template <class Read>
   using Held = std::remove_cvref_t<std::invoke_result_t<Read, const T&>>;
 
-  std::function<Value(const T&)> read_;
+  template <class Read, class U>
+  struct Typed {
+    Read read;
+    const RecordType<U>* type;
+  };
+  // A std::function would compile several functions for each of a thousand fields.
+  struct Reader {
+    using Function = Value (*)(const T&, const void* held);
+    template <class H>
+    Reader(const H& what, Function how) : function(how) {
+      static_assert(std::is_trivially_copyable_v<H> && sizeof(H) <= sizeof(held));
+      ::new (static_cast<void*>(held)) H(what);
+    }
+    Value operator()(const T& of) const { return function(of, held); }
+    alignas(void*) unsigned char held[4 * sizeof(void*)];
+    Function function;
+  };
+  Reader read_;
   std::string effect_{};
   bool where_known_ = false;
   Dimension (*unit_)(const T&) = nullptr;
