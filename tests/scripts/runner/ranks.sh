@@ -5,6 +5,8 @@
 # ranks; and a plain run touches nothing of MPI. Exit status 77: this machine has no MPI, or not the part.
 #
 #   tests/scripts/runner/ranks.sh PROGRAM FOLDER
+#
+# Three ranks alone; with ASPERITY_WHOLE=1 in the environment, one and two ranks as well.
 set -eu
 . "$(dirname "$0")/saying.sh"
 program=$1
@@ -50,7 +52,7 @@ if ending == "cannot" then outside:press{ pressure = -1 } end
 LUA
 
 "$program" run study.lua --out plain > plain.txt 2> plain.err
-for k in 1 2 3; do
+for k in ${ASPERITY_WHOLE:+1 2} 3; do
   ranks $k "$program" run study.lua --threads 1 --out with-$k > with-$k.txt 2> with-$k.err ||
     { cat with-$k.err; fail "$k ranks failed"; }
   cmp plain.txt with-$k.txt || fail "$k ranks: other output"

@@ -5,6 +5,8 @@
 # error, an interrupt or a kill in one rank ends all. Exit status 77: this machine has no MPI, or not the part.
 #
 #   tests/scripts/runner/spread.sh PROGRAM FOLDER SCRIPT      SCRIPT: tests/scripts/spread.lua
+#
+# SCRIPT runs on three ranks; with ASPERITY_WHOLE=1 in the environment, on two and five ranks as well.
 set -eu
 . "$(dirname "$0")/saying.sh"
 program=$1
@@ -17,7 +19,7 @@ cd "$folder"
 . "$here/mpi_ranks.sh"
 grep -q libfftw3_mpi "$(dirname "$program")/asperity-mpi.so" || skip "built without FFTW's MPI transforms"
 
-for k in 2 3 5; do
+for k in ${ASPERITY_WHOLE:+2 5} 3; do
   ranks $k "$program" run "$script" --threads 1 --out all-$k > all-$k.txt 2>&1 ||
     { cat all-$k.txt; fail "$k ranks: the script failed"; }
   says "over ranks as in one process" all-$k.txt
