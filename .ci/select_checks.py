@@ -17,7 +17,8 @@ import re
 import subprocess
 import sys
 
-import base as recorded
+sys.dont_write_bytecode = True
+import base as recorded  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
