@@ -74,8 +74,8 @@ def plan(root=ROOT):
         return None, "full", f"{refused}: everything runs"
     only_the_record = set(differing(commit, root) or ()) <= {CHECKED}
     if passes + 1 >= FULL_EVERY and not only_the_record:
-        return None, "full", f"{passes} short passes since the last full one: everything runs"
-    return commit, "short", f"compared with commit {commit[:12]}, {passes} passes after the last full one"
+        return None, "full", f"short passes since the last full one: {passes}, so everything runs"
+    return commit, "short", f"compared with commit {commit[:12]}; short passes since the last full one: {passes}"
 
 
 def write(commit, mode, before, steps, root=ROOT):

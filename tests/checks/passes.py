@@ -92,7 +92,7 @@ with tempfile.TemporaryDirectory() as root:
     change(base.CHECKED, re.sub(r"^(last \S+ \S+ \S+) 1 ", rf"\1 {base.FULL_EVERY - 1} ", short, flags=re.M))
     expect(base.plan(root)[1] == "short", "the record alone calls for a full pass")
     change("engine/a.cpp", "3\n")
-    refused(f"{base.FULL_EVERY - 1} short passes")
+    refused(f"since the last full one: {base.FULL_EVERY - 1}, so everything runs")
     expect("commit this file" in passes("full") and base.plan(root)[1] == "short", "a full pass does not begin a new count")
     change(base.CHECKED, re.sub(r"^(last \S+ \S+ \S+) 1 ", rf"\1 {base.FULL_EVERY - 2} ", short, flags=re.M))
     expect(base.plan(root)[:2] == (second, "short"), "a pass before the fiftieth is a full one")
