@@ -4,7 +4,8 @@
 // Arguments: cells a side, threads. `bare_pair` is an in-place r2c and c2r of a plan that FFTW took the
 // time to measure, without a multiplication; `free_compliance` works on the padded grid of twice the
 // side. The free set of the preconditioner is two fifths of the nodes, in patches of some 8 cells, the
-// kind with the longest edge. Compare times of one run.
+// kind with the longest edge. Compare times of one run. `signals_by_fftw` and `signals_in_lanes` transform
+// complex signals forth and back, one after another or eight at once; items_per_second counts signals.
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
@@ -15,6 +16,7 @@
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 #include "engine/core/arithmetic/random.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
@@ -54,6 +56,33 @@ void bare_pair(benchmark::State& run) {
   fftw_destroy_plan(forward);
   fftw_destroy_plan(inverse);
   fftw_plan_with_nthreads(1);
+}
+
+void signals_by_fftw(benchmark::State& run) {
+  const auto n = static_cast<int>(run.range(0));
+  Array<double> values(2 * static_cast<std::size_t>(n));
+  auto* const signal = reinterpret_cast<fftw_complex*>(values.data());
+  const fftw_plan forward = fftw_plan_dft_1d(n, signal, signal, FFTW_FORWARD, FFTW_MEASURE);
+  const fftw_plan inverse = fftw_plan_dft_1d(n, signal, signal, FFTW_BACKWARD, FFTW_MEASURE);
+  std::fill(values.begin(), values.end(), 0.0);
+  for (auto _ : run) {
+    fftw_execute(forward);
+    fftw_execute(inverse);
+  }
+  run.SetItemsProcessed(run.iterations());
+  fftw_destroy_plan(forward);
+  fftw_destroy_plan(inverse);
+}
+
+void signals_in_lanes(benchmark::State& run) {
+  const BatchFourier batch(static_cast<int>(run.range(0)));
+  BatchFourier::Work work(batch);
+  std::fill(work.values.begin(), work.values.end(), BatchFourier::Lane{});
+  for (auto _ : run) {
+    batch.forward(work);
+    batch.inverse(work);
+  }
+  run.SetItemsProcessed(run.iterations() * BatchFourier::columns);
 }
 
 void compliance(benchmark::State& run, Boundary boundary) {
@@ -111,6 +140,8 @@ void cells_and_threads(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
+BENCHMARK(signals_by_fftw)->Arg(512)->Arg(520)->Arg(521);
+BENCHMARK(signals_in_lanes)->Arg(512)->Arg(520)->Arg(521);
 BENCHMARK(bare_pair)->Apply(cells_and_threads);
 BENCHMARK(periodic_compliance)->Apply(cells_and_threads);
 BENCHMARK(free_compliance)->Apply(cells_and_threads);
