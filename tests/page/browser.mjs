@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 export const build = process.env.ASPERITY_PAGE_BUILD;
@@ -13,14 +13,23 @@ const require = createRequire(join(build, 'page-build', 'package.json'));
 const puppeteer = require('puppeteer-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
-// ms after which a knob that a live script follows counts as at rest.
-const knobs = readFileSync(new URL('../../bindings/web/page/src/knobs.ts', import.meta.url), 'utf8');
-const restAlive = Number(/restAlive = (\d+)/.exec(knobs)[1]);
+/** ms after which a wait counts as a hang; no wait takes a twentieth of it on a quiet machine. */
+const patience = 600_000;
+
+/** ms of the page's timers that wait for a hand to rest or play pictures. */
+const sources = ['knobs.ts', 'scrub.ts', 'main.ts'].map((name) =>
+  readFileSync(new URL(`../../bindings/web/page/src/${name}`, import.meta.url), 'utf8'),
+);
+const delays = ['rest', 'restAlive', 'playedFor', 'toldAfter'].map((name) =>
+  Number(new RegExp(`const ${name} = (\\d+)`).exec(sources.join(''))[1]),
+);
 
 export async function openBrowser() {
   return (puppeteer.default ?? puppeteer).launch({
     executablePath: process.env.CHROMIUM,
     headless: true,
+    timeout: patience,
+    protocolTimeout: patience,
     args: [
       '--no-sandbox',
       '--disable-dev-shm-usage',
@@ -38,6 +47,7 @@ export async function openPage(browser, url, { scheme = 'light', width = 1280, h
     downloads ? { downloadBehavior: { policy: 'allow', downloadPath: downloads } } : {},
   );
   const page = await context.newPage();
+  page.setDefaultTimeout(patience);
   await page.setViewport({ width, height });
   await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
   const complaints = [];
@@ -77,19 +87,29 @@ export async function assertQuiet(page) {
 
 export const pause = (ms) => new Promise((r) => setTimeout(r, ms));
 
-/** Waits until what matches is no longer drawn anew. */
-export async function settled(page, selector) {
-  const seen = () => page.$$eval(selector, (all) => all.map((e) => e.outerHTML).join());
-  for (let now = await seen(), before; now !== before; now = await seen()) {
+/** Waits until all that the page has to draw by now is on the screen: a frame may ask for one more. */
+export const painted = (page) =>
+  page.evaluate(async () => {
+    for (let frame = 0; frame < 3; ++frame) await new Promise(requestAnimationFrame);
+  });
+
+/** Waits until `look` finds the same after some frames. */
+export async function settled(page, look) {
+  for (let now = await look(), before; now !== before; now = await look()) {
     before = now;
-    await pause(300);
+    await painted(page);
   }
+}
+
+/** Waits until `test` is true; it may look at processes, files or the page. */
+export async function comesTrue(test, what) {
+  for (const end = Date.now() + patience; !(await test()); await pause(20)) assert.ok(Date.now() < end, what);
 }
 
 /** Waits until `test` is true of the page. */
 export async function until(page, test, what, ...args) {
   try {
-    await page.waitForFunction(test, { timeout: 20_000, polling: 50 }, ...args);
+    await page.waitForFunction(test, { polling: 50 }, ...args);
   } catch {
     const said = await page.evaluate(() => JSON.stringify(window.said ?? []));
     const seen = await page.evaluate(() => document.body.innerText.slice(0, 1500));
@@ -97,21 +117,50 @@ export async function until(page, test, what, ...args) {
   }
 }
 
-/**
- * Notes from here on what the status says, beside what the picture shows: a word may go before it is asked for. A knob
- * counts as at rest, and its values are run and recorded, after ten times as long: no machine is too slow to answer before.
- */
-export const listen = (page) =>
-  page.evaluate((rest) => {
+/** From here on hands rest and pictures go on only when the test says so: by `tick` once, or from `release` on by the clock. */
+export const hold = (page) =>
+  page.evaluate((held) => {
+    window.release?.();
+    window.held = new Map();
+    const [wait, forget] = [window.setTimeout, window.clearTimeout];
+    let last = 0;
+    window.setTimeout = (act, ms, ...args) => {
+      if (!held.includes(ms)) return wait(act, ms, ...args);
+      window.held.set(--last, act);
+      return last;
+    };
+    window.clearTimeout = (timer) => window.held.delete(timer) || forget(timer);
+    window.tick = () => {
+      const due = [...window.held.values()];
+      window.held.clear();
+      due.forEach((act) => act());
+    };
+    window.release = () => {
+      [window.setTimeout, window.clearTimeout, window.release] = [wait, forget, undefined];
+      window.tick();
+    };
+  }, delays);
+
+export const release = (page) => page.evaluate(() => window.release?.());
+
+/** Lets the time pass for which a timer is held, as soon as there is one. */
+export async function tick(page) {
+  await until(page, () => window.held.size > 0, 'the page should wait for time to pass');
+  await page.evaluate(() => window.tick());
+}
+
+/** Notes from here on what the status says, beside what the picture shows; values are recorded only after `finished` is asked for. */
+export async function listen(page) {
+  await hold(page);
+  await page.evaluate(() => {
     window.said = [];
-    const wait = (window.plainTimeout ??= window.setTimeout);
-    window.setTimeout = (act, ms, ...args) => wait(act, ms === rest ? 10 * ms : ms, ...args);
     const [status, relief] = ['#status', '.relief'].map((s) => document.querySelector(s));
     const note = () => window.said.push({ status: status.textContent, picture: relief.getAttribute('aria-label') ?? '' });
     const observer = new MutationObserver(note);
     observer.observe(status, { childList: true, characterData: true, subtree: true });
     observer.observe(relief, { attributes: true, attributeFilter: ['aria-label'] });
-  }, restAlive);
+  });
+}
 
 /** Waits until the status has said this since `listen`, at a time when the picture's title began so. */
 export const untilSaid = (page, status, picture = '') =>
@@ -159,22 +208,42 @@ export async function write(page, script) {
   }, script);
 }
 
+const runOf = (page) => page.evaluate(() => sessionStorage.getItem('asperity.run'));
+
 export async function run(page, script) {
   await write(page, script);
+  page.before = await runOf(page);
   await chord(page, 'Control', 'Enter');
 }
 
-export const finished = (page, status = 'Done') =>
-  until(
+/** Waits for the end of the run that `run` or a knob at rest begins, and until its results are drawn. */
+export async function finished(page, status = 'Done') {
+  await release(page);
+  await comesTrue(async () => (await runOf(page)) !== (page.before ?? null), 'a run should begin');
+  await painted(page);
+  await until(
     page,
-    (s) => document.querySelector('#status').textContent.startsWith(s),
+    (s) => new RegExp(`^(${s})`).test(document.querySelector('#status').textContent),
     `the run should end with ${status}`,
     status,
   );
+  await painted(page);
+  page.before = await runOf(page);
+}
+
+/** Saves the run to a folder that was empty; the path of the file. */
+export async function save(page, downloads) {
+  await page.click('#save');
+  await until(page, () => document.querySelector('#live').textContent.startsWith('Saved'), 'the run should be saved');
+  assert.equal(await text(page, '#live'), 'Saved.');
+  const files = () => readdirSync(downloads).filter((f) => f.endsWith('.html'));
+  await comesTrue(() => files().length > 0, 'the file should be there');
+  return join(downloads, files()[0]);
+}
 
 /** Takes what an element looks like now into the page, as `shot`. */
 async function shoot(page, selector) {
-  await pause(150);
+  await painted(page);
   const shot = await (await page.$(selector)).screenshot({ encoding: 'base64' });
   await page.evaluate(async (data) => {
     const image = new Image();

@@ -139,12 +139,12 @@ function knobIn(line, given) {
 
 /** Lines of the script that say what to do: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`,
     `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
-function* eventsOf(script, knobs = {}) {
+function* eventsOf(script, knobs, mock) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
   if (waits) {
     yield { type: 'waiting', before: waits };
-    yield 800;
+    while (mock.full) yield 20;
   }
   yield { type: 'started' };
   if (!/mock\.plain/.test(script)) yield { type: 'view', name: 'surface-1', title: 'Surface 1: weierstrass_mandelbrot' };
@@ -207,7 +207,7 @@ function* eventsOf(script, knobs = {}) {
       return;
     }
     if (/while true/.test(line)) {
-      for (let m = 0; m < 600; ++m) {
+      for (let m = 0; ; m = Math.min(m + 1, 599)) {
         yield 100;
         yield {
           type: 'progress',
@@ -266,7 +266,8 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
   const told = []; // what students put up
   const runs = new Map();
   let cut = 0; // how many event streams to break off
-  const start = (script, name, knobs) => {
+  const mock = { full: false }; // while it is, runs of `mock.waits` wait
+  const start = (script, name, knobs = {}) => {
     const run = { id: String(runs.size + 1), name, script, knobs, events: [], waiters: new Set(), stopped: false };
     const put = (event) => {
       run.events.push({ n: run.events.length + 1, ...event });
@@ -274,7 +275,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
     };
     runs.set(run.id, run);
     (async () => {
-      for (const event of eventsOf(script, knobs)) {
+      for (const event of eventsOf(script, knobs, mock)) {
         if (run.stopped) return put({ type: 'finished', status: 'stopped', exit: 130, seconds: 0.5 });
         if (typeof event === 'number') await new Promise((r) => setTimeout(r, event));
         else put(event);
@@ -433,14 +434,18 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
   });
   await new Promise((r) => server.listen(port, '127.0.0.1', r));
   const address = `http://127.0.0.1:${server.address().port}`;
-  return {
+  return Object.assign(mock, {
     address,
     runs,
     url: `${address}/#${token}`,
     cut: (count) => (cut = count),
     told,
-    close: () => new Promise((r) => (server.closeAllConnections?.(), server.close(r))),
-  };
+    quiet: () => [...runs.values()].every(over),
+    close: () => {
+      runs.forEach((run) => (run.stopped = true));
+      return new Promise((r) => (server.closeAllConnections?.(), server.close(r)));
+    },
+  });
 }
 
 if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {

@@ -4,14 +4,12 @@
 
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, test as register } from 'node:test';
+import { basename, join } from 'node:path';
+import { after, before, test } from 'node:test';
 import * as on from './browser.mjs';
 import { startMock } from './mock_server.mjs';
-
-const test = (name, act) => register(name, { timeout: 90_000 }, act);
 
 let browser, mock;
 before(async () => {
@@ -85,15 +83,19 @@ for (const [width, height] of [
     visit({ width, height }, async (page) => {
       await page.click('.lessons li:nth-child(2) button');
       await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
-      await on.pause(400);
+      await on.settled(page, () => page.$eval('#lessons .called', (e) => JSON.stringify(e.getBoundingClientRect())));
       const { top, bottom } = await page.$eval('#lessons .called', (e) => e.getBoundingClientRect().toJSON());
       assert.ok(top >= 0 && bottom <= height, `the question is at ${top} to ${bottom}`);
-      const first = await page.evaluate(() => {
-        const root = document.querySelector('#editor').shadowRoot;
-        const from = root.querySelector('.cm-scroller').getBoundingClientRect().top;
-        return [...root.querySelectorAll('.cm-line')].find((l) => l.getBoundingClientRect().bottom > from + 4).textContent;
-      });
-      assert.match(first, /^local lab/);
+      await on.until(
+        page,
+        () => {
+          const root = document.querySelector('#editor').shadowRoot;
+          const from = root.querySelector('.cm-scroller').getBoundingClientRect().top;
+          const first = [...root.querySelectorAll('.cm-line')].find((l) => l.getBoundingClientRect().bottom > from + 4);
+          return first?.textContent.startsWith('local lab');
+        },
+        'the editor should begin with the code',
+      );
     }));
 
 test('Lesson, BackGoesToTheListAndForwardToTheLesson', () =>
@@ -220,11 +222,11 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     assert.deepEqual(sizes, { lines: 2, scrolls: true, bar: true });
     await page.focus('.output');
     const left = () => page.$eval('#output', (e) => e.scrollLeft);
-    for (let k = 0; k < 20 && (await left()) === 0; ++k) {
+    await on.comesTrue(async () => {
       await page.keyboard.press('ArrowRight');
-      await on.pause(100);
-    }
-    assert.ok((await left()) > 0, 'arrow keys should scroll it');
+      await on.painted(page);
+      return (await left()) > 0;
+    }, 'arrow keys should scroll it');
     await page.$eval('#output', (e) => (e.scrollLeft = 0));
     await on.assertFits(page, 'a wide table');
     await on.assertAccessible(page, 'a wide table');
@@ -363,12 +365,8 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
 test('Chart, BeginsWithWhatTheScriptCharts', () =>
   visit({}, async (page) => {
     const shown = async (script) => {
-      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
       await on.run(page, script);
-      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
-      await on.pause(100);
       await on.finished(page);
-      await on.pause(100);
       const [logX, logY] = await page.$$eval('.charts input[type=checkbox]', (boxes) => boxes.map((b) => b.checked));
       return { caption: await on.text(page, '.charts .caption'), logX, logY };
     };
@@ -408,6 +406,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
 test('Chart, ManyPointsDoNotHideTheirLine', async () => {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
   const blue = [11, 95, 165];
+  let file;
   try {
     await visit({ downloads }, async (page) => {
       await tab(page, 'chart');
@@ -425,16 +424,9 @@ test('Chart, ManyPointsDoNotHideTheirLine', async () => {
       }
       assert.match(await on.text(page, '.charts .caption'), /: 5000 points, too close together to be marked/);
       assert.equal((await page.$$('.chart svg circle')).length, 0);
-      await page.click('#save');
-      await on.until(
-        page,
-        () => document.querySelector('#live').textContent.startsWith('Saved'),
-        'the run should be saved',
-      );
-      for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+      file = await on.save(page, downloads);
     });
-    const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
-    const saved = await on.openPage(browser, `file://${join(downloads, name)}`);
+    const saved = await on.openPage(browser, `file://${file}`);
     assert.ok((await on.inked(saved, 'figure svg', blue)) > 0.65, 'and in the saved run');
     const picture = await (await saved.$('figure img')).boundingBox();
     assert.ok(picture.width > 500, `the script's chart in the saved run is ${picture.width} px wide`);
@@ -504,13 +496,18 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
 test('Picture, OfAnotherScriptHasAFactorOfItsOwn', () =>
   visit({}, async (page) => {
     const factor = async (script) => {
-      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
       await on.run(page, script);
-      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
       await on.finished(page);
       await tab(page, 'picture');
-      await on.until(page, () => !document.querySelector('.pictures').hidden, 'the picture should come');
-      await on.pause(400);
+      await on.until(
+        page,
+        () => {
+          const { id } = JSON.parse(sessionStorage.getItem('asperity.run'));
+          return performance.getEntriesByType('resource').some((e) => e.name.includes(`/api/runs/${id}/views/`));
+        },
+        'the picture should come',
+      );
+      await on.painted(page);
       return shown();
     };
     const shown = async () => /× (\d+) ·/.exec(await on.text(page, '.pictures .caption'))?.[1];
@@ -547,19 +544,23 @@ test('Picture, OfARunOneAfterTheOtherByKeysAlone', () =>
     assert.equal(await selected(), 'contact:press at 2 MPa');
     assert.equal(await page.$eval('.scrub', (e) => e.getAttribute('aria-valuetext')), '3 of 7: contact:press at 2 MPa');
     const third = await on.pixels(page);
+    await on.hold(page);
     await page.keyboard.down('Shift');
     await page.keyboard.press('Tab');
     await page.keyboard.up('Shift');
     assert.equal(await on.focused(page), 'Play');
     await page.keyboard.press('Space');
     assert.equal(await on.focused(page), 'Pause');
+    await place('4 of 7');
+    await on.tick(page);
     await place('5 of 7');
+    await on.until(page, () => window.held.size > 0, 'it should be shown');
     await page.keyboard.press('Space');
-    const kept = await on.text(page, '.scrubber output');
-    await on.pause(1000);
-    assert.equal(await on.text(page, '.scrubber output'), kept, 'a pause should hold');
+    assert.equal(await page.evaluate(() => window.held.size), 0, 'a pause should hold');
     assert.ok(on.differing(third, await on.pixels(page)) > 0.01, 'another picture should be seen');
     await page.keyboard.press('Space');
+    await place('6 of 7');
+    await on.release(page);
     await place('7 of 7');
     await on.until(page, () => document.querySelector('.scrubber button').textContent === 'Play', 'it should end');
     await page.keyboard.press('Space');
@@ -598,9 +599,11 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await knobSays(page, '10 MPa');
     await page.focus('.knobs input');
     const before = runs();
+    await on.hold(page);
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
     await knobSays(page, '10.23 MPa');
+    await on.release(page);
     await printed(page, 'pressure is 10230000');
     await printed(page, 'cells is 3');
     assert.equal(runs(), before + 1, 'two presses of a key are one move');
@@ -631,12 +634,18 @@ test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
     await on.run(page, '-- mock.knob p 0 4 1 one\n-- mock.waits 1\n');
     await printed(page, 'p is 1');
     await knobSays(page, '1 one');
+    await on.finished(page);
     const before = mock.runs.size;
+    mock.full = true;
     await page.focus('.knobs input');
     await page.keyboard.press('End');
     await on.until(page, () => document.querySelector('#status').textContent.startsWith('Waiting'), 'it should run again');
+    await on.hold(page);
     await page.keyboard.press('Home');
     await page.keyboard.press('ArrowRight');
+    await on.release(page);
+    await on.comesTrue(() => mock.runs.size === before + 2, 'a run of the new value should begin');
+    mock.full = false;
     await printed(page, 'p is 0.01');
     await on.finished(page);
     assert.equal(mock.runs.size, before + 2);
@@ -711,7 +720,10 @@ for (const scheme of ['light', 'dark']) {
       await on.finished(page);
       for (const name of ['output', 'table', 'chart', 'picture', 'files']) {
         await tab(page, name);
-        await on.pause(name === 'picture' ? 800 : 200);
+        if (name === 'picture')
+          await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
+        if (name === 'files') await on.until(page, () => document.querySelector('.previews img')?.complete, 'the chart should come');
+        await on.painted(page);
         await on.assertFits(page, name);
         await on.assertAccessible(page, name);
       }
@@ -738,7 +750,7 @@ for (const [width, height] of [
       await on.finished(page);
       await tab(page, 'picture');
       await on.until(page, () => document.querySelector('.key svg'), 'the colours should be shown');
-      await on.pause(500);
+      await on.painted(page);
       for (const field of ['pressure', 'contact', 'gap']) {
         await page.evaluate((name) => {
           const choice = [...document.querySelectorAll('#picture select')].find((s) =>
@@ -748,7 +760,7 @@ for (const [width, height] of [
           choice.value = name;
           choice.dispatchEvent(new Event('change', { bubbles: true }));
         }, field);
-        await on.pause(300);
+        await on.painted(page);
         const { key, caption } = await page.evaluate(() => {
           const box = (e) => {
             const { left, top, right, bottom } = e.getBoundingClientRect();
@@ -776,6 +788,7 @@ test('Script, OfTwoTabsBothAreKept', () =>
   visit({}, async (page) => {
     await on.write(page, 'print "one"\n');
     const other = await page.browserContext().newPage();
+    other.setDefaultTimeout(0);
     await other.goto(mock.url);
     await ready(other);
     assert.equal((await on.editorText(other)).trim(), 'print "one"');
@@ -815,14 +828,20 @@ test('Run, AskedForWhileAnotherGoesOnSaysSo', () =>
 // S1
 test('Run, SaysHowManyAreBeforeIt', () =>
   visit({}, async (page) => {
-    await on.listen(page);
+    mock.full = true;
     await on.run(page, '-- mock.waits 3\nfor N = 1, 8 do end\n');
-    await on.untilSaid(page, /Waiting for its turn, 3 before you/);
+    await on.until(
+      page,
+      () => /Waiting for its turn, 3 before you/.test(document.querySelector('#status').textContent),
+      'it should say how many are before it',
+    );
+    mock.full = false;
     await on.finished(page);
   }));
 
 test('Save, OneFileThatOpensAnywhere', async () => {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
+  let file;
   try {
     await visit({ downloads }, async (page) => {
       await page.click('.lessons button');
@@ -834,18 +853,10 @@ test('Save, OneFileThatOpensAnywhere', async () => {
       );
       await on.finished(page);
       await knobSays(page, '10 MPa');
-      await page.click('#save');
-      await on.until(
-        page,
-        () => document.querySelector('#live').textContent.startsWith('Saved'),
-        'the run should be saved',
-      );
-      assert.equal(await on.text(page, '#live'), 'Saved.');
-      for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+      file = await on.save(page, downloads);
     });
-    const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
-    assert.equal(name, 'what-roughness-is-and-what-a-stylus-misses.html');
-    const html = readFileSync(join(downloads, name), 'utf8');
+    assert.equal(basename(file), 'what-roughness-is-and-what-a-stylus-misses.html');
+    const html = readFileSync(file, 'utf8');
     assert.doesNotMatch(html, /\bsrc="(?!data:)|href="(?!data:)|url\(/i);
     // One script, and the policy lets that one run alone.
     const scripts = [...html.matchAll(/<script>([^]*?)<\/script>/g)].map((m) => m[1]);
@@ -856,7 +867,7 @@ test('Save, OneFileThatOpensAnywhere', async () => {
     const saved = await on.openPage(browser);
     const asked = [];
     saved.on('request', (r) => asked.push(r.url()));
-    await saved.goto(`file://${join(downloads, name)}`);
+    await saved.goto(`file://${file}`);
     const shown = await saved.evaluate(() => document.body.innerText);
     assert.match(shown, /<\/script><script>window\.injected=1<\/script> & "quoted"/);
     assert.match(shown, /<\/pre><b>bold<\/b>/);
@@ -930,7 +941,7 @@ test('Messages, RunsAtTheirLimitAndARunThatReachedOne', () =>
         (i) => fetch(`/api/runs/${i}`, { method: 'DELETE', headers: { Authorization: 'Bearer testtoken' } }),
         id,
       );
-    await on.pause(400);
+    await on.comesTrue(mock.quiet, 'the others should end');
     await on.run(page, '-- mock.limit\n');
     await on.finished(page, 'Ended at a limit');
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);

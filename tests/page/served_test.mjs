@@ -12,14 +12,13 @@ import * as on from './browser.mjs';
 
 const program = process.env.ASPERITY_PROGRAM;
 const serves = spawnSync(program, ['serve', '--help']).status === 0;
-const test = (name, act) =>
-  register(name, { timeout: 120_000, skip: serves ? false : 'this program has no `asperity serve`' }, act);
+const test = (name, act) => register(name, { skip: serves ? false : 'this program has no `asperity serve`' }, act);
 
 let browser, server, url, folder;
 before(async () => {
   if (!serves) return;
   folder = mkdtempSync(join(tmpdir(), 'asperity-served-'));
-  server = spawn(program, ['serve', '--out', join(folder, 'runs'), '--limit-time', '60s']);
+  server = spawn(program, ['serve', '--out', join(folder, 'runs'), '--limit-time', '1h']);
   url = await new Promise((resolve, reject) => {
     let said = '';
     const hear = (data) => {
@@ -195,9 +194,10 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
     await on.listen(page);
     await page.focus('.knobs input');
-    // The first makes the surface, and the second tells how long the whole takes.
-    for (let k = 0; k < 3; ++k) {
-      await page.evaluate(() => (window.said = []));
+    // The first makes the surface, and the second tells how long the whole takes. A whole answer that comes before the
+    // coarse one is drawn hides it.
+    let coarse;
+    await on.comesTrue(async () => {
       await page.keyboard.press('ArrowRight');
       await on.until(
         page,
@@ -207,9 +207,10 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
         'the whole should be answered',
         await on.text(page, '.knobs output'),
       );
-    }
-    const coarse = await page.evaluate(() => window.said.find((e) => e.status.startsWith('Live, coarse')));
-    assert.match(coarse?.status, /^Live, coarse: 1\/\d+ of the cells a side; the whole follows/);
+      coarse = await page.evaluate(() => window.said.find((e) => e.status.startsWith('Live, coarse')));
+      return coarse;
+    }, 'a coarse answer should come first');
+    assert.match(coarse.status, /^Live, coarse: 1\/\d+ of the cells a side; the whole follows/);
   }));
 
 test('Knob, ItsProcessGoesWithTheTab', async () => {
@@ -221,12 +222,11 @@ test('Knob, ItsProcessGoesWithTheTab', async () => {
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
     await on.untilSaid(page, /^Live in/);
-    await on.finished(page);
     const alive = processes().filter((p) => !before.includes(p));
     assert.equal(alive.length, 1);
+    await on.finished(page);
     await page.goto('about:blank');
-    for (let k = 0; k < 100 && processes().includes(alive[0]); ++k) await on.pause(50);
-    assert.ok(!processes().includes(alive[0]));
+    await on.comesTrue(() => !processes().includes(alive[0]), 'its process should end');
     await page.goBack();
     await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
   });
@@ -242,10 +242,10 @@ test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
     await answered();
-    await on.finished(page);
     const [alive] = processes().filter((p) => !before.includes(p));
+    await on.finished(page);
     process.kill(Number(alive), 'SIGKILL');
-    for (let k = 0; k < 100 && processes().includes(alive); ++k) await on.pause(50);
+    await on.comesTrue(() => !processes().includes(alive), 'its process should end');
     await on.listen(page);
     await page.keyboard.press('ArrowRight');
     await answered();
@@ -274,6 +274,7 @@ test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
 test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
   const downloads = join(folder, 'saved');
   mkdirSync(downloads);
+  let file;
   await visit({ downloads }, async (page) => {
     assert.ok((await page.$$('.lessons button')).length >= 8);
     await page.click('.lessons li:nth-child(4) button');
@@ -315,18 +316,10 @@ test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
       'the charts of the script should be seen',
     );
     await on.assertFits(page, 'the files');
-    await page.click('#save');
-    await on.until(
-      page,
-      () => document.querySelector('#live').textContent.startsWith('Saved'),
-      'the run should be saved',
-    );
-    assert.equal(await on.text(page, '#live'), 'Saved.');
-    for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+    file = await on.save(page, downloads);
   });
-  const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
-  assert.match(readFileSync(join(downloads, name), 'utf8'), /edited by a reader/);
-  const saved = await on.openPage(browser, `file://${join(downloads, name)}`);
+  assert.match(readFileSync(file, 'utf8'), /edited by a reader/);
+  const saved = await on.openPage(browser, `file://${file}`);
   assert.ok(
     await saved.evaluate(
       () => document.querySelectorAll('svg image').length > 0 && document.querySelectorAll('tbody tr').length > 0,

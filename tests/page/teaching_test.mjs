@@ -4,11 +4,10 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test as register } from 'node:test';
+import { after, before, test } from 'node:test';
 import * as on from './browser.mjs';
 import { startMock } from './mock_server.mjs';
 
-const test = (name, act) => register(name, { timeout: 90_000 }, act);
 const root = new URL('../../', import.meta.url);
 
 let browser, mock;
@@ -36,10 +35,8 @@ const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${ro
 
 /** Runs a script and shows its first chart, whose caption says that it has so many points. */
 async function charted(page, script, points) {
-  const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
   await on.run(page, script);
-  await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
-  await on.until(page, () => /^(Done|Failed)/.test(document.querySelector('#status').textContent), 'it should end');
+  await on.finished(page, 'Done|Failed');
   await page.click('#tab-chart');
   await on.until(
     page,
@@ -144,7 +141,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
       await page.setViewport({ width, height });
       for (const n of [2, 5, 60]) {
         await charted(page, script(n), 2 * n);
-        await on.settled(page, '.chart svg'); // a window of another size is drawn anew
+        await on.settled(page, () => page.$eval('.chart svg', (e) => e.outerHTML)); // a window of another size is drawn anew
         const labels = await ticks(page, 'x');
         assert.ok(labels.length >= 2 && labels.length <= n, `${width}: ${labels.length} of ${n} names`);
         if (n <= 5) assert.equal(labels.length, n, `${width}: every one of ${n} names`);
@@ -225,9 +222,7 @@ for (const [width, height] of [
 test('Table, OfARunThatIsOverBeginsWithItsFirstRow', () =>
   visit({}, async (page) => {
     const rows = async (script) => {
-      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
       await on.run(page, script);
-      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
       await on.finished(page);
     };
     const place = () => page.$eval('.scroll.table', (e) => [e.scrollTop, e.scrollHeight - e.clientHeight - e.scrollTop < 2]);
@@ -261,10 +256,8 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
   visit({}, async (page) => {
     const selected = () => page.$eval('#tabs [aria-selected=true]', (e) => e.id);
     const ran = async (script) => {
-      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
       await on.run(page, script);
-      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
-      await on.until(page, () => /^(Done|Failed)/.test(document.querySelector('#status').textContent), 'it should end');
+      await on.finished(page, 'Done|Failed');
       return selected();
     };
     const made = book(9, 'x="v", y="i"');
@@ -465,7 +458,7 @@ test('Results, FillTheWindowByKeysAndGoBack', () =>
     await page.keyboard.press('Enter');
     const box = await (await page.$('#results')).boundingBox();
     assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, 960, 540]);
-    await on.pause(300);
+    await on.painted(page);
     const chart = await (await page.$('.chart svg')).boundingBox();
     assert.ok(chart.height > 320 && chart.width > 880, `${chart.width} x ${chart.height}`);
     assert.equal(await page.$eval('#fill', (e) => e.getAttribute('aria-pressed')), 'true');
@@ -476,7 +469,7 @@ test('Results, FillTheWindowByKeysAndGoBack', () =>
     await on.assertAccessible(page, 'filling the window');
     await page.click('#tab-picture');
     await on.until(page, () => document.querySelector('.key svg'), 'the picture should come');
-    await on.pause(300);
+    await on.painted(page);
     assert.ok((await (await page.$('.stage')).boundingBox()).height > 230);
     await page.keyboard.press('Escape');
     assert.equal(await page.$eval('#results', (e) => e.classList.contains('filling')), false);
@@ -553,8 +546,8 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
         return e.scrollTop;
       }, to);
     // What was written is followed to its end, and only then something else is looked at.
-    for (let k = 0; k < 100 && (await scrolled(null)) < 1300; ++k) await on.pause(50);
-    await on.pause(300);
+    await on.comesTrue(async () => (await scrolled(null)) >= 1300, 'the end should be shown');
+    await on.settled(page, () => scrolled(null));
     await scrolled(1200);
     const seen = (words) =>
       on.until(
@@ -570,7 +563,7 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
       );
     await seen('Ra=nil');
     await page.type('.guesses input', '0.25');
-    await on.pause(300);
+    await on.painted(page);
     await seen('Ra=0.25');
     const kept = await page.evaluate(() => localStorage.getItem('asperity.script.lesson.01_roughness'));
     assert.match(kept, /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
@@ -625,8 +618,10 @@ test('Room, AStudentPredictsAndAsksForHelp', async () => {
         await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'true', 'it should be asked');
         await page.click('.lessons button');
         await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+        await on.hold(page);
         await page.type('.guesses input', '0.25');
-        for (let k = 0; k < 40 && server.told.length < 2; ++k) await on.pause(50);
+        await on.release(page);
+        await on.comesTrue(() => server.told.length === 2, 'the prediction should be told');
         await page.click('#help-button');
         await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'false', 'and taken back');
         assert.deepEqual(server.told, [

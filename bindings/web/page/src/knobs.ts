@@ -21,7 +21,7 @@ export interface Knob {
 
 const steps = 400; // of a slider
 const rest = 250; // ms without a move after which the script is run
-const restAlive = 900; // the same where it followed the move; tests/page/browser.mjs makes it longer
+const restAlive = 900; // the same where it followed the move
 
 /** The knobs of a manifest; a run that was cut off may know a value alone, which has no slider. */
 export function knobsIn(manifest: unknown): Knob[] {

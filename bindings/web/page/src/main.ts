@@ -139,6 +139,7 @@ function showResults(): void {
   if (innerWidth <= oneColumn) byId('results').scrollIntoView();
 }
 
+const toldAfter = 600; // ms without a change
 let toTell = 0;
 
 /** Numbers predicted in a lesson; a room's teacher sees them. */
@@ -146,7 +147,7 @@ function predicted(lesson: string, guesses: Guess[]): void {
   if (!about?.classroom) return;
   const numbers = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
   clearTimeout(toTell);
-  toTell = window.setTimeout(() => api.predict(lesson, numbers).catch(failed), 600);
+  toTell = window.setTimeout(() => api.predict(lesson, numbers).catch(failed), toldAfter);
 }
 
 function showDocument(): void {
