@@ -126,6 +126,7 @@ Json to_json(const ConfinedRequest& request) {
                        {"memory_bytes", c.memory_bytes},
                        {"file_bytes", c.file_bytes},
                        {"processor_seconds", c.processor_seconds},
+                       {"parent", static_cast<std::int64_t>(::getpid())},
                        {"script", request.script},
                        {"name", request.name},
                        {"seed", request.seed},
@@ -150,6 +151,7 @@ ConfinedRequest confined_request(const Json& json) {
   request.confinement.memory_bytes = whole(json, "memory_bytes");
   request.confinement.file_bytes = whole(json, "file_bytes");
   request.confinement.processor_seconds = whole(json, "processor_seconds");
+  if (json.find("parent") != nullptr) request.confinement.parent = whole(json, "parent");
   request.script = request_member(json, "script").string();
   request.name = request_member(json, "name").string();
   request.seed = whole(json, "seed");

@@ -107,7 +107,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
     else
       missing.push_back(name + " (" + problem + ")");
   };
-  const pid_t parent = ::getppid();
+  const auto parent = confinement.parent > 0 ? static_cast<pid_t>(confinement.parent) : ::getppid();
   set_limits(confinement);
   const Namespaces own = enter_namespaces();
   note("a network of its own", own.network);

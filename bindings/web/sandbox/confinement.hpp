@@ -36,6 +36,7 @@ struct Confinement {
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
   std::int64_t processor_seconds = 60;                // of all its threads together
   int threads = 1;                                    // it means to use
+  std::int64_t parent = 0;  // the process that it does not outlive; 0: its parent when confine() is called
 };
 
 // One way out, and what stands in it.
