@@ -4,10 +4,9 @@
 import json
 import os
 import tempfile
-import time
 
 import runner
-from client import Server, chart, finished
+from client import Server, chart, finished, until
 
 
 def test_a_token_is_needed():
@@ -103,7 +102,7 @@ def test_a_refused_request_is_never_read_as_another():
             "a control character": f"GET /api/about HTTP/1.1\r\n{head}X: a\x01b\r\n{length}\r\n",
         }
         for what, text in outer.items():
-            client = server.connect(timeout=15)
+            client = server.connect()
             client.sendall((text + hidden + hidden).encode())
             answers = b""
             try:
@@ -114,7 +113,7 @@ def test_a_refused_request_is_never_read_as_another():
             client.close()
             assert answers.count(b"HTTP/1.1 ") == 1 and b" 200 " not in answers.split(b"\r\n")[0], (what, answers[:300])
         # Two that are whole come one after the other on one connection.
-        client = server.connect(timeout=15)
+        client = server.connect()
         client.sendall((hidden + hidden.replace("Host", "Connection: close\r\nHost")).encode())
         answers = b""
         while piece := client.recv(65536):
@@ -146,10 +145,7 @@ def test_no_argument_of_a_program_holds_a_key():
         os.environ["PATH"] = folder + ":" + path
         try:
             with Server(runner.program, "--open") as server:
-                for _ in range(200):
-                    if os.path.exists(folder + "/opened") and os.path.getsize(folder + "/opened"):
-                        break
-                    time.sleep(0.05)
+                until(lambda: os.path.exists(folder + "/opened") and os.path.getsize(folder + "/opened"), "nothing was opened")
                 opened = open(folder + "/opened").read().strip()
                 assert server.token in open(opened).read() and f"http://{server.host}/#" in open(opened).read()
                 assert os.stat(opened).st_mode & 0o777 == 0o600, oct(os.stat(opened).st_mode)
@@ -176,13 +172,13 @@ def test_paths_lead_nowhere_else():
         for name in ("../events.jsonl", "%2e%2e/events.jsonl", "..%2fevents.jsonl", "%2fetc%2fpasswd", "/etc/passwd",
                      "./line.csv", "a/../line.csv", "link.csv", "folder/passwd", "pipe.csv", "", ".", "..",
                      ".views/surface-1.json", "line.csv%00.svg", "line.csv/", "line.csv/x", "store", "%c0%ae%c0%ae/x"):
-            answer = server.ask("GET", "/api/runs/1/files/" + name, timeout=5)
+            answer = server.ask("GET", "/api/runs/1/files/" + name)
             assert answer.status in (404, 400, 414), (name, answer.status, answer.body[:100])
         for name in ("../line.csv", "..%2fline", "%2e%2e%2fmanifest", "/", "a.json", ""):
-            assert server.ask("GET", "/api/runs/1/views/" + name, timeout=5).status in (404, 400), name
+            assert server.ask("GET", "/api/runs/1/views/" + name).status in (404, 400), name
         for path in ("/api/runs/../runs/1", "/api/runs/2", "/api/runs/-1", "/api/runs/1e0", "/api/runs/01/events",
                      "/index.html/../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/..%5c..%5cetc"):
-            assert server.ask("GET", path, timeout=5).status in (404, 400), path
+            assert server.ask("GET", path).status in (404, 400), path
         assert server.ask("GET", "/api/runs/1/files/line.csv").status == 200
 
 

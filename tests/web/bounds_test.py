@@ -6,7 +6,7 @@ import threading
 import time
 
 import runner
-from client import Server, finished, printed
+from client import Server, finished, printed, until
 
 
 def test_requests_that_are_too_long_are_refused():
@@ -49,9 +49,7 @@ def test_slow_clients_are_cut_off_and_keep_nobody_out():
             except OSError:
                 pass
             slow.append(connection)
-        begun = time.monotonic()
-        assert server.ask("GET", "/api/about", timeout=20).status == 200
-        print(f"answered in {time.monotonic() - begun:.3f} s among {len(slow)} slow clients")
+        assert server.ask("GET", "/api/about").status == 200
         assert finished(server.run("print(1)"))["status"] == "done"
         # A byte every second does not keep one open.
         def closed(connection):
@@ -62,19 +60,15 @@ def test_slow_clients_are_cut_off_and_keep_nobody_out():
             except OSError:
                 return True
         dripping = slow[-1]
-        for _ in range(30):
-            if closed(dripping):
-                break
+        def given_up():
             try:
                 dripping.send(b"x")
+                time.sleep(1)
             except OSError:
-                break
-            time.sleep(1)
-        else:
-            raise AssertionError("a connection that drips is open after half a minute")
-        time.sleep(2)
-        still = sum(not closed(connection) for connection in slow)
-        assert still == 0, f"{still} of {len(slow)} slow connections are open"
+                pass
+            return closed(dripping)
+        until(given_up, "a connection that drips stays open")
+        until(lambda: all(map(closed, slow)), "slow connections stay open")
         for connection in slow:
             connection.close()
 
@@ -90,14 +84,13 @@ def test_who_does_not_fetch_is_given_up():
             connection.sendall(f"GET /api/runs/{run}/events HTTP/1.1\r\nHost: {server.host}\r\n"
                                f"Authorization: Bearer {server.token}\r\n\r\n".encode())
             lazy.append(connection)
-        assert server.ask("GET", "/api/about", timeout=5).status == 200
+        assert server.ask("GET", "/api/about").status == 200
         for connection in lazy:
             connection.close()
 
 
 def test_two_hundred_runs_at_once():
     with Server(runner.program, "--runs", "4") as server:
-        begun = time.monotonic()
         runs = []
         def begin(k):
             runs.append((k, server.begin(f"print({k})", name=f"run {k}")))
@@ -106,17 +99,15 @@ def test_two_hundred_runs_at_once():
             thread.start()
         for thread in threads:
             thread.join()
-        accepted = time.monotonic() - begun
         assert len(runs) == 200
         outcomes = {}
         def follow(k, run):
-            outcomes[k] = server.events(run, timeout=300)
+            outcomes[k] = server.events(run)
         threads = [threading.Thread(target=follow, args=pair) for pair in runs]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        print(f"200 accepted in {accepted:.2f} s, finished in {time.monotonic() - begun:.1f} s")
         assert len(outcomes) == 200
         for k, events in outcomes.items():
             assert finished(events)["status"] == "done" and printed(events) == f"{k}\n", (k, events)

@@ -8,10 +8,9 @@ import re
 import struct
 import subprocess
 import tempfile
-import time
 
 import runner
-from client import Server, children_of, finished, of_type, printed
+from client import Server, children_of, finished, of_type, patience, printed, until
 
 
 escapes = {
@@ -49,21 +48,21 @@ def test_coroutines_do_not_get_round_the_limits():
     while true do local c = coroutine.wrap(go) pcall(c) end"""
     with Server(runner.program, "--limit-time", "2s") as server:
         end = finished(server.run(script))
-        assert end["status"] == "limit" and "time" in end["reason"] and end["seconds"] < 15, end
+        assert end["status"] == "limit" and "time" in end["reason"], end
 
 
 def test_pattern_bombs_are_ended():
     script = "print(string.find(string.rep('a', 100000), string.rep('a-', 60) .. 'b'))"
     with Server(runner.program, "--limit-time", "2s") as server:
         end = finished(server.run(script))
-        assert end["status"] == "limit" and end["seconds"] < 15, end
+        assert end["status"] == "limit", end
 
 
 def test_memory_bombs_are_ended():
     bombs = ["local t = {} for k = 1, 1e12 do t[k] = { k } end", "local s = 'x' while true do s = s .. s end",
              "local s = string.rep('x', 1 << 40)", "local t = table.pack(table.unpack({}, 1, 1e8))",
              "require('asperity').surface.flat{ cells=60000, size=1 }"]
-    with Server(runner.program, "--limit-memory", "200M", "--limit-time", "20s") as server:
+    with Server(runner.program, "--limit-memory", "200M") as server:
         for bomb in bombs:
             end = finished(server.run(bomb))
             assert end["status"] in ("limit", "failed") and end["exit"] != 0, (bomb, end)
@@ -72,14 +71,15 @@ def test_memory_bombs_are_ended():
 
 # T9
 def test_a_flood_of_output_is_cut_and_the_run_goes_on():
-    with Server(runner.program, "--limit-time", "3s") as server:
+    with Server(runner.program) as server:
         script = "for k = 1, 3000 do print(string.rep('x', 1000)) end require('asperity').notebook 'n':write{ k=1 }"
         events = server.run(script)
         assert finished(events)["status"] == "done" and of_type(events, "row"), finished(events)
         assert 1 << 20 <= len(printed(events)) < 2 << 20 and "printed more than 1 MiB" in printed(events, "err")
+    with Server(runner.program, "--limit-time", "3s") as server:
         for endless in ("while true do print(string.rep('x', 1000)) end", "while true do io.stderr:write('\\255\\128') end"):
             end = finished(server.run(endless))
-            assert end["status"] == "limit" and "time" in end["reason"] and end["seconds"] < 20, end
+            assert end["status"] == "limit" and "time" in end["reason"], end
 
 
 def test_a_flood_of_rows_is_ended():
@@ -87,7 +87,7 @@ def test_a_flood_of_rows_is_ended():
     local long = string.rep("y", 50000) while true do book:write{ text=long } end"""
     with Server(runner.program) as server:
         end = finished(server.run(script))
-        assert end["status"] == "limit" and end["seconds"] < 60, end
+        assert end["status"] == "limit", end
 
 
 # S2
@@ -109,20 +109,13 @@ def test_a_stopped_run_does_not_wait_for_its_drawing():
     script = """local book = require("asperity").notebook "n"
     for k = 1, 60000 do book:write{ k=k, v=math.random(), w=math.random() } end
     print "draws" io.stdout:flush()
-    for k = 1, 1000 do book:chart{ x="v", y="w", file="c" .. k .. ".png" } end"""
+    for k = 1, 1e6 do book:chart{ x="v", y="w", file="c" .. k .. ".png" } end"""
     with Server(runner.program, "--runs", "1") as server:
         run = server.begin(script)
-        for _ in range(600):
-            if any("gnuplot" in command_of(child) for child in children_of(server.process.pid)):
-                break
-            time.sleep(0.05)
-        else:
-            raise AssertionError("nothing is drawn")
-        begun = time.monotonic()
+        until(lambda: any("gnuplot" in command_of(child) for child in children_of(server.process.pid)), "nothing is drawn")
         server.ask("DELETE", f"/api/runs/{run}")
         assert finished(server.events(run))["status"] == "stopped"
         assert finished(server.run("print(1)"))["status"] == "done"
-        assert time.monotonic() - begun < 10, time.monotonic() - begun
 
 
 def command_of(process):
@@ -153,7 +146,7 @@ def probe(*prefix, before=None):
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o777)
         done = subprocess.run([*prefix, runner.program, "--confined"], input=json.dumps(request), cwd=folder,
-                              capture_output=True, text=True, timeout=30, preexec_fn=before)
+                              capture_output=True, text=True, timeout=patience, preexec_fn=before)
         return json.loads(done.stdout.splitlines()[-1]) if done.stdout else {"error": done.stderr}
 
 
@@ -184,7 +177,7 @@ def test_gnuplot_of_a_confined_run_gets_out_nowhere():
                             file.write(text)
                     request = {**bare_request, "work": "draw", "drawing": True}
                     done = subprocess.run([runner.program, "--confined"], input=json.dumps(request), cwd=folder, capture_output=True, text=True,
-                                          timeout=30, preexec_fn=None if without is None else lambda: refuse_calls(architecture, [without]))
+                                          timeout=patience, preexec_fn=None if without is None else lambda: refuse_calls(architecture, [without]))
                     assert done.returncode != 127, done
                     picture = open(folder + "/picture").read() if os.path.exists(folder + "/picture") else ""
                     assert (re.search("sum +3", picture) is not None) == drawn, (what, without, picture, done)
@@ -195,12 +188,8 @@ def test_completion_bears_any_text():
     with Server(runner.program) as server:
         for piece in ("(", "{", "[[", "function ", "a.b.c(", "x = { ", "lab.contact{", "\"", "--[[", "a:", "..", "\\u{"):
             text = (piece * (250000 // len(piece)))
-            begun = time.monotonic()
-            answer = server.ask("POST", "/api/complete", {"text": text, "position": len(text)}, timeout=60)
+            answer = server.ask("POST", "/api/complete", {"text": text, "position": len(text)})
             assert answer.status == 200, (piece, answer.status)
-            seconds = time.monotonic() - begun
-            assert seconds < 30, (piece, seconds)
-            print(f"{piece!r}: {seconds:.2f} s")
 
 
 def test_a_confined_run_writes_every_kind_of_file():
@@ -250,19 +239,13 @@ def test_a_run_cannot_fork_or_reach_others():
     # process itself tries before a script would be begun (sandbox/try_barriers.cpp). Here: it has no children and
     # there is one process for each run.
     with Server(runner.program) as server:
-        run = server.begin("local t = os.clock() while os.clock() - t < 30 do end")
-        for _ in range(100):
-            children = children_of(server.process.pid)
-            if children:
-                break
-            time.sleep(0.05)
+        run = server.begin("while true do end")
+        children = until(lambda: children_of(server.process.pid), "no run began")
         assert len(children) == 1 and children_of(children[0]) == [], children
-        for _ in range(100):  # until it has shut itself in
-            facts = open(f"/proc/{children[0]}/status").read()
-            if "Seccomp:\t2" in facts:
-                break
-            time.sleep(0.05)
-        assert "NoNewPrivs:\t1" in facts and "Seccomp:\t2" in facts, facts
+        status = lambda: open(f"/proc/{children[0]}/status").read()
+        until(lambda: "Seccomp:\t2" in status(), "it does not shut itself in")
+        facts = status()
+        assert "NoNewPrivs:\t1" in facts, facts
         for kind in ("CapEff", "CapPrm", "CapBnd", "CapInh", "CapAmb"):
             assert f"{kind}:\t0000000000000000" in facts, kind
         limits = open(f"/proc/{children[0]}/limits").read()
@@ -287,7 +270,7 @@ def test_barriers_that_one_kernel_lacks_are_met_by_the_others():
     assert not held["both"]["files"] and held["both"]["processes"] and held["both"]["network"], held
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([runner.program, "serve", "--classroom", "127.0.0.1", "--students", "1"], capture_output=True, text=True,
-                              cwd=folder, timeout=30, preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
+                              cwd=folder, timeout=patience, preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
     assert done.returncode == 2 and "a room is not served" in done.stderr and "NOT SHUT" in done.stderr, done
 
 

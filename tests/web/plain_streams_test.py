@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 
 import runner
+from client import patience
 
 hostile = "a\x1b]0;pwn\x07\x1b[31mred\x9b2J\r\x1b[Kover\x08\x7f"
 in_lua = "a\\27]0;pwn\\7\\27[31mred\\xC2\\x9B2J\\x9B2J\\r\\27[Kover\\8\\127"
@@ -21,7 +22,7 @@ def assert_plain(output, what):
 
 
 def run(folder, *arguments, status=None):
-    done = subprocess.run([runner.program, *arguments], cwd=folder, capture_output=True, timeout=60)
+    done = subprocess.run([runner.program, *arguments], cwd=folder, capture_output=True, timeout=patience)
     assert status is None or done.returncode == status, done
     return done
 
@@ -94,7 +95,7 @@ def test_what_a_script_prints_is_its_own_but_on_a_terminal():
                 break
             shown += piece
         os.close(master)
-        assert done.wait(30) == 0
+        assert done.wait(patience) == 0
         assert shown == b"?]0;pwn???\x1b[1;31mred\x1b[0m \xc3\xa9\r\n", shown
 
 
