@@ -192,7 +192,7 @@ int RunLock::ask_patiently(const Ask& ask) {
   // Whoever has the lock writes the name next: until then the file may name one that has ended. And a child
   // that inherited it from a holder that was killed dies a moment after that one.
   std::optional<LockHolder> holder;
-  for (int tries = 0; tries < 50; ++tries) {
+  for (int tries = 0; tries < 300; ++tries) {  // 3 s: on a busy machine a child takes a while to die
     holder = holder_in(file);
     if (holder && !has_ended(*holder)) break;
     holder.reset();

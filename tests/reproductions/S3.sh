@@ -23,8 +23,8 @@ for file in journal.jsonl manifest.json script.lua; do
   cp -a h0 hp
   rm "hp/$file"
   mkfifo "hp/$file"
-  ends 2 "$file" timeout 20 "$program" run --resume hp
-  ends 2 "$file" timeout 20 "$program" replay hp
+  ends 2 "$file" timeout 600 "$program" run --resume hp
+  ends 2 "$file" timeout 600 "$program" replay hp
   rm -rf hp
 done
 sed -i 's/b:write{ a=1 }/b:write{ a=1 } b:write{ a=os.getenv "ROW" }/' n.lua

@@ -6,7 +6,7 @@ from serving import Server, program
 with Server(program) as server:
     head = f"GET /api/about HTTP/1.1\r\nHost: {server.host}\r\nAuthorization: Bearer {server.token}\r\n"
     hidden = head + "\r\n"
-    with server.connect(timeout=15) as client:
+    with server.connect() as client:
         client.sendall((head + f"Content-Length: {len(hidden)}\r\n\r\n" + hidden).encode())
         answers = b""
         try:

@@ -4,9 +4,8 @@
 import glob
 import os
 import tempfile
-import time
 
-from serving import Server, program
+from serving import Server, program, until
 
 with tempfile.TemporaryDirectory() as folder:
     with open(folder + "/xdg-open", "w") as opener:
@@ -14,11 +13,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chmod(folder + "/xdg-open", 0o755)
     os.environ["PATH"] = folder + ":" + os.environ["PATH"]
     with Server(program, "--open") as server:
-        for _ in range(200):
-            if os.path.exists(folder + "/opened"):
-                break
-            time.sleep(0.05)
-        assert os.path.exists(folder + "/opened"), "nothing was opened"
+        until(lambda: os.path.exists(folder + "/opened"), "nothing was opened")
         for name in glob.glob("/proc/[0-9]*/cmdline"):
             try:
                 with open(name, "rb") as line:

@@ -14,13 +14,3 @@ cd "$folder"
 whole() { if [ -n "${ASPERITY_WHOLE:-}" ]; then echo "$1"; else echo "$2"; fi; }
 
 skip() { echo "$(basename "$0" .sh): $*: skipped"; exit 77; }
-
-# until_true command...: waits for it, at most a minute.
-until_true() {
-  tries=0
-  until "$@" > /dev/null 2>&1; do
-    sleep 0.02
-    tries=$((tries + 1))
-    [ $tries -lt 3000 ] || fail "$* never came true"
-  done
-}

@@ -22,7 +22,7 @@ def run(script, *arguments, name="s.lua"):
     """Runs a script, whose first line is added; what it printed, its complaints and its exit status."""
     with open(name, "w", encoding="utf-8") as file:
         file.write('local lab = require "asperity"\n' + script)
-    return subprocess.run([program, "run", name, *arguments], capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run([program, "run", name, *arguments], capture_output=True, text=True, timeout=1200, check=False)
 
 
 def printed(script, *arguments):

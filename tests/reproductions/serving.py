@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../web"))
-from client import Server, finished, of_type, printed  # noqa: E402,F401
+from client import Server, finished, of_type, printed, until  # noqa: E402,F401
 
 program = os.path.abspath(sys.argv[1])
 if subprocess.run([program, "serve", "--help"], capture_output=True, check=False).returncode != 0:

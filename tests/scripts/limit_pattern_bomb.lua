@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Inside a C function of Lua no hook runs: the watchdog ends the process, and rows are safe.
---! flags: --limit-time 500ms
+--! flags: --limit-time 2s
 --! exit: 1
 --! error: the time limit
 --! file: rows.csv: 1

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A coroutine that catches its own end is ended from outside.
---! flags: --limit-time 500ms
+--! flags: --limit-time 2s
 --! exit: 1
 --! error: the time limit
 --! file: rows.csv: 1

@@ -67,10 +67,10 @@ TEST(Shares, AreWaitedFor) {
   Shares shares(1, 9);
   auto held = shares.take(1, milliseconds(0));
   std::thread later([&] {
-    std::this_thread::sleep_for(milliseconds(20));
+    while (shares.waiting() == 0) std::this_thread::sleep_for(milliseconds(1));
     held.reset();
   });
-  EXPECT_NE(shares.take(1, milliseconds(10000)), nullptr);
+  EXPECT_NE(shares.take(1, std::chrono::minutes(10)), nullptr);
   later.join();
 }
 

@@ -20,7 +20,7 @@ struct Start {
   std::vector<std::string> command;    // program and arguments
   std::filesystem::path folder;        // to run in
   std::string interrupt_at;            // SIGINT is sent once standard output holds this; empty: never
-  std::chrono::seconds patience{120};  // then it is killed
+  std::chrono::seconds patience{1200};  // then it is killed
 };
 
 Outcome run_process(const Start& start);

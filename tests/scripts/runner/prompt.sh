@@ -81,10 +81,10 @@ grep -qx 1 output || fail "x was not put back"
 
 # A limit of time is that of one line; a loop, and a pattern that no hook reaches, which ends the session.
 printf '%s\n' 'a = 1' 'while true do end' 'a + 1' > lines
-ends 1 'the time limit of 300 ms a line was reached' "$program" repl --limit-time 300ms < lines
+ends 1 'the time limit of 2 s a line was reached' "$program" repl --limit-time 2s < lines
 grep -qx 2 output || fail "the line after a limit did not run"
 printf '%s\n' 's = ("a"):rep(40)' 's:find(("a*"):rep(40) .. "b")' 'print "not reached"' > lines
-ends 1 'could not be stopped, and the session ends' "$program" repl --limit-time 300ms < lines
+ends 1 'could not be stopped, and the session ends' "$program" repl --limit-time 2s < lines
 printf '%s\n' 't = ("x"):rep(2^30)' 'print "after"' > lines
 ends 1 'after' "$program" repl --limit-memory 200M < lines
 

@@ -62,13 +62,13 @@ late = lab.knob{ name="late", from=0, to=2, value=0.5 }
 lab.knob.set("late", 2)
 print("late", late, sum)
 LUA
-ends 1 'the knobs are a and b' "$program" repl --limit-time 500ms < lines
+ends 1 'the knobs are a and b' "$program" repl --limit-time 2s < lines
 says 'there is no knob `c`' output
 says 'out of its bounds; give 0 to 10' output
 says 'a length, and it is a plain number' output
 says 'a is too much' output
 says 'all is as it was before' output
-says 'the time limit of 500 ms a line was reached' output
+says 'the time limit of 2 s a line was reached' output
 grep -qx 'still	1.0	1.0	3.0' output || { cat output; fail "a move that failed left something"; }
 grep -qx 'both	4.0	5.0	9.0' output || { cat output; fail "two knobs did not move"; }
 grep -qx 'still	4.0	5.0	9.0' output || { cat output; fail "a move that was stopped left something"; }

@@ -13,7 +13,7 @@ import time
 
 program, folder = sys.argv[1], sys.argv[2]
 tab, ctrl_c, ctrl_d, up, enter = b"\t", b"\x03", b"\x04", b"\x1b[A", b"\r"
-patience = 120.0  # seconds for anything to be shown; a busy machine is no failure
+patience = 600.0  # seconds for anything to be shown, after which a wait counts as a hang
 
 
 class Terminal:
@@ -122,7 +122,6 @@ t.say("'µm'", r"\nµm\n> $", "text beyond ASCII")
 # Ctrl-C stops a loop of Lua, and a solve, and not the session.
 t.say("plate = plate:with{ material=lab.material 'Al-2011' }", r"> $", "a material")
 t.say("print 'begun' n = 0 while true do n = n + 1 end", r"\nbegun\n", "a loop without end")
-time.sleep(0.2)
 t.type(ctrl_c)
 t.expect(r"interrupted\n> $", "Ctrl-C in a loop")
 t.say("big = lab.surface.self_affine{ cells=1024, size='1 mm', hurst=0.8, rms_slope=0.1, short_wave='8 um', "
@@ -131,7 +130,6 @@ t.say("bench = lab.contact{ lower=big, upper=lab.rigid, boundary='periodic', "
       "effects={ elasticity='half_space' }, accuracy={ tolerance=1e-12 } }", r"> $", "a large contact")
 t.say("print 'begun' for st in bench:sweep{ pressure={'1 MPa', '2 MPa', '4 MPa', '8 MPa', '16 MPa', '32 MPa'} } do "
       "last = st end", r"\nbegun\n", "a sweep")
-time.sleep(1.0)
 t.type(ctrl_c)
 t.expect(r"interrupted\n> $", "Ctrl-C in a solve")
 t.say("last", r"never set[\s\S]*> $", "what the stopped line had set is taken back")
@@ -183,7 +181,6 @@ t.expect(r"Ctrl-D ends\.\n> $", "the greeting")
 t.say("turns = lab.knob{ name='turns', from=0, to=10, value=1 }", r"> $", "a knob")
 t.say("if turns > 9 then print 'moving' while true do end end", r"> $", "a line that may not end")
 t.say("lab.knob.set('turns', 10)", r"\nmoving\n", "a move that does not end")
-time.sleep(0.2)
 t.type(ctrl_c)
 t.expect(r"interrupted\n> $", "Ctrl-C in a move")
 t.say("turns", r"\n1(\.0)?\n> $", "the knob after Ctrl-C")

@@ -43,32 +43,34 @@ for _, name in ipairs(found.names) do
 end
 LUA
 
-moment() { date +%s%N; }
-begun=$(moment)
 "$program" run studies.lua --out whole --threads 2 2> /dev/null
-length=$((($(moment) - begun) / 1000000)) # ms
 grep -q "budget" whole/studies.csv || fail "the studies wrote no rows"
 sed 's/,"unhashed":{.*}//' whole/journal.jsonl > whole.journal
 
 "$program" run studies.lua --out alone --threads 1 2> /dev/null
 cmp whole/studies.csv alone/studies.csv || fail "one thread finds other numbers than two"
 
+results() { find "$1/store" -name '*.h5' 2> /dev/null | wc -l; }
+some_or_ended() { [ "$(results cut)" -ge $some ] || ! kill -0 $process; }
 for stop in "1 INT" "2 KILL" "3 INT"; do
   signal=${stop#* }
-  ms=$((length * ${stop% *} / 4))
+  some=$(($(results whole) * ${stop% *} / 4))
   status=0
-  while [ $status = 0 ]; do # sooner, where the machine has grown faster and the run came to its end
+  while [ $status = 0 ]; do # after fewer results, where the run came to its end before the signal
     rm -rf cut
-    timeout --foreground -s "$signal" "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))" \
-      "$program" run studies.lua --resume cut --threads 2 > output 2>&1 || status=$?
+    "$program" run studies.lua --resume cut --threads 2 > output 2>&1 &
+    process=$!
+    until_true some_or_ended
+    kill -"$signal" $process 2> /dev/null || true
+    wait $process || status=$?
     # A stop that comes after the end was recorded, while the process ends, stops nothing.
     [ $status = 0 ] || ! grep -q '"status": *"done"' cut/manifest.json 2> /dev/null || status=0
-    [ $status != 0 ] || ms=$((ms * 3 / 4))
+    [ $status != 0 ] || some=$((some * 3 / 4))
   done
-  [ "$status" != 1 ] || { cat output; fail "a stop after $ms ms was taken for a failure"; }
+  [ "$status" != 1 ] || { cat output; fail "a stop after $some results was taken for a failure"; }
   ends 0 "results in" "$program" run studies.lua --resume cut --threads 2
-  cmp whole/studies.csv cut/studies.csv || fail "other numbers after $signal at $ms ms"
-  sed 's/,"unhashed":{.*}//' cut/journal.jsonl | diff whole.journal - || fail "journal after $signal at $ms ms"
+  cmp whole/studies.csv cut/studies.csv || fail "other numbers after $signal at $some results"
+  sed 's/,"unhashed":{.*}//' cut/journal.jsonl | diff whole.journal - || fail "journal after $signal at $some results"
 done
 grep -q "taken from the store" output || { cat output; fail "a run that was interrupted late kept nothing"; }
 echo "studies are resumed"

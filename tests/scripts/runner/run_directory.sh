@@ -16,15 +16,6 @@ cd "$folder"
 # What still runs when this fails would keep its standard output, and whoever waits for its end.
 trap 'kill -KILL $(jobs -p) 2> /dev/null || true' EXIT
 
-# until_true command...: waits for it, at most a minute.
-until_true() {
-  tries=0
-  until "$@" > /dev/null 2>&1; do
-    sleep 0.02
-    tries=$((tries + 1))
-    [ $tries -lt 3000 ] || fail "$* never came true"
-  done
-}
 lines() { [ "$(wc -l < "$1" 2> /dev/null || echo 0)" -ge "$2" ]; }
 # status process: how a process in the background ends.
 ends_with() {
@@ -253,7 +244,6 @@ nohup "$program" run wait.lua --out R14-nohup > /dev/null 2>&1 &
 process=$!
 until_true lines R14-nohup/n.csv 21
 kill -HUP $process
-sleep 0.2
 # A journal that is taken away under way.
 "$program" run wait.lua --out R14-journal 2> journal.err &
 other=$!

@@ -13,5 +13,14 @@ ends() {
   grep -qF -- "$text" output || { cat output; fail "$* did not print: $text"; }
 }
 
+# until_true command...: waits for it. Ten minutes count as a hang.
+until_true() {
+  hang=$(($(date +%s) + 600))
+  until "$@" > /dev/null 2>&1; do
+    [ "$(date +%s)" -lt $hang ] || fail "$* never came true"
+    sleep 0.02
+  done
+}
+
 # text file: the text is in the file.
 says() { grep -qF -- "$1" "$2" || { cat "$2"; fail "$2 does not say: $1"; }; }

@@ -77,11 +77,8 @@ same together "at the same time"
 
 "$program" run study.lua --store three --shard 2/3 --threads 1 --out killed -- slow > killed.txt 2>&1 &
 shard=$!
-tries=0
-until [ -n "$(find three -name '*.h5' 2> /dev/null | head -2)" ] || [ $tries -ge 600 ]; do
-  sleep 0.05
-  tries=$((tries + 1))
-done
+kept() { [ -n "$(find three -name '*.h5')" ]; }
+until_true kept
 kill -9 $shard 2> /dev/null || true
 wait $shard 2> /dev/null || true
 rm -rf killed

@@ -110,10 +110,8 @@ ends() {
   text=$2
   shift 2
   status=0
-  began=$(date +%s)
   ranks 2 "$program" run ends.lua --threads 1 --out ends-$how "$@" -- $how > ends-$how.txt 2>&1 || status=$?
   [ $status != 0 ] && [ $status != 124 ] || { cat ends-$how.txt; fail "$how ended with $status"; }
-  [ $(($(date +%s) - began)) -le 60 ] || fail "$how: the end took long"
   says "$text" ends-$how.txt
   grep -q '"status": *"done"' ends-$how/manifest.json && fail "$how: the manifest says that it is done" || true
 }
@@ -151,23 +149,26 @@ local c = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic
   effects = { elasticity = "half_space" } }
 local book = lab.notebook "areas"
 for k = 1, 30 do
+  while k == 20 and not io.open "go" do end
   local st = c:press{ pressure = k * 3e7 }
   book:write{ k = k, area = st.area_fraction, digest = st.digest }
 end
 LUA
+touch go
 ranks 2 "$program" run thirty.lua --threads 1 --out whole > whole.txt 2>&1 || { cat whole.txt; fail "thirty presses"; }
+rm go
 mpirun --oversubscribe --bind-to none -n 2 "$program" run thirty.lua --threads 1 --out broken > broken.txt 2>&1 &
 launcher=$!
-tries=0 processes=
-until [ "$(echo $processes | wc -w)" = 2 ] && [ -f broken/areas.csv ] && [ "$(wc -l < broken/areas.csv)" -ge 3 ]; do
-  [ "$(echo $processes | wc -w)" = 2 ] || processes=$(processes_of "." "thirty.lua.*--out broken")
-  sleep 0.05
-  tries=$((tries + 1))
-  [ $tries -lt 900 ] || { cat broken.txt; fail "the run to be killed did not begin"; }
-done
+began() {
+  processes=$(processes_of "." "thirty.lua.*--out broken")
+  [ "$(echo $processes | wc -w)" = 2 ] && [ "$(wc -l < broken/areas.csv)" -ge 3 ]
+}
+until_true began
 kill -9 $launcher $processes
 wait $launcher && fail "a killed run ended well" || true
-while [ -n "$(processes_of "." "thirty.lua.*--out broken")" ]; do sleep 0.1; done
+ended() { [ -z "$(processes_of "." "thirty.lua.*--out broken")" ]; }
+until_true ended
+touch go
 grep -q '"status": *"done"' broken/manifest.json && fail "the run ended before it was killed" || true
 ranks 2 "$program" run --resume broken --threads 1 > resumed.txt 2>&1 || { cat resumed.txt; fail "taking up what was killed"; }
 grep -qE "^([2-9]|[12][0-9]) results were taken from the store" resumed.txt || { cat resumed.txt; fail "the presses were repeated"; }
