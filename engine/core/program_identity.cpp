@@ -18,6 +18,7 @@
 #endif
 
 #include "engine/core/arithmetic/random.hpp"
+#include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/digest.hpp"
 
 namespace asperity {
@@ -72,6 +73,20 @@ __attribute__((noinline)) std::string build_identity() {
   Search search{{__builtin_return_address(0), &anchor}, {}};
   dl_iterate_phdr(look_for_build_id, &search);
   return search.identity;
+}
+
+int vector_bytes() { return register_bytes; }
+
+std::string_view vector_level() {
+#if defined(__AVX512BW__) && defined(__AVX512CD__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+  return "x86-64-v4";
+#elif defined(__AVX2__) && defined(__FMA__) && defined(__BMI2__) && defined(__F16C__)
+  return "x86-64-v3";
+#elif defined(__x86_64__)
+  return "x86-64";
+#else
+  return "";
+#endif
 }
 
 std::string c_library_version() {

@@ -8,12 +8,18 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace asperity {
 
 // Build ids of the object that calls and of the one that holds this code, hexadecimal digits; "" where the
 // linker stamped none. The numeric library has one build id at every level of processor.
 std::string build_identity();
+
+// Of the numeric code that was loaded: the width of a vector, 16, 32 or 64, and the highest level of
+// processor that the code is compiled for, "x86-64-v3" or "" on another architecture.
+int vector_bytes();
+std::string_view vector_level();
 
 // "glibc 2.36"; "" where the library does not say.
 std::string c_library_version();

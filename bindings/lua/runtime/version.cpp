@@ -2,7 +2,7 @@
 #include "bindings/lua/runtime/version.hpp"
 
 #include "bindings/lua/registry/lua_api.hpp"
-#include "engine/core/vector_width.hpp"
+#include "engine/core/program_identity.hpp"
 
 namespace asperity::lua {
 

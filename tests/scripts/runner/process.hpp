@@ -17,9 +17,9 @@ struct Outcome {
 };
 
 struct Start {
-  std::vector<std::string> command;    // program and arguments
-  std::filesystem::path folder;        // to run in
-  std::string interrupt_at;            // SIGINT is sent once standard output holds this; empty: never
+  std::vector<std::string> command;     // program and arguments
+  std::filesystem::path folder;         // to run in
+  std::string interrupt_at;             // SIGINT is sent once standard output holds this; empty: never
   std::chrono::seconds patience{1200};  // then it is killed
 };
 
