@@ -28,8 +28,8 @@ processes_of() {
 }
 
 # ends_soon how command...: two ranks of a run of long.lua, written to the directory `how`, are interrupted
-# ("interrupt") or one of them is killed ("kill") once the command succeeds; the run ends, and not well. What they say is
-# in how.txt.
+# ("interrupt") or one of them is killed ("kill") once the command succeeds; the run ends, and not well. A run that does not
+# end meets the limit of the test. What they say is in how.txt.
 ends_soon() {
   how=$1
   shift
