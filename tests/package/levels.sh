@@ -29,8 +29,8 @@ if supports x86-64-v3; then at_level x86-64-v3 32 glibc.cpu.hwcaps=-AVX512F; fi
 if supports x86-64-v4; then at_level x86-64-v4 64 ""; fi
 
 library=$(ldd "$program" | sed -n 's/.*=> \(.*libasperity-numeric[^ ]*\).*/\1/p')
-base=$(dirname "${library%/glibc-hwcaps/*}/x")
-base=${base%/libasperity-numeric*}
+base=$(dirname "$library")
+base=${base%/glibc-hwcaps/*}
 for copy in "$base" "$base/glibc-hwcaps/x86-64-v3" "$base/glibc-hwcaps/x86-64-v4"; do
   objdump -d --no-show-raw-insn "$copy/$(basename "$library")" > code
   grep -E 'vfm(addsub|subadd)' code > found && { head -n 5 found; fail "$copy: a product and a sum are rounded once"; }
