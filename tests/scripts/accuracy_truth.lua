@@ -2,7 +2,7 @@
 -- An exact truth: twice the cells are then a setting like the others. Nothing but the grid can be varied here;
 -- a factor of 1/4 makes 5 cells of 20 and 5 of 21, and resampling follows.
 --! command: accuracy
---! flags: --truth 1 --repeats 1 --at-most 20s
+--! flags: --truth 1 --repeats 1 --at-most 20min
 --! output: truth 1
 --! output: { cells_factor=2
 --! not output: tolerance
