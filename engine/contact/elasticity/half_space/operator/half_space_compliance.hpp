@@ -3,11 +3,10 @@
 // units (hx = 1, hy = aspect, E* = 1). Periodic: the Fourier multiplier 2/|q|, and 0 for the mean, so
 // that only displacement from the mean is given; or that of a layer on a rigid base, ComplianceMultiplier.
 // Free: the sum of Love's coefficients over the loaded cells, by a transform padded with zeros; no wrap. A
-// periodic side that is odd along x or has a prime factor above 31 is padded in the same way, with the kernel
-// of the tile: some two times the cost of its neighbours, where a transform of the side itself costs six
-// times as much. Symmetric, positive (periodic: semi-definite). Rectangular, odd and prime grids of any
-// aspect; no friction, one material. Also both kernels by themselves, the multiplier of a wave and Love's
-// coefficient of a cell.
+// periodic side that is odd along x or has a prime factor above 31 is padded too, with the kernel of the
+// tile. This doubles the cost; a transform of the side itself would cost six times as much. Symmetric,
+// positive (periodic: semi-definite). Rectangular, odd and prime grids of any aspect; no friction, one
+// material. Also both kernels by themselves, the multiplier of a wave and Love's coefficient of a cell.
 #pragma once
 
 #include <cstdint>
