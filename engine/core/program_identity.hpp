@@ -16,8 +16,8 @@ namespace asperity {
 // linker stamped none. The numeric library has one build id at every level of processor.
 std::string build_identity();
 
-// Of the numeric code that was loaded: the width of a vector, 16, 32 or 64, and the highest level of
-// processor that the code is compiled for, "x86-64-v3" or "" on another architecture.
+// The loaded numeric code: bytes of a vector (16, 32 or 64), and the level of processor that the code is
+// compiled for ("x86-64-v3"; "" on other architectures).
 int vector_bytes();
 std::string_view vector_level();
 

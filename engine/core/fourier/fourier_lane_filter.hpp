@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A real field through a real, even Fourier multiplier, as FourierFilter, for an even period_x and periods
-// without a prime factor above 31: as many rows, then columns, as a vector has lanes are transformed at once,
-// several times as fast. The field comes in row by row from a source and leaves row by row into a sink, so
-// that what is done to it before and after costs no pass over memory. Real is the precision of transforms and
-// multiplier; fields are double. The same bits for any number of threads.
+// without a prime factor above 31. Each lane of a vector transforms one row, then one column: several times
+// as fast. The field comes in row by row from a source and leaves row by row into a sink, so that what is
+// done to it before and after costs no pass over memory. Real is the precision of transforms and multiplier;
+// fields are double. The same bits for any number of threads.
 #pragma once
 
 #include <cstdint>

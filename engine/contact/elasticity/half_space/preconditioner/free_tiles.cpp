@@ -17,8 +17,7 @@ namespace edge_rows {
 
 namespace {
 
-// NodeVector that are worked on together: a register of them, at most a group. What is done to a node does
-// not depend on their number.
+// A vector of nodes: a register, at most a group. The operations on a node do not depend on the width.
 constexpr int node_lanes = std::min(group, register_vectors::register_lanes<float>);
 constexpr int node_pairs = 2 * node_lanes;  // columns of as many even and odd nodes
 using NodeVector = register_vectors::Of<float, node_lanes>::Vector;

@@ -262,7 +262,7 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int rows = rows_per_block(nx);
   const std::int64_t blocks = block_count(fine.ny, rows);
   const bool finest = &fine == &levels_.front();
-  // Where the first and the last node of a side are both coarse nodes, W takes each of the two to the other.
+  // On an odd side, the first and the last node are coarse nodes and neighbours: W couples them.
   const bool seam_x = wraps_ && nx % 2 != 0, seam_y = wraps_ && fine.ny % 2 != 0;
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {
