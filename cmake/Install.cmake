@@ -5,10 +5,12 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 
-# Where the numeric library is, if it is one of its own (ASPERITY_LEVELS).
+# Where the numeric library is, if it is one of its own (ASPERITY_LEVELS). Without /proc the loader does not know $ORIGIN of
+# a program.
 if(ASPERITY_LEVELS)
-  set_target_properties(asperity PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/asperity")
-  set_target_properties(asperity_module PROPERTIES INSTALL_RPATH "$ORIGIN/../../asperity")
+  set(installed ${CMAKE_INSTALL_PREFIX}/lib/asperity)
+  set_target_properties(asperity PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/asperity;${installed}")
+  set_target_properties(asperity_module PROPERTIES INSTALL_RPATH "$ORIGIN/../../asperity;${installed}")
 endif()
 install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
