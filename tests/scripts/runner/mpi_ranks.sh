@@ -44,7 +44,9 @@ ends_soon() {
   if [ "$how" = interrupt ]; then
     kill -INT $launcher
   else
-    kill -9 $(processes_of 1 "long.lua.*--out kill")
+    victim=$(processes_of 1 "long.lua.*--out kill")
+    [ -n "$victim" ] || { cat "$how.txt"; fail "$how: rank 1 has ended by itself"; }
+    kill -9 $victim
   fi
   wait $launcher && fail "$how: the run ended well" || true
 }
