@@ -5,12 +5,14 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 
-# Where the numeric library is, if it is one of its own (ASPERITY_LEVELS). Without /proc the loader does not know $ORIGIN of
-# a program.
+# Where the loader looks for the numeric library, if it is one of its own (ASPERITY_LEVELS): next to the program in the
+# build's folder, in lib/asperity when installed. Without /proc the loader does not know $ORIGIN of a program. One list for
+# both, because CMake would pad a list to replace with empty entries, which stand for the current folder.
 if(ASPERITY_LEVELS)
   set(installed ${CMAKE_INSTALL_PREFIX}/lib/asperity)
-  set_target_properties(asperity PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/asperity;${installed}")
-  set_target_properties(asperity_module PROPERTIES INSTALL_RPATH "$ORIGIN/../../asperity;${installed}")
+  set_target_properties(asperity asperity_module PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
+  set_target_properties(asperity PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../lib/asperity;${installed}")
+  set_target_properties(asperity_module PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../../asperity;${installed}")
 endif()
 install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
