@@ -40,7 +40,7 @@ struct Of {
       __attribute__((vector_size(lanes * sizeof(Number)), aligned(alignof(Number)), may_alias));
 };
 
-// -- Shuffles: `place(l)` is the lane of a, or beyond those of a the lane of b, that lane l of the result
+// -- Shuffles: `Place::of(l)` is the lane of a, or beyond those of a the lane of b, that lane l of the result
 // takes.
 
 template <class Place, class From, class To, int... l>
