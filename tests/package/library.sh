@@ -20,13 +20,13 @@ grep -rlw register_bytes installed/include && fail "an installed header depends 
 (cd installed/include/asperity && grep -rhoE '^#include "[^"]+"' . | cut -d '"' -f 2 | sort -u | xargs ls > /dev/null) ||
   fail "an installed header includes one that is not installed"
 ends 0 "Generating done" cmake -S own -B build -DCMAKE_PREFIX_PATH="$folder/installed" -DCMAKE_BUILD_TYPE=Release
-ends 0 "Built target press" cmake --build build
+ends 0 " press" cmake --build build
 build/press > touches
 cat touches
 # Not a test of the physics: a percentage, and a certificate that held.
 grep -qE '^[0-9]+\.[0-9]{2} % of the tile touches, to [0-9]e-(0[6-9]|1[0-9])$' touches || fail "press did not say how much touches"
 # Another floor alone, and a version that is not there.
 sed -i 's/asperity::engine/asperity::specimen/' own/CMakeLists.txt
-ends 0 "Built target press" cmake --build build
+ends 0 " press" cmake --build build
 sed -i 's/asperity 0.2/asperity 7.0/' own/CMakeLists.txt
 ends 1 "compatible with requested version" cmake -S own -B other -DCMAKE_PREFIX_PATH="$folder/installed"
