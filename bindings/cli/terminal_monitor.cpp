@@ -26,7 +26,10 @@ std::string duration_text(double seconds) {
 }
 
 TerminalMonitor::TerminalMonitor() : terminal_(isatty(STDERR_FILENO) != 0) {}
-TerminalMonitor::~TerminalMonitor() { clear(); }
+TerminalMonitor::~TerminalMonitor() {
+  tell_alike();
+  clear();
+}
 
 void TerminalMonitor::progress(std::string_view what, double done) {
   const std::lock_guard lock(mutex_);
@@ -80,8 +83,17 @@ void TerminalMonitor::warn(std::string_view sentence) {
   const std::lock_guard lock(mutex_);
   if (!warned_.emplace(sentence).second) return;
   clear_line();
-  std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(sentence.size()), sentence.data());
+  if (!count_alike_ || kinds_.is_first(sentence))
+    std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(sentence.size()), sentence.data());
   if (run_ != nullptr) run_->journal().write("warning", Json::object({{"sentence", sentence}}));
+}
+
+void TerminalMonitor::tell_alike() {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& line : kinds_.rest()) {
+    clear_line();
+    std::fprintf(stderr, "warning: %s\n", line.c_str());
+  }
 }
 
 void TerminalMonitor::inform(std::string_view sentence) {

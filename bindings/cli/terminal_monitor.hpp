@@ -37,6 +37,10 @@ class TerminalMonitor final : public Monitor {
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
   ResultStore* results() override { return results_; }
+  // From here on warnings that differ in numbers alone are shown once; tell_alike() counts the others. The
+  // journal has all.
+  void count_alike() { count_alike_ = true; }
+  void tell_alike();
   // Takes the progress line away.
   void clear();
 
@@ -58,6 +62,8 @@ class TerminalMonitor final : public Monitor {
   Clock::time_point parts_shown_{};  // other work between the parts shows itself at its own times
   double last_done_ = 0;
   std::set<std::string> warned_;
+  bool count_alike_ = false;
+  WarningKinds kinds_;
 };
 
 // "42 s", "3 min 20 s", "2 h 5 min".

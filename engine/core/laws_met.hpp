@@ -27,8 +27,9 @@ enum class Law : int {
   alike_readings,    // recordings in which a filter made neighbouring readings alike
   whole_numbers,     // whole numbers in columns of notebooks
   asked_error,       // cells and tolerance chosen for an error
+  line_order,        // maps from files that store the top line first
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::asked_error) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::line_order) + 1;
 
 // Thread-safe.
 class LawsMet {

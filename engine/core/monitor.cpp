@@ -41,6 +41,45 @@ Monitor& Monitor::silent() {
   return monitor;
 }
 
+std::string kind_of_warning(std::string_view sentence) {
+  std::string kind;
+  bool quoted = false;
+  for (std::size_t k = 0; k < sentence.size(); ++k) {
+    const char c = sentence[k];
+    if (c == '"' || c == '`') quoted = !quoted;
+    // After = it is of a name, as in `case load = 2000`.
+    const bool named = k > 1 && sentence[k - 2] == '=';
+    const bool begins = k == 0 || std::string_view(" (-").find(sentence[k - 1]) != std::string_view::npos;
+    const bool number = !quoted && begins && !named && c >= '0' && c <= '9';
+    kind += number ? '#' : c;
+    if (!number) continue;
+    std::size_t end = std::min(sentence.find_first_not_of("0123456789.e+-", k), sentence.size());
+    // A unit is a short word.
+    const std::size_t blank = std::min(sentence.find(' ', end + 1), sentence.size());
+    if (end < sentence.size() && sentence[end] == ' ' && blank - end <= 5) end = blank;
+    k = end - 1;
+  }
+  return kind;
+}
+
+bool WarningKinds::is_first(std::string_view sentence) {
+  const auto [found, first] = kinds_.try_emplace(kind_of_warning(sentence), Kind{std::string(sentence)});
+  if (!first) ++found->second.more;
+  return first;
+}
+
+std::vector<std::string> WarningKinds::rest() {
+  std::vector<std::string> lines;
+  for (auto& [kind, of] : kinds_) {
+    if (of.more > 0)
+      lines.push_back(std::to_string(of.more) + " more " +
+                      (of.more == 1 ? "warning differs" : "warnings differ") +
+                      " in numbers alone from this one: " + of.first);
+    of.more = 0;
+  }
+  return lines;
+}
+
 Task::Task(Monitor& monitor, std::string_view what, std::int64_t total)
     : monitor_(monitor), what_(what), total_(std::max<std::int64_t>(total, 1)), last_report_(now()) {
   stop_flag().check();

@@ -6,7 +6,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/error.hpp"
 
@@ -57,6 +60,26 @@ class Monitor {
 
   // Neither shows nor keeps anything.
   static Monitor& silent();
+};
+
+// The sentence without its numbers and their units, names and quoted texts apart. Warnings of one kind have
+// the same.
+std::string kind_of_warning(std::string_view sentence);
+
+// Counts warnings of one kind.
+class WarningKinds {
+ public:
+  // Whether no warning of its kind came before.
+  bool is_first(std::string_view sentence);
+  // A line for each kind of which more came, once.
+  std::vector<std::string> rest();
+
+ private:
+  struct Kind {
+    std::string first;
+    std::size_t more = 0;
+  };
+  std::map<std::string, Kind> kinds_;
 };
 
 // One piece of work of `total` steps. advance() checks for a stop and reports at most ten times a

@@ -150,7 +150,7 @@ const LogColumn* LogTable::known_as(const Column& column, bool by_other_names,
     if (said) return true;
     if (known.dimension == dimension::time && is_time_stamp(below)) return true;
     const std::optional<Quantity> unit =
-        unit_in_cell(utf8_or_latin1(column.unit.empty() ? below : column.unit));
+        unit_in_cell(utf8_or_cp1252(column.unit.empty() ? below : column.unit));
     const std::optional<Quantity> quantity = unit ? unit : quantity_in_cell(below);
     return quantity && quantity->dimension == known.dimension;
   });
@@ -226,7 +226,7 @@ bool LogTable::units_stand_below() const {
   for (std::size_t k = 0; k < lines_.below().size(); ++k) {
     const std::string cell = below(k);
     if (cell.empty() || bare_unit(cell).empty() || cell == "-") continue;
-    if (!unit_in_cell(utf8_or_latin1(cell))) {
+    if (!unit_in_cell(utf8_or_cp1252(cell))) {
       if (k < columns_.size() && columns_[k].known == nullptr &&
           plain_cell(lines_.below()[k]).kind != CellKind::number)
         continue;
@@ -245,7 +245,7 @@ void LogTable::read_unit(std::size_t k, bool below_are_units) {
     if (name == known.name || lower_case(name) == lower_case(column.title)) column.unit = unit;
   if (is_exact_time(known) && is_clock_pattern(column.unit)) column.unit.clear();
   if (column.unit.empty() && below_are_units) column.unit = bare_unit(below(k));
-  column.unit = utf8_or_latin1(column.unit);
+  column.unit = utf8_or_cp1252(column.unit);
   if (column.unit.empty()) return read_without_unit(k, place);
   try {
     const Quantity unit = parse_unit(column.unit);
@@ -300,7 +300,7 @@ std::optional<std::string> LogTable::meant(const Column& column) const {
                                   [&](const LogColumn& c) { return means(title.name, c.name); });
   if (found == known_.end() || has(found->meaning)) return {};
   if (found->dimension == dimension::number) return std::string(found->name);
-  const std::string written = utf8_or_latin1(title.unit);
+  const std::string written = utf8_or_cp1252(title.unit);
   const std::optional<Quantity> unit = unit_in_cell(written);
   return unit && unit->dimension == found->dimension ? std::string(found->name) + " [" + written + "]"
                                                      : std::string(found->example);

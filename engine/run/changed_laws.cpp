@@ -57,6 +57,10 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "grids are tried from 16 cells on, and a corrected area of half-spaces lies within an outline between "
      "the nodes, whose doubt tells which cells are tried next, half-way ones among them",
      "cells, tolerance and costs of such presses, their corrected areas, and all that follows them"},
+    {Law::line_order, "0.2.0", "files that store the top line first",
+     "the first line of every file was j = 0, so images were upside down",
+     "the top line of an image has the largest y, as Gwyddion shows it",
+     "surfaces read from such files, their lay and skew along y, and all that follows them"},
 }};
 
 constexpr bool each_in_its_place() {

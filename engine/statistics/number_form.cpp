@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/core/text.hpp"
 
@@ -27,6 +28,14 @@ std::string with_plain_blanks(std::string_view text) {
 std::string with_plain_minus(std::string text) {
   constexpr std::string_view minus = "\u2212";
   if (text.starts_with(minus)) text.replace(0, minus.size(), "-");
+  return text;
+}
+
+// An apostrophe as Swiss spreadsheets write it.
+std::string with_plain_apostrophe(std::string text) {
+  constexpr std::string_view curved = "\u2019";
+  for (std::size_t k = text.find(curved); k != std::string::npos; k = text.find(curved))
+    text.replace(k, curved.size(), "'");
   return text;
 }
 
@@ -58,10 +67,12 @@ bool looks_like_number(std::string_view text) {
 
 }  // namespace
 
-std::string with_plain_signs(std::string_view text) { return with_plain_minus(with_plain_blanks(text)); }
+std::string with_plain_signs(std::string_view text) {
+  return with_plain_minus(with_plain_apostrophe(with_plain_blanks(text)));
+}
 
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form) {
-  std::string plain = with_plain_minus(std::string(text));
+  std::string plain = with_plain_minus(with_plain_apostrophe(std::string(text)));
   if (form.thousands == ' ') plain = with_plain_blanks(plain);
   if (form.thousands != '\0' && plain.find(form.thousands) != std::string::npos) {
     const std::string_view unsigned_text = without_sign(plain);
@@ -77,6 +88,15 @@ std::optional<std::string> plain_number(std::string_view text, const NumberForm&
     return {};
   }
   return plain;
+}
+
+bool looks_like_a_number(std::string_view cell) {
+  std::string text = with_plain_signs(cell);
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\''; });
+  std::ranges::replace(text, ',', '.');
+  while (std::ranges::count(text, '.') > 1) text.erase(text.find('.'), 1);
+  const CellKind kind = read_cell(text, Separator::comma).kind;
+  return kind == CellKind::number || kind == CellKind::too_large;
 }
 
 TextCell read_number(std::string_view text, const NumberForm& form) {
@@ -98,9 +118,13 @@ void NumberEvidence::prove(char& sign, char found, std::string_view text, const 
 void NumberEvidence::add(std::string_view cell, const std::string& place) {
   std::string joined = with_plain_signs(cell);
   const std::string_view number = without_sign(joined);
-  if (parts_thousands(number.substr(0, std::min(number.find_first_of(".,eE"), number.size())), ' ')) {
-    if (thousands_ != ' ' && unclear_blank_.place.empty()) unclear_blank_ = {place, shown(joined)};
-    std::erase(joined, ' ');
+  const std::string_view before = number.substr(0, std::min(number.find_first_of(".,eE"), number.size()));
+  for (const auto& [sign, unclear] :
+       {std::pair{' ', &unclear_blank_}, std::pair{'\'', &unclear_apostrophe_}}) {
+    if (!parts_thousands(before, sign)) continue;
+    if (thousands_ != sign && unclear->place.empty()) *unclear = {place, shown(joined)};
+    std::erase(joined, sign);
+    break;
   }
   const std::string_view text = joined;
   if (!looks_like_number(text)) return;
@@ -149,6 +173,10 @@ std::optional<NumberEvidence::Doubt> NumberEvidence::doubt() const {
     return Doubt{unclear_blank_.place,
                  unclear_blank_.finding +
                      " has a blank between its digits; thousands=\" \" says that it parts thousands"};
+  if (!unclear_apostrophe_.place.empty() && thousands_ != '\'')
+    return Doubt{unclear_apostrophe_.place,
+                 unclear_apostrophe_.finding +
+                     " has an apostrophe between its digits; thousands=\"'\" says that it parts thousands"};
   if (!unclear_comma_.place.empty() && decimal_ != ',' && thousands_ != ',')
     return Doubt{
         unclear_comma_.place,

@@ -25,8 +25,11 @@ TextCell read_number(std::string_view text, const NumberForm& form);
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form);
 
 // What the numbers of a file tell of their form, one after another.
-// The signs of a number in ASCII: no-break and thin blanks as blanks, the minus of typesetters as a hyphen.
+// The signs of a number in ASCII: blanks, apostrophes and the minus of typesetters.
 std::string with_plain_signs(std::string_view text);
+
+// Whether a cell is a finite number, whichever signs it has for decimals and thousands.
+bool looks_like_a_number(std::string_view cell);
 
 class NumberEvidence {
  public:
@@ -46,7 +49,7 @@ class NumberEvidence {
   void prove(char& sign, char found, std::string_view text, const std::string& place);
 
   char decimal_, thousands_;
-  Doubt unclear_comma_, unclear_point_, unclear_blank_, contradiction_;
+  Doubt unclear_comma_, unclear_point_, unclear_blank_, unclear_apostrophe_, contradiction_;
 };
 
 }  // namespace asperity

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/stamp_column.hpp"
 
+#include <cmath>
+
 #include "engine/core/files/text_table.hpp"
 
 namespace asperity {
@@ -52,8 +54,41 @@ StampColumn::Reading StampColumn::read(std::string_view cell) {
     return {{},
             shown(cell) + (stamp.zoned ? " has a time zone, which the first one lacks"
                                        : " has no time zone, which the first one has")};
-  if (since_1970_) return {static_cast<double>(stamp.seconds) + stamp.fraction};
-  return {static_cast<double>(stamp.seconds - first_->seconds) + (stamp.fraction - first_->fraction)};
+  Reading reading;
+  reading.seconds = since_1970_ ? static_cast<double>(stamp.seconds) + stamp.fraction
+                                : static_cast<double>(stamp.seconds - first_->seconds) +
+                                      (stamp.fraction - first_->fraction);
+  step(reading);
+  return reading;
+}
+
+void StampColumn::step(Reading& reading) {
+  constexpr double hour = 3600, day = 24 * hour;
+  double now = *reading.seconds + added_;
+  const double change = last_ ? now - *last_ : 0;
+  const bool local = last_ && first_->dated && !first_->zoned && change >= -hour;
+  // An hourly log repeats a time where the clock goes back; others repeat times wherever they like.
+  const bool as_before = std::abs(change + hour - gap_) <= 0.25 * gap_;
+  const bool hour_back = local && (change <= -hour / 2 || (change <= 0 && as_before && !repeats_));
+  repeats_ = repeats_ || (last_ && change == 0);
+  const bool day_over = last_ && !first_->dated && change < -day / 2;
+  if (day_over && steps_back_ == StepsBack::midnight) {
+    added_ += day;
+  } else if (hour_back && steps_back_ == StepsBack::winter_time) {
+    added_ += hour;
+  } else if (day_over && !warned_) {
+    warned_ = true;
+    reading.warning =
+        " is more than half a day before the time above; if midnight came between, steps_back=\"midnight\" "
+        "adds the day";
+  } else if ((hour_back || (local && change < 0)) && !warned_) {
+    warned_ = true;
+    reading.warning = std::string(change < 0 ? " is before the time above" : " is the time above once more") +
+                      "; if summer time ended between them, steps_back=\"winter time\" adds the hour";
+  }
+  now = *reading.seconds + added_;
+  if (last_ && now > *last_) gap_ = now - *last_;
+  last_ = reading.seconds = now;
 }
 
 }  // namespace asperity

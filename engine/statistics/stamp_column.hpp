@@ -15,7 +15,10 @@ namespace asperity {
 class StampColumn {
  public:
   explicit StampColumn(const TableForm& form)
-      : order_(form.dates), clock_(form.clock), since_1970_(form.stamps_since_1970) {}
+      : order_(form.dates),
+        clock_(form.clock),
+        since_1970_(form.stamps_since_1970),
+        steps_back_(form.steps_back) {}
 
   // To be shown the column from its first cell on, before any is read, until it returns true: whether nothing
   // more is to be learned. Cells that are no stamps tell nothing.
@@ -26,16 +29,22 @@ class StampColumn {
   struct Reading {
     std::optional<double> seconds;
     std::string complaint{};  // where there are none
+    std::string warning{};    // of the first step back that no key explains, to be put after the cell
   };
   // A cell that is not empty. The first one that is read is the beginning unless they count since 1970.
   Reading read(std::string_view cell);
-  // Whether those read so far have dates.
-  bool dated() const { return first_ && first_->dated; }
 
  private:
+  // Adds the days or hours that passed unseen.
+  void step(Reading& reading);
+
   DateOrder order_;
   ClockForm clock_;
   bool since_1970_;
+  StepsBack steps_back_;
+  double added_ = 0, gap_ = 0;  // s; the last step that went forward
+  std::optional<double> last_;
+  bool warned_ = false, repeats_ = false;
   std::string unsaid_order_, unsaid_clock_;  // the first stamp of such kind
   std::optional<TimeStamp> first_;
 };

@@ -15,6 +15,9 @@
 
 namespace asperity {
 
+// What it means that times step back: a day is over, or local time changed by an hour.
+enum class StepsBack { unsaid, midnight, winter_time };
+
 struct TableForm {
   std::int64_t skip = 0;  // lines before the head
   // Own names of columns, each with the head in the file, with or without its unit.
@@ -27,8 +30,9 @@ struct TableForm {
   DateOrder dates = DateOrder::unsaid;
   ClockForm clock = ClockForm::unsaid;
   bool stamps_since_1970 = false;  // and not since the first one
-  char decimal = '\0';             // '.' or ','
-  char thousands = '\0';           // '.', ',', ' ' or '\''
+  StepsBack steps_back = StepsBack::unsaid;
+  char decimal = '\0';    // '.' or ','
+  char thousands = '\0';  // '.', ',', ' ' or '\''
   std::optional<Separator> separator{};
 };
 

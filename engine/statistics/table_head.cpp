@@ -35,6 +35,15 @@ bool may_be_a_word(std::string_view text) {
          text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+// "Force (kN, filtered)": a unit, then a comma and words, which stay in the name.
+std::optional<TableHead> with_remark(std::string_view name, std::string_view inside) {
+  const std::size_t comma = inside.find(',');
+  if (comma == std::string_view::npos) return {};
+  const std::string_view unit = trimmed(inside.substr(0, comma)), remark = trimmed(inside.substr(comma + 1));
+  if (!is_unit(unit) || remark.empty() || (unit.size() > 1 && may_be_a_word(unit))) return {};
+  return TableHead{std::string(trimmed(name)) + " (" + std::string(remark) + ")", std::string(unit)};
+}
+
 }  // namespace
 
 std::string bare_unit(std::string_view cell) {
@@ -71,12 +80,15 @@ TableHead table_head(std::string_view title) {
     return TableHead{std::string(trimmed(name)), std::string(trimmed(unit))};
   };
   if (title.ends_with(']'))
-    if (const std::size_t open = title.rfind('['); open != std::string_view::npos && open > 0)
-      return head(title.substr(0, open), title.substr(open + 1, title.size() - open - 2));
+    if (const std::size_t open = title.rfind('['); open != std::string_view::npos && open > 0) {
+      const std::string_view inside = title.substr(open + 1, title.size() - open - 2);
+      return with_remark(title.substr(0, open), inside).value_or(head(title.substr(0, open), inside));
+    }
   if (title.ends_with(')'))
     if (const std::size_t open = title.rfind('('); open != std::string_view::npos && open > 0) {
       const std::string_view inside = trimmed(title.substr(open + 1, title.size() - open - 2));
-      return is_unit(inside) || inside == "-" || inside == "1" ? head(title.substr(0, open), inside) : whole;
+      if (is_unit(inside) || inside == "-" || inside == "1") return head(title.substr(0, open), inside);
+      return with_remark(title.substr(0, open), inside).value_or(whole);
     }
   if (const std::size_t stroke = title.find(" / "); stroke != std::string_view::npos && stroke > 0)
     if (is_unit(trimmed(title.substr(stroke + 3))))

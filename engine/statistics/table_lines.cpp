@@ -5,6 +5,8 @@
 #include <array>
 
 #include "engine/core/files/text_encoding.hpp"
+#include "engine/statistics/number_form.hpp"
+#include "engine/statistics/table_head.hpp"
 
 namespace asperity {
 
@@ -224,16 +226,18 @@ bool TableLines::read_heads() {
     if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // a note of spreadsheets to themselves
   } while (is_comment(line));
   line = without_comment(line);
-  std::string_view next;
+  std::string_view next, second;
   if (heads_are_given()) {
     next = line;
     lines_ = before;
     line_ = lines_.number();
   } else {
     std::size_t number = 0;
-    for (LineReader ahead = lines_; next_record(ahead, next, number) && is_comment(next); next = {}) {
+    LineReader ahead = lines_;
+    for (std::string_view* below : {&next, &second}) {
+      while (next_record(ahead, *below, number) && is_comment(*below)) *below = {};
+      *below = without_comment(*below);
     }
-    next = without_comment(next);
   }
   if (!form_.separator) {
     separator_ = holds(line, ';')    ? Separator::semicolon
@@ -241,10 +245,18 @@ bool TableLines::read_heads() {
                                      : Separator::comma;
     const bool commas = holds(line, ',') && (!heads_are_given() || separator_of(line) == Separator::comma);
     const std::vector<TableCell> words_below = split_at(next, Separator::blank);
-    const bool several =
-        words_below.size() > 1 && std::ranges::any_of(words_below, [](const TableCell& cell) {
-          return read_cell(cell.text, Separator::blank).kind == CellKind::number;
-        });
+    const auto has_numbers = [](const std::vector<TableCell>& words_of_line) {
+      return words_of_line.size() > 1 && std::ranges::any_of(words_of_line, [](const TableCell& cell) {
+               return read_cell(cell.text, Separator::blank).kind == CellKind::number;
+             });
+    };
+    // A line of units may be between the heads and the first numbers.
+    const bool units = std::ranges::all_of(words_below, [](const TableCell& cell) {
+      return cell.text == "-" || unit_in_cell(cell.text) || bare_unit(cell.text) != cell.text;
+    });
+    const std::vector<TableCell> words_of_second = split_at(second, Separator::blank);
+    const bool several = has_numbers(words_below) || (units && words_of_second.size() == words_below.size() &&
+                                                      has_numbers(words_of_second));
     const bool words = trimmed(line).find_first_of(" \t") != std::string_view::npos;
     if (separator_ == Separator::comma && !commas && several && words &&
         split_at(line, Separator::comma).size() == 1 &&
@@ -260,12 +272,37 @@ bool TableLines::read_heads() {
   }
   heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split(line);
   for (TableCell& head : heads_) {
-    head.text = utf8_or_latin1(head.text);
+    head.text = utf8_or_cp1252(head.text);
     std::ranges::replace(head.text, '\n', ' ');  // "load", and "[kN]" in a second line of the cell
   }
   while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
   below_ = split(next);
+  second_ = split(second);
   return true;
+}
+
+bool TableLines::units_stand_below() const {
+  bool known = false, unknown = false, in_brackets = true;
+  for (std::size_t k = 0; k < below_.size(); ++k) {
+    const std::string cell = utf8_or_cp1252(below_[k].text), unit = bare_unit(cell);
+    if (unit.empty() || unit == "-") continue;
+    in_brackets = in_brackets && unit != cell;
+    if (unit_in_cell(unit)) {
+      known = true;
+    } else {
+      if (looks_like_a_number(cell) || quantity_in_cell(cell) || cell == "true" || cell == "false" ||
+          read_time_stamp(cell).kind != TimeStamp::Kind::none || k >= second_.size() ||
+          !looks_like_a_number(second_[k].text))
+        return false;
+      unknown = true;
+    }
+  }
+  return known || (unknown && in_brackets);
+}
+
+bool TableLines::ends_with_a_line_end() const {
+  const std::string_view text = decoded_ ? std::string_view(*decoded_) : file_.text();
+  return text.empty() || text.back() == '\n' || text.back() == '\r';
 }
 
 void TableLines::skip_below() {

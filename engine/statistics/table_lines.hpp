@@ -32,6 +32,9 @@ class TableLines {
   bool read_heads();
   const std::vector<TableCell>& heads() const { return heads_; }
   const std::vector<TableCell>& below() const { return below_; }  // the next line that is no comment
+  // Whether that line is of units and nothing else. A unit that is not known is one where others are, or all
+  // are in brackets, and where a number follows below it.
+  bool units_stand_below() const;
   std::string_view head_line() const { return head_line_; }
   bool heads_are_given() const { return !form_.heads.empty(); }
   Separator separator() const { return separator_; }
@@ -53,6 +56,8 @@ class TableLines {
   // In which the last row begins.
   std::size_t line() const { return line_; }
   std::size_t position() const { return lines_.position(); }
+  // Whether the last line has its line end.
+  bool ends_with_a_line_end() const;
   std::string here() const { return "line " + std::to_string(line()); }
   // Cells of a line, parted by the separator.
   std::vector<TableCell> split(std::string_view line) const;
@@ -74,9 +79,9 @@ class TableLines {
   Separator separator_ = Separator::comma;
   bool marks_known_ = false;  // that separator_ is the table's
   std::string_view head_line_;
-  std::vector<TableCell> heads_, below_;
-  mutable std::size_t whole_row_ = 0;  // a line that is known to be one
-  mutable bool ended_ = false;         // no line that follows is one
+  std::vector<TableCell> heads_, below_, second_;  // second: the line after below
+  mutable std::size_t whole_row_ = 0;              // a line that is known to be one
+  mutable bool ended_ = false;                     // no line that follows is one
 };
 
 // Where a character first stands outside quotes.

@@ -42,6 +42,10 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
 
 bool is_truth(std::string_view text) { return text == "true" || text == "false"; }
 
+bool is_data(std::string_view cell) {
+  return looks_like_a_number(cell) || read_time_stamp(cell).kind != TimeStamp::Kind::none;
+}
+
 // As csv_text of table.cpp guards texts that a spreadsheet takes for formulas.
 std::string without_guard(const std::string& text) {
   const bool guarded = text.size() > 1 && text[0] == '\'' &&
@@ -91,37 +95,37 @@ class MeasuredTable {
   void read_heads() {
     if (!lines_.read_heads())
       refuse_file(file_, "holds no line of heads", "begin with one such as \"N, angle [deg], load [N]\"");
-    if (!lines_.heads_are_given() && is_row_of_numbers(lines_.head_line()))
-      refuse_file(file_, "begins with numbers, in " + lines_.here() + ", and names no columns",
-                  "give their heads, as in columns={ \"time [s]\", \"load [kN]\" }");
+    if (!lines_.heads_are_given()) refuse_data_as_heads();
     for (const TableCell& head : lines_.heads()) {
       const TableHead parts = table_head(head.text);
       columns_.push_back(
-          {plain_text(head.text), plain_text(parts.name), plain_text(utf8_or_latin1(parts.unit))});
+          {plain_text(head.text), plain_text(parts.name), plain_text(utf8_or_cp1252(parts.unit))});
     }
-    const bool below = units_stand_below();
+    const bool below = !lines_.heads_are_given() && lines_.units_stand_below() &&
+                       std::ranges::all_of(columns_, [](const ReadColumn& c) { return c.unit.empty(); });
     for (std::size_t k = 0; below && k < std::min(columns_.size(), lines_.below().size()); ++k)
-      columns_[k].unit = utf8_or_latin1(bare_unit(lines_.below()[k].text));
+      columns_[k].unit = utf8_or_cp1252(bare_unit(lines_.below()[k].text));
     rename_columns();
     say_units();
     check_names();
     for (std::size_t k = 0; k < columns_.size(); ++k) check_unit(k);
+    warn_of_unknown_units();
     if (below) lines_.skip_below();
   }
 
-  // Where no head has one, and what stands below is units and nothing else.
-  bool units_stand_below() const {
-    if (lines_.heads_are_given()) return false;
-    bool some = false;
-    for (const ReadColumn& column : columns_)
-      if (!column.unit.empty()) return false;
-    for (const TableCell& cell : lines_.below()) {
-      const std::string unit = bare_unit(utf8_or_latin1(cell.text));
-      if (unit.empty() || unit == "-") continue;
-      if (!unit_in_cell(unit)) return false;
-      some = true;
-    }
-    return some;
+  // A file without heads begins with data. A quantity may be a head beside words, as in "slip,10 N,20 N".
+  void refuse_data_as_heads() const {
+    const std::vector<TableCell>& heads = lines_.heads();
+    const bool numbers = is_row_of_numbers(lines_.head_line());
+    auto found = std::ranges::find_if(heads, is_data, &TableCell::text);
+    if (std::ranges::all_of(heads,
+                            [](const TableCell& cell) { return quantity_in_cell(cell.text).has_value(); }))
+      found = heads.begin();
+    if (numbers || found != heads.end())
+      refuse_file(file_,
+                  "begins with " + (numbers ? "numbers" : shown(found->text)) + ", in " + lines_.here() +
+                      ", and names no columns",
+                  "give their heads, as in columns={ \"time [s]\", \"load [kN]\" }");
   }
 
   // By the whole head first, then without its unit; the number of columns that are called so.
@@ -213,11 +217,26 @@ class MeasuredTable {
     if (column.unit.empty() || column.unit == spreadsheet_date) return;
     try {
       parse_unit(column.unit);
+      return;
     } catch (const Error& error) {
-      problems_.add(lines_.here() + ", " + column_place(k), std::string(error.what()) + "; or unit={ " +
-                                                                plain_text(column.name) +
-                                                                "=\"1\" } takes its numbers as they stand");
+      const bool said =
+          std::ranges::any_of(form_.units, [&](const auto& given) { return given.second == column.unit; });
+      if (said) return problems_.add(lines_.here() + ", " + column_place(k), error.what());
     }
+    unknown_units_.push_back(shown_whole(column.unit) + " of " + column_place(k));
+    const bool renamed =
+        std::ranges::any_of(form_.names, [&](const auto& given) { return given.first == column.name; });
+    if (!renamed) column.name += " [" + plain_text(column.unit) + "]";
+    column.unit.clear();
+  }
+
+  void warn_of_unknown_units() {
+    if (unknown_units_.empty()) return;
+    const bool one = unknown_units_.size() == 1;
+    monitor_.warn(file_name(file_.path()) + ": the unit" + (one ? " " : "s ") +
+                  joined(unknown_units_, " and ") + (one ? " is" : " are") +
+                  " not known; the numbers are read without a unit, and the head" +
+                  (one ? " keeps it" : "s keep them"));
   }
 
   // --- rows
@@ -258,6 +277,21 @@ class MeasuredTable {
     }
     problems_.fail_if_any();
     if (rows_.empty()) refuse_file(file_, "names columns but holds no row");
+    warn_of_cut_line();
+  }
+
+  // "2;1." and "2;" without a line end: the rest of the file may be missing.
+  void warn_of_cut_line() {
+    if (lines_.ends_with_a_line_end() || lines_.line() != line_of_.back()) return;
+    const auto unfinished = [](const std::string& text) {
+      return text.empty() || std::string_view(".,eE+-").find(text.back()) != std::string_view::npos;
+    };
+    const std::string& last = rows_.back().back().text;
+    if (rows_.back().back().quoted || !unfinished(last)) return;
+    if (rows_.size() > 1 && unfinished(rows_[rows_.size() - 2].back().text)) return;
+    monitor_.warn(file_name(file_.path()) + ", " + lines_.here() +
+                  ": the last line has no line end and its last cell is " +
+                  (last.empty() ? "empty" : shown(last)) + "; the file may be cut short");
   }
 
   bool is_nothing(std::size_t k) {
@@ -289,10 +323,8 @@ class MeasuredTable {
   // None of its cells is a number, in whatever form.
   bool holds_words(std::size_t k) const {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const std::string text = with_plain_signs(text_of(cell(row, k)));
-      if (!text.empty() && text.find_first_not_of("0123456789.,+-eE ") == std::string::npos &&
-          text.find_first_of("0123456789") != std::string::npos)
-        return false;
+      const std::string text = text_of(cell(row, k));
+      if (looks_like_a_number(text)) return false;
     }
     return true;
   }
@@ -366,7 +398,7 @@ class MeasuredTable {
       const TableCell& from = cell(row, k);
       const bool nothing = from.text.empty() && !from.quoted;
       rows[row].emplace_back();
-      if (!nothing) rows[row].back() = utf8_or_latin1(without_guard(text_of(from)));
+      if (!nothing) rows[row].back() = utf8_or_cp1252(without_guard(text_of(from)));
     }
   }
 
@@ -491,8 +523,6 @@ class MeasuredTable {
       problems_.add(place(0, k), *doubt);
       return "";
     }
-    std::optional<double> last;
-    bool warned = false;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const std::string text = text_of(cell(row, k));
       if (read_number(text, number_form_).kind == CellKind::hole) {
@@ -502,16 +532,9 @@ class MeasuredTable {
       const StampColumn::Reading reading = stamps.read(text);
       if (!reading.seconds) problems_.add(place(row, k), reading.complaint);
       rows[row].emplace_back();
-      if (!reading.seconds) continue;
-      rows[row].back() = *reading.seconds;
-      constexpr double half_a_day = 43200;
-      if (!stamps.dated() && last && *reading.seconds < *last - half_a_day && !warned) {
-        monitor_.warn(file_name(file_.path()) + " " + place(row, k) + ": " + shown(text) +
-                      " is more than half a day before the time above; if midnight came between, the times "
-                      "need their dates");
-        warned = true;
-      }
-      last = reading.seconds;
+      if (reading.seconds) rows[row].back() = *reading.seconds;
+      if (!reading.warning.empty())
+        monitor_.warn(file_name(file_.path()) + " " + place(row, k) + ": " + shown(text) + reading.warning);
     }
     return "s";
   }
@@ -546,6 +569,7 @@ class MeasuredTable {
   std::vector<ReadColumn> columns_;
   std::vector<std::vector<TableCell>> rows_;
   std::vector<std::size_t> line_of_;
+  std::vector<std::string> unknown_units_;
 };
 
 }  // namespace

@@ -103,5 +103,34 @@ TEST(Monitor, SilentTakesEverything) {
   EXPECT_NO_THROW(Monitor::silent().warn("x"));
 }
 
+TEST(WarningKinds, AreOfOneKindWhereNumbersAloneDiffer) {
+  const std::string of_a_map =
+      "run.lua:7: masked: 12 of 4096 points are outliers, farther than 3.2 nm from others";
+  EXPECT_EQ(
+      kind_of_warning(of_a_map),
+      kind_of_warning("run.lua:7: masked: 9 of 512 points are outliers, farther than 950 pm from others"));
+  EXPECT_NE(
+      kind_of_warning(of_a_map),
+      kind_of_warning("run.lua:8: masked: 12 of 4096 points are outliers, farther than 3.2 nm from others"));
+  EXPECT_NE(kind_of_warning("\"scan 1.sdf\" is short"), kind_of_warning("\"scan 2.sdf\" is short"));
+  EXPECT_NE(kind_of_warning("case load = 1, seed = 1 failed"),
+            kind_of_warning("case load = 1, seed = 2 failed"));
+  EXPECT_EQ(kind_of_warning("at -3 um and 1e-6"), kind_of_warning("at -40 nm and 2"));
+  for (const char* odd : {"", "1", "1 ", "a 1", "(1)", "\"1", "1 2 3 ", "= 1"})
+    EXPECT_NO_THROW(kind_of_warning(odd));
+}
+
+TEST(WarningKinds, AreCountedAndToldOnce) {
+  WarningKinds kinds;
+  EXPECT_TRUE(kinds.is_first("3 of 4 are gone"));
+  EXPECT_FALSE(kinds.is_first("1 of 4 are gone"));
+  EXPECT_FALSE(kinds.is_first("2 of 5 are gone"));
+  EXPECT_TRUE(kinds.is_first("nothing is gone"));
+  EXPECT_EQ(
+      kinds.rest(),
+      (std::vector<std::string>{"2 more warnings differ in numbers alone from this one: 3 of 4 are gone"}));
+  EXPECT_TRUE(kinds.rest().empty());
+}
+
 }  // namespace
 }  // namespace asperity::monitor_test

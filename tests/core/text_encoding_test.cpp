@@ -29,13 +29,14 @@ TEST(TextEncoding, PairsAndHalvesOfThem) {
   EXPECT_EQ(utf8_of_utf16("\xFF\xFE\xAC\x20\x61"s), "\xE2\x82\xAC");  // half a unit at the end
 }
 
-TEST(TextEncoding, BytesThatAreNotUtf8AreLatin1) {
-  EXPECT_EQ(utf8_or_latin1("H\xE4rte \xB5m"), "H\xC3\xA4rte \xC2\xB5m");
-  EXPECT_EQ(utf8_or_latin1("H\xC3\xA4rte"), "H\xC3\xA4rte");
-  EXPECT_EQ(utf8_or_latin1("\xC3"), "\xC3\x83");
-  EXPECT_EQ(utf8_or_latin1("\xED\xA0\x80"), "\xC3\xAD\xC2\xA0\xC2\x80");  // half of a pair
-  EXPECT_EQ(utf8_or_latin1("\xC0\xAF"), "\xC3\x80\xC2\xAF");              // longer than needed
-  EXPECT_EQ(utf8_or_latin1("\xF4\x90\x80\x80"), "\xC3\xB4\xC2\x90\xC2\x80\xC2\x80");
+TEST(TextEncoding, BytesThatAreNotUtf8AreWindows1252) {
+  EXPECT_EQ(utf8_or_cp1252("H\xE4rte \xB5m"), "H\xC3\xA4rte \xC2\xB5m");
+  EXPECT_EQ(utf8_or_cp1252("H\xC3\xA4rte"), "H\xC3\xA4rte");
+  EXPECT_EQ(utf8_or_cp1252("\xC3"), "\xC3\x83");
+  EXPECT_EQ(utf8_or_cp1252("\xED\xA0\x80"), "\xC3\xAD\xC2\xA0\xE2\x82\xAC");  // half of a pair
+  EXPECT_EQ(utf8_or_cp1252("\xC0\xAF"), "\xC3\x80\xC2\xAF");                  // longer than needed
+  EXPECT_EQ(utf8_or_cp1252("\xF4\x90\x80\x80"), "\xC3\xB4\xEF\xBF\xBD\xE2\x82\xAC\xE2\x82\xAC");
+  EXPECT_EQ(utf8_or_cp1252("\x80 \x96 \x9F"), "\xE2\x82\xAC \xE2\x80\x93 \xC5\xB8");
 }
 
 }  // namespace

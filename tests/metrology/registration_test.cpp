@@ -14,9 +14,12 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/sanitizers.hpp"
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/write.hpp"
 #include "engine/surface/operations/placement.hpp"
 #include "tests/metrology/test_fields.hpp"
 #include "tests/metrology/worn_pairs.hpp"
+#include "tests/surface/files.hpp"
 
 namespace asperity::registration_test {
 namespace {
@@ -493,6 +496,28 @@ TEST(Registration, OptionsOutOfRange) {
   options = turns_up_to(1);
   options.at_most = 0;
   EXPECT_EQ(refusal(map, map, options), "`at_most` is 0 m; give the greatest shift, above zero");
+}
+
+// The formats store their lines from the top and from the bottom.
+TEST(Registration, OneScanInTwoFormatsNeedsNoTurn) {
+  const testing::Scratch scratch;
+  Surface scan = ground(80, 64);
+  Field z = scan.measured_heights();
+  for (int i = 0; i < 9; ++i) z(20 + i, 50) = std::numeric_limits<double>::quiet_NaN();
+  scan = Surface::with_holes(scan.grid(), std::move(z));
+  const auto through = [&](const std::string& ending) {
+    write_surface(scan, scratch.path("scan." + ending));
+    return read_surface(scratch.path("scan." + ending));
+  };
+  const Surface before = through("x3p");
+  for (const char* ending : {"gwy", "sur"}) {
+    const Registration found = registered(through(ending), before);
+    EXPECT_NEAR(found.angle, 0, 1e-7) << ending;
+    EXPECT_NEAR(found.shift_x, 0, 1e-5 * cell) << ending;
+    EXPECT_NEAR(found.shift_y, 0, 1e-5 * cell) << ending;
+    EXPECT_NEAR(found.residual, 0, 1e-6 * scan.peak_to_valley()) << ending;  // SUR rounds heights and sizes
+    EXPECT_EQ(found.overlap, 1) << ending;
+  }
 }
 
 }  // namespace

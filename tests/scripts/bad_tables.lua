@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Tables that can be read in two ways, or not at all: file, line, column, what was found and what would work.
 --! exit: 1
---! error: bad_tables.lua:40: 
+--! error: bad_tables.lua:42: 
 --! error: log.csv" has 2 problems
 --! error:   line 2, column 2 (load): "x" is no number
 --! error:   line 3, column 1 (N): "new" is no number, as others of this column are; mend it, or text={ "N" }
@@ -26,7 +26,9 @@ file('decimal="," or thousands="," says which', "a;b\n1,250;2\n")
 file('choose one, as in columns={ load="load [N]" }', "load [kN],load [N]\n1,990\n")
 file("packed with gzip (.gz); unpack it", "\x1F\x8B\x08\x00abc")
 file("an Excel 97 workbook (.xls)", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 and more")
-file('(did you mean `kN`?); or unit={ load="1" } takes its numbers as they stand', "load [Kn]\n1\n")
+file("unknown unit `Kn` (did you mean `kN`?)", "load\n1\n", { unit={ load="Kn" } })
+file('begins with "2026-01-01 08:00", in line 1, and names no columns; give their heads', "2026-01-01 08:00,1.5\n")
+file("thousands=\"'\" says that it parts thousands", "a;b\n1'234.5;2\n")
 file("`unit` names `laod`, which is no column (did you mean `load`?)", "load\n1\n", { unit={ laod="N" } })
 file('`dates` is "day"', "a\n1\n", { dates="day" })
 file("skp", "a\n1\n", { skp=1 })

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/support/run_fixture.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::table_reader_test {
 namespace {
@@ -94,13 +95,10 @@ TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
   EXPECT_EQ(csv("load kN,slip um,strain %\n1,2,3\n"), "load [N],slip [m],strain\n1000,2e-06,0.03\n");
   EXPECT_EQ(csv("Run N,time_s,T min,mu (left),Ra/Rq,a, b\n1,2,3,4,5,6,7\n"),
             "Run N,time_s,T min,mu (left),Ra/Rq,a,b\n1,2,3,4,5,6,7\n");
-  EXPECT_EQ(refusal("T [\xC2\xB0"
-                    "C],load [kn]\n1,2\n")
-                .substr(0, 14),
-            "has 2 problems");
-  EXPECT_NE(refusal("load [kn]\n1\n").find("line 1, column 1 (load): \"kn\": unknown unit `kn`"),
-            std::string::npos);
-  EXPECT_NE(refusal("load [kn]\n1\n").find("or unit={ load=\"1\" } takes its numbers as they stand"),
+  EXPECT_NE(refusal("load\n1\n", with([](TableForm& f) {
+                      f.units = {{"load", "kn"}};
+                    }))
+                .find("line 1, column 1 (load): \"kn\": unknown unit `kn`"),
             std::string::npos);
   EXPECT_EQ(csv("T [\xC2\xB0"
                 "C]\n1.5\n",
@@ -108,6 +106,142 @@ TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
                   f.units = {{"T", "1"}};
                 })),
             "T\n1.5\n");
+}
+
+std::vector<std::string> warnings_of(const std::string& text, const TableForm& form = {}) {
+  testing::Warnings warnings;
+  read_measured_table(SourceFile("t.csv", text), form, warnings);
+  return warnings.all;
+}
+
+// A unit that is not on our list is no error: its numbers are read, and the head says what they are of.
+TEST(TableReader, AnUnknownUnitStaysInTheHead) {
+  EXPECT_EQ(csv("x [s],T [degC]\n1,20\n"), "x [s],T [degC]\n1,20\n");
+  EXPECT_EQ(warnings_of("x [s],T [degC],U [mV]\n1,20,3\n"),
+            (std::vector<std::string>{
+                "\"t.csv\": the units \"degC\" of column 2 (T) and \"mV\" of column 3 (U) are not known; the "
+                "numbers are read without a unit, and the heads keep them"}));
+  EXPECT_EQ(warnings_of("T [degC]\n20\n").size(), 1u);
+  EXPECT_EQ(csv("time,T,load\ns,degC,kN\n1,20,5\n2,21,6\n"),
+            "time [s],T [degC],load [N]\n1,20,5000\n2,21,6000\n");
+  EXPECT_EQ(warnings_of("time,T,load\ns,degC,kN\n1,20,5\n2,21,6\n").size(), 1u);
+  EXPECT_EQ(csv("time;T\n[s];[\xB0"
+                "C]\n1;20,5\n"),
+            "time [s],T [\xC2\xB0"
+            "C]\n1,20.5\n");
+  EXPECT_EQ(csv("T,U\n[K],[V]\n20,1\n"), "T [K],U [V]\n20,1\n");
+  // By its own name and by that of the file.
+  EXPECT_EQ(csv("Temp [degC]\n20\n", with([](TableForm& f) { f.names = {{"T", "Temp"}}; })), "T\n20\n");
+  EXPECT_EQ(csv("time,T\ns,degC\n1,20\n", with([](TableForm& f) {
+                  f.units = {{"T", "1"}};
+                })),
+            "time [s],T\n1,20\n");
+  EXPECT_EQ(csv(csv("x [s],T [degC]\n1,20\n")), "x [s],T [degC]\n1,20\n");
+  // Words above words are rows.
+  EXPECT_EQ(csv("name,kind\nAnna,m\nBea,f\n"), "name,kind\nAnna,m\nBea,f\n");
+  EXPECT_EQ(csv("tag,load\nm,1 N\nf,2 N\n"), "tag,load [N]\nm,1\nf,2\n");
+}
+
+TEST(TableReader, ARowOfDataIsNeverTheHeads) {
+  const std::string cure =
+      ", in line 1, and names no columns; give their heads, as in columns={ \"time [s]\", \"load [kN]\" }";
+  EXPECT_EQ(refusal("2026-01-01 08:00,1.5\n2026-01-01 09:00,1.6\n"),
+            "begins with \"2026-01-01 08:00\"" + cure);
+  EXPECT_EQ(refusal("new,1.5\nold,1.6\n"), "begins with \"1.5\"" + cure);
+  EXPECT_EQ(refusal("new;1,5\nold;1,6\n"), "begins with \"1,5\"" + cure);
+  EXPECT_EQ(refusal("\"08:00:01\",\"x\"\n\"08:00:02\",\"y\"\n"), "begins with \"08:00:01\"" + cure);
+  EXPECT_EQ(refusal("1'250;x\n2'000;y\n"), "begins with \"1'250\"" + cure);
+  EXPECT_EQ(refusal("1.5 kN,2 s\n1.6 kN,3 s\n"), "begins with \"1.5 kN\"" + cure);
+  // Heads that only begin or end as data do.
+  for (const std::string heads : {"E1,e2", "slip,10 N", "day 1,95%", "x1,May", "1st,nan", "A-1,B-2"})
+    EXPECT_EQ(csv(heads + "\n1,2\n").substr(0, 2), heads.substr(0, 2));
+}
+
+TEST(TableReader, ColumnsOfFixedWidthAreParted) {
+  const std::string wanted = "load [N],Ra [m]\n1,5e-07\n2,6e-07\n";
+  for (const char* units : {"    [N]     [um]\n", "      N       um\n"})
+    EXPECT_EQ(csv(std::string("   load       Ra\n") + units + "    1.0      0.5\n    2.0      0.6\n"),
+              wanted);
+  EXPECT_EQ(csv("   load        T\n    [N]   [degC]\n    1.0     20.5\n"), "load [N],T [degC]\n1,20.5\n");
+  EXPECT_EQ(csv("note text\nworn and old\nnew\n"), "note text\nworn and old\nnew\n");
+}
+
+TEST(TableReader, BytesOfWindowsAreItsCharacters) {
+  EXPECT_EQ(csv("load [N],note\n1,a \x96 b\n2,\x80 5\n"),
+            "load [N],note\n1,a \xE2\x80\x93 b\n2,\xE2\x82\xAC 5\n");
+  EXPECT_EQ(csv("n,note\n1,\x81\xE4\n"), "n,note\n1,\xEF\xBF\xBD\xC3\xA4\n");
+}
+
+// Local time goes back an hour in autumn; nothing but the key tells that from rows out of order.
+TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
+  const TableForm winter = with([](TableForm& f) { f.steps_back = StepsBack::winter_time; });
+  const std::string quarters =
+      "stamp,F [N]\n2025-10-26 02:45:00,1\n2025-10-26 02:00:00,2\n2025-10-26 02:15:00,3\n2025-10-26 "
+      "03:00:00,4\n";
+  EXPECT_EQ(warnings_of(quarters),
+            (std::vector<std::string>{"\"t.csv\" line 3, column 1 (stamp): \"2025-10-26 02:00:00\" is before "
+                                      "the time above; if summer time "
+                                      "ended between them, steps_back=\"winter time\" adds the hour"}));
+  EXPECT_EQ(csv(quarters, winter), "stamp [s],F [N]\n0,1\n900,2\n1800,3\n4500,4\n");
+  EXPECT_TRUE(warnings_of(quarters, winter).empty());
+  const std::string hours =
+      "t,F\n2025-10-26 01:00,1\n2025-10-26 02:00,2\n2025-10-26 02:00,3\n2025-10-26 03:00,4\n";
+  EXPECT_EQ(warnings_of(hours).size(), 1u);
+  EXPECT_EQ(csv(hours, winter), "t [s],F\n0,1\n3600,2\n7200,3\n10800,4\n");
+  // With their zone, out of order by more than an hour, or several rows a time: nothing happened.
+  for (const std::string rows :
+       {"2025-10-26 02:45+02:00,1\n2025-10-26 02:00+01:00,2\n", "2026-03-01,1\n2026-02-28,2\n",
+        "2026-03-01 10:00,1\n2026-03-01 10:00,2\n2026-03-01 11:00,1\n2026-03-01 11:00,2\n",
+        "2026-03-01,1\n2026-03-02,1\n2026-03-02,2\n"}) {
+    EXPECT_TRUE(warnings_of("t,F\n" + rows).empty()) << rows;
+    EXPECT_EQ(csv("t,F\n" + rows, winter), csv("t,F\n" + rows)) << rows;
+  }
+  // A logger's jitter is warned of, and no hour.
+  const std::string jitter = "t,F\n2026-03-01 10:00:00.2,1\n2026-03-01 10:00:00.1,2\n";
+  EXPECT_EQ(warnings_of(jitter).size(), 1u);
+  EXPECT_EQ(csv(jitter, winter), csv(jitter));
+}
+
+TEST(TableReader, MidnightIsAddedWhereItIsSaid) {
+  const TableForm midnight = with([](TableForm& f) { f.steps_back = StepsBack::midnight; });
+  const std::string text = "time,a\n23:59:00,1\n00:01:00,2\n13:00:00,3\n00:00:30,4\n";
+  EXPECT_EQ(csv(text, midnight), "time [s],a\n0,1\n120,2\n46860,3\n86490,4\n");
+  EXPECT_TRUE(warnings_of("time,a\n23:59:00,1\n00:01:00,2\n", midnight).empty());
+  EXPECT_NE(warnings_of(text).at(0).find("steps_back=\"midnight\" adds the day"), std::string::npos);
+}
+
+TEST(TableReader, ARemarkAfterTheUnitStaysInTheName) {
+  EXPECT_EQ(csv("Force (kN, filtered);F (N, raw);d [um, mean]\n1;2;3\n"),
+            "Force (filtered) [N],F (raw) [N],d (mean) [m]\n1000,2,3e-06\n");
+  EXPECT_EQ(csv("\"Group (min, max)\",\"mu (left, cold)\"\n1,2\n"),
+            "\"Group (min, max)\",\"mu (left, cold)\"\n1,2\n");
+}
+
+TEST(TableReader, ALastLineThatIsCutIsWarnedOf) {
+  for (const char* end : {"2;1.", "2;", "2;1,", "2;1e"})
+    EXPECT_EQ(warnings_of(std::string("a;b\n1;1,5\n") + (end == std::string("2;1e") ? "3;x\n" : "") + end,
+                          with([](TableForm& f) { f.texts = {"b"}; }))
+                  .size(),
+              1u)
+        << end;
+  EXPECT_EQ(warnings_of("a;b\n1;0.5\n2;1."),
+            (std::vector<std::string>{
+                "\"t.csv\", line 3: the last line has no line end and its last cell is \"1.\"; "
+                "the file may be cut short"}));
+  EXPECT_TRUE(warnings_of("a;b\n1;0.5\n2;1.5").empty());
+  EXPECT_TRUE(warnings_of("a;b\n1;0.5\n2;\n").empty());
+  EXPECT_TRUE(warnings_of("a;b\n1;1.\n2;2.").empty());
+}
+
+TEST(TableReader, ApostrophesBetweenDigitsAreAskedForAndRead) {
+  const TableForm form = with([](TableForm& f) { f.thousands = '\''; });
+  for (const std::string sign : {"'", "\u2019"}) {
+    EXPECT_EQ(refusal("a;b\n1" + sign + "234.5;2\n"),
+              "line 2, column 1 (a): \"1'234.5\" has an apostrophe between its digits; thousands=\"'\" says "
+              "that it "
+              "parts thousands");
+    EXPECT_EQ(csv("a;b [N]\n1" + sign + "234.5;2" + sign + "000\n", form), "a,b [N]\n1234.5,2000\n");
+  }
 }
 
 TEST(TableReader, ColumnsOfTextsTruthsAndNothing) {

@@ -34,17 +34,17 @@ std::string refusal(const Al3dExample& example) {
 TEST(Al3d, HeightsAreMetresLineByLine) {
   const Surface s = read(Al3dExample{}(eight));
   EXPECT_EQ(s.grid(), (Grid{4, 2, 4e-6, 4e-6}));
-  EXPECT_EQ(s.height(1, 0), static_cast<double>(2e-6F));
-  EXPECT_EQ(s.height(0, 1), static_cast<double>(5e-6F));
-  EXPECT_TRUE(std::isnan(s.height(1, 1)));  // rounded in the text, in single precision here
-  EXPECT_TRUE(std::isnan(s.height(3, 1)));
+  EXPECT_EQ(s.height(1, 1), static_cast<double>(2e-6F));
+  EXPECT_EQ(s.height(0, 0), static_cast<double>(5e-6F));
+  EXPECT_TRUE(std::isnan(s.height(1, 0)));  // rounded in the text, in single precision here
+  EXPECT_TRUE(std::isnan(s.height(3, 0)));
   EXPECT_EQ(s.measured(), 6U);
 }
 
 TEST(Al3d, AnInvalidNumberThatIsNanLeavesTheOthers) {
   const Surface s = read(with("InvalidPixelValue", "nan")({{1, 2, 3, 4}, {5, NAN, 7, 0}}));
   EXPECT_EQ(s.measured(), 7U);
-  EXPECT_EQ(s.height(3, 1), 0);
+  EXPECT_EQ(s.height(3, 0), 0);
   EXPECT_EQ(read(with("InvalidPixelValue", "0")({{1, 2, 3, 4}, {5, 6, 7, 0}})).measured(), 7U);
 }
 
@@ -52,12 +52,12 @@ TEST(Al3d, LinesOfOddLengthArePadded) {
   Al3dExample three = with("Cols", "3");
   const std::vector<std::vector<float>> six{{1, 2, 3}, {4, 5, 6}};
   three.pad = 4;
-  EXPECT_EQ(read(three(six)).height(0, 1), 4);
+  EXPECT_EQ(read(three(six)).height(0, 0), 4);
   three.pad = 0;  // nothing after them tells that they are not
-  EXPECT_EQ(read(three(six)).height(0, 1), 4);
+  EXPECT_EQ(read(three(six)).height(0, 0), 4);
   three.pad = 4;
   three.after = "a picture";
-  EXPECT_EQ(read(three(six)).height(2, 1), 6);
+  EXPECT_EQ(read(three(six)).height(2, 0), 6);
 }
 
 TEST(Al3d, EachFaultIsSaid) {

@@ -36,17 +36,17 @@ std::string refusal(const std::string& bytes) {
 TEST(Bcr, IntegersAreHeightsOfTheirStep) {
   const Surface s = read(example(integers + "voidpixels = 0\n", six));
   EXPECT_EQ(s.grid(), (Grid{3, 2, 3000 * 1e-9, 4000 * 1e-9}));
-  EXPECT_EQ(s.height(0, 1), -4 * (0.5 * 1e-9));
-  EXPECT_EQ(s.height(1, 1), 32767 * (0.5 * 1e-9));
-  EXPECT_EQ(read(example(integers + "voidpixels = 1\n", six), HoleFill::with(7)).height(1, 1), 7);
-  EXPECT_EQ(read(example(integers, six), HoleFill::with(7)).height(1, 1), 7);
+  EXPECT_EQ(s.height(0, 0), -4 * (0.5 * 1e-9));
+  EXPECT_EQ(s.height(1, 0), 32767 * (0.5 * 1e-9));
+  EXPECT_EQ(read(example(integers + "voidpixels = 1\n", six), HoleFill::with(7)).height(1, 0), 7);
+  EXPECT_EQ(read(example(integers, six), HoleFill::with(7)).height(1, 0), 7);
 }
 
 TEST(Bcr, BigEndianNumbersAreTurned) {
   std::string bytes =
       example("fileformat = bcrstm\nintelmode = 0\n" + integers.substr(20, integers.size() - 34), six);
   for (std::size_t k = 2048; k < bytes.size(); k += 2) std::swap(bytes[k], bytes[k + 1]);
-  EXPECT_EQ(read(bytes, HoleFill::with(0)).height(0, 1), -4 * (0.5 * 1e-9));
+  EXPECT_EQ(read(bytes, HoleFill::with(0)).height(0, 0), -4 * (0.5 * 1e-9));
 }
 
 TEST(Bcr, FloatsAreNanometres) {
@@ -87,12 +87,12 @@ TEST(Bcr, AScaleOfIntegersIsPassedOverForFloatsWithAWarning) {
 TEST(Bcr, TheHeaderIsAsLongAsItSays) {
   const std::string header = integers + "headersize = 3000\nvoidpixels = 0\n";
   const std::string longer = Bytes().field(header, 3000).put_all(six).bytes();
-  EXPECT_EQ(read(longer).height(0, 1), -4 * (0.5 * 1e-9));
+  EXPECT_EQ(read(longer).height(0, 0), -4 * (0.5 * 1e-9));
   EXPECT_NE(refusal(example(integers + "headersize = 99999\n", six)).find("has 99999 characters"),
             std::string::npos);
   EXPECT_NE(refusal(example(integers + "headersize = 20\n", six)).find("has 20 characters"),
             std::string::npos);
-  EXPECT_EQ(read(example(integers + "headersize = 2048\nvoidpixels = 0\n", six)).height(0, 1),
+  EXPECT_EQ(read(example(integers + "headersize = 2048\nvoidpixels = 0\n", six)).height(0, 0),
             -4 * (0.5 * 1e-9));
 }
 
@@ -122,7 +122,7 @@ TEST(Bcr, FirstLineHasTheKeyInOnePiece) {
             "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "
             "bcrf`; if it is "
             "another format, name it with `format`");
-  EXPECT_EQ(read(example("FileFormat=bcrstm\r\n" + integers, six), HoleFill::with(0)).height(0, 0),
+  EXPECT_EQ(read(example("FileFormat=bcrstm\r\n" + integers, six), HoleFill::with(0)).height(0, 1),
             0.5 * 1e-9);
 }
 

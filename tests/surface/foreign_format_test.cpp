@@ -127,9 +127,9 @@ TEST(ForeignFormat, F7BcrWithAHeadInUtf16IsRead) {
   const Surface floats =
       read_surface(SourceFile("a.bcrf", head("bcrf") + testing::raw(std::vector<float>{1, 2, 3, 4, 5, 6})));
   EXPECT_EQ(floats.grid(), (Grid{3, 2, 3000 * 1e-9, 4000 * 1e-9}));
-  EXPECT_EQ(floats.height(0, 1), 4 * 1e-9);
+  EXPECT_EQ(floats.height(0, 0), 4 * 1e-9);
   const std::string integers = head("bcrstm") + testing::raw(std::vector<std::int16_t>{1, 2, 3, 4, 5, 6});
-  EXPECT_EQ(read_surface(SourceFile("a.dat", integers)).height(2, 1), 6 * (0.5 * 1e-9));
+  EXPECT_EQ(read_surface(SourceFile("a.dat", integers)).height(2, 0), 6 * (0.5 * 1e-9));
   EXPECT_NE(refusal("a.bcr", integers.substr(0, 4000)).find("is cut short in its header of 4096 bytes"),
             std::string::npos);
   testing::damage(integers, 73, 1000,

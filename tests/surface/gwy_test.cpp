@@ -34,13 +34,13 @@ std::string map(int number, const GwyField& field, const std::string& title = {}
 TEST(Gwy, MapIsReadWithSizeAndUnits) {
   const Surface s = read(gwy_example(map(0, {})));
   EXPECT_EQ(s.grid(), (Grid{3, 2, 3e-6, 4e-6}));
-  EXPECT_EQ(s.height(2, 0), 3e-9);
-  EXPECT_EQ(s.height(0, 1), 4e-9);
+  EXPECT_EQ(s.height(2, 1), 3e-9);
+  EXPECT_EQ(s.height(0, 0), 4e-9);
   GwyField other;
   other.unit_z = "nm";
   other.unit_xy = "um";
   other.size_x = 3;
-  EXPECT_EQ(read(gwy_example(map(0, other))).height(0, 0), 1e-9 * 1e-9);
+  EXPECT_EQ(read(gwy_example(map(0, other))).height(0, 1), 1e-9 * 1e-9);
   EXPECT_EQ(read(gwy_example(map(0, other))).grid().size_x, 3e-6);
 }
 
@@ -53,9 +53,9 @@ TEST(Gwy, FirstMapOfLengthsIsTaken) {
   const std::string content = map(12, later, "Late") + gwy_text("/0/base/palette", "Gray") +
                               map(3, phase, "Phase") + map(7, {}, "Height") +
                               gwy_inner("/brick/1", gwy_object("GwyBrick", ""));
-  EXPECT_EQ(read(gwy_example(content)).height(0, 0), 1e-9);
-  EXPECT_EQ(read(gwy_example(content), "Late").height(0, 0), 9);
-  EXPECT_EQ(read(gwy_example(content), "12").height(0, 0), 9);
+  EXPECT_EQ(read(gwy_example(content)).height(0, 1), 1e-9);
+  EXPECT_EQ(read(gwy_example(content), "Late").height(0, 1), 9);
+  EXPECT_EQ(read(gwy_example(content), "12").height(0, 1), 9);
   EXPECT_EQ(refusal(content, "Phase"),
             "\"a.gwy\" holds the map 3 \"Phase\" in \"deg\", which is no unit of length; name a map of "
             "heights by its "

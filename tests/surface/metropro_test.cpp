@@ -29,21 +29,21 @@ TEST(MetroPro, PhasesAreHalfWavelengths) {
   const Surface s = read(MetroProExample{}(six));
   const double wavelength = static_cast<double>(512e-9F), spacing = static_cast<double>(1e-6F);
   EXPECT_EQ(s.grid(), (Grid{3, 2, spacing * 3, spacing * 2}));
-  EXPECT_EQ(s.height(0, 0), wavelength / 2);
-  EXPECT_EQ(s.height(1, 0), -wavelength);
-  EXPECT_EQ(s.height(0, 1), 4 * (0.5 * wavelength / 4096));
-  EXPECT_TRUE(std::isnan(s.height(1, 1)));
+  EXPECT_EQ(s.height(0, 1), wavelength / 2);
+  EXPECT_EQ(s.height(1, 1), -wavelength);
+  EXPECT_EQ(s.height(0, 0), 4 * (0.5 * wavelength / 4096));
+  EXPECT_TRUE(std::isnan(s.height(1, 0)));
   EXPECT_EQ(s.measured(), 5U);
 }
 
 TEST(MetroPro, ResolutionInversionAndTheLongHeader) {
   const double wavelength = static_cast<double>(512e-9F);
-  EXPECT_EQ(read(MetroProExample{.resolution = 1}(six)).height(0, 0), wavelength / 16);
-  EXPECT_EQ(read(MetroProExample{.resolution = 2}(six)).height(0, 0), wavelength / 64);
-  EXPECT_EQ(read(MetroProExample{.inverted = 1}(six)).height(0, 0), -wavelength / 2);
-  EXPECT_TRUE(std::isnan(read(MetroProExample{.inverted = 1}(six)).height(1, 1)));
-  EXPECT_EQ(read(MetroProExample{.scale = -0.5F}(six)).height(0, 0), -wavelength / 2);
-  EXPECT_EQ(read(MetroProExample{.mark = "\x88\x1B\x03\x71", .version = 3, .header = 4096}(six)).height(0, 0),
+  EXPECT_EQ(read(MetroProExample{.resolution = 1}(six)).height(0, 1), wavelength / 16);
+  EXPECT_EQ(read(MetroProExample{.resolution = 2}(six)).height(0, 1), wavelength / 64);
+  EXPECT_EQ(read(MetroProExample{.inverted = 1}(six)).height(0, 1), -wavelength / 2);
+  EXPECT_TRUE(std::isnan(read(MetroProExample{.inverted = 1}(six)).height(1, 0)));
+  EXPECT_EQ(read(MetroProExample{.scale = -0.5F}(six)).height(0, 1), -wavelength / 2);
+  EXPECT_EQ(read(MetroProExample{.mark = "\x88\x1B\x03\x71", .version = 3, .header = 4096}(six)).height(0, 1),
             wavelength / 2);
 }
 

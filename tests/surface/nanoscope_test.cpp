@@ -4,7 +4,7 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/little_endian.hpp"
+#include "tests/surface/scanning_probe_files.hpp"
 #include "tests/surface/warnings.hpp"
 
 namespace asperity::nanoscope_test {
@@ -12,33 +12,8 @@ namespace {
 
 using testing::message_of;
 
-// One image of three columns and two lines.
-struct Image {
-  std::string title = "Height", line = "Trace", scan_size = "30 40 nm", sensitivity = "Sens. Zsens";
-  std::string volts = "65.53600 V";
-  int nx = 3, ny = 2, bytes_a_pixel = 2;
-  std::string data = testing::raw(std::vector<std::int16_t>{1, 2, 3, -4, 5, -32768});
-};
-
-std::string nanoscope(const std::vector<Image>& images, int version = 0x07200000) {
-  constexpr std::size_t header = 4096;
-  std::string text = "\\*File list\r\n\\Version: " + std::to_string(version) +
-                     "\r\n\\*Scanner list\r\n\\@Sens. Zsens: V 20.00000 nm/V\r\n\\*Ciao scan list\r\n"
-                     "\\@Sens. ZsensSens: V 0.4000000 \xB5m/V\r\n\\@Sens. Phase: V 1.000000 \r\n";
-  std::string data;
-  for (const Image& image : images) {
-    text += "\\*Ciao image list\r\n\\Data offset: " + std::to_string(header + data.size()) +
-            "\r\n\\Data length: " + std::to_string(image.data.size()) +
-            "\r\n\\Bytes/pixel: " + std::to_string(image.bytes_a_pixel) +
-            "\r\n\\Samps/line: " + std::to_string(image.nx) +
-            "\r\n\\Number of lines: " + std::to_string(image.ny) + "\r\n\\Scan Size: " + image.scan_size +
-            "\r\n\\Line Direction: " + image.line + "\r\n\\@2:Image Data: S [X] \"" + image.title +
-            "\"\r\n\\@2:Z scale: V [" + image.sensitivity + "] (0.001000000 V/LSB) " + image.volts + "\r\n";
-    data += image.data;
-  }
-  text += "\\*File list end\r\n\x1A";
-  return testing::Bytes().field(text, header).text(data).bytes();
-}
+using Image = testing::NanoscopeImageExample;
+using testing::nanoscope;
 
 Surface read(const std::string& bytes, const std::string& channel = {}) {
   ReadOptions options;

@@ -28,12 +28,12 @@ std::string refusal(const NmsExample& example) {
 TEST(Nms, IntegersRunFromTheLeastHeightToTheGreatest) {
   const Surface s = read(NmsExample{}(six));
   EXPECT_EQ(s.grid(), (Grid{3, 2, 100 * 1e-9 * 3, 200 * 1e-9 * 2}));
-  EXPECT_EQ(s.height(0, 0), -1e-6);
-  EXPECT_EQ(s.height(1, 0), 1e-6);
-  EXPECT_EQ(s.height(0, 1), (-1 + 4 * (2.0 / 65535)) * 1e-6);
+  EXPECT_EQ(s.height(0, 1), -1e-6);
+  EXPECT_EQ(s.height(1, 1), 1e-6);
+  EXPECT_EQ(s.height(0, 0), (-1 + 4 * (2.0 / 65535)) * 1e-6);
   EXPECT_EQ(s.measured(), 6U);
   const Surface other = read(NmsExample{.first = 1, .last = 5, .picture = false}(six));
-  EXPECT_EQ(other.height(1, 1), 1e-6);
+  EXPECT_EQ(other.height(1, 0), 1e-6);
 }
 
 TEST(Nms, EachFaultIsSaid) {

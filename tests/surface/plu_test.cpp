@@ -29,15 +29,15 @@ std::string refusal(const PluExample& example) {
 TEST(Plu, HeightsAreMicrometresLineByLine) {
   const Surface s = read(PluExample{}(six));
   EXPECT_EQ(s.grid(), (Grid{3, 2, 2 * 1e-6 * 3, 4 * 1e-6 * 2}));
-  EXPECT_EQ(s.height(1, 0), -2e-6);
-  EXPECT_EQ(s.height(0, 1), 4 * 1e-6);
-  EXPECT_TRUE(std::isnan(s.height(1, 1)));
+  EXPECT_EQ(s.height(1, 1), -2e-6);
+  EXPECT_EQ(s.height(0, 0), 4 * 1e-6);
+  EXPECT_TRUE(std::isnan(s.height(1, 0)));
   EXPECT_EQ(s.measured(), 5U);
 }
 
 TEST(Plu, OfSeveralLayersTheFirstIsRead) {
   testing::Warnings warnings;
-  EXPECT_EQ(read_surface(SourceFile("a.plu", PluExample{.layers = 2}(six)), {}, warnings).height(2, 1), 6e-6);
+  EXPECT_EQ(read_surface(SourceFile("a.plu", PluExample{.layers = 2}(six)), {}, warnings).height(2, 0), 6e-6);
   ASSERT_EQ(warnings.all.size(), 1U);
   EXPECT_EQ(warnings.all[0], "\"a.plu\" holds 2 layers; the first is read");
 }

@@ -8,6 +8,34 @@
 
 namespace asperity::testing {
 
+// Nanoscope: images one after another.
+struct NanoscopeImageExample {
+  std::string title = "Height", line = "Trace", scan_size = "30 40 nm", sensitivity = "Sens. Zsens";
+  std::string volts = "65.53600 V";
+  int nx = 3, ny = 2, bytes_a_pixel = 2;
+  std::string data = raw(std::vector<std::int16_t>{1, 2, 3, -4, 5, -32768});
+};
+
+inline std::string nanoscope(const std::vector<NanoscopeImageExample>& images, int version = 0x07200000) {
+  constexpr std::size_t header = 4096;
+  std::string text = "\\*File list\r\n\\Version: " + std::to_string(version) +
+                     "\r\n\\*Scanner list\r\n\\@Sens. Zsens: V 20.00000 nm/V\r\n\\*Ciao scan list\r\n"
+                     "\\@Sens. ZsensSens: V 0.4000000 \xB5m/V\r\n\\@Sens. Phase: V 1.000000 \r\n";
+  std::string data;
+  for (const NanoscopeImageExample& image : images) {
+    text += "\\*Ciao image list\r\n\\Data offset: " + std::to_string(header + data.size()) +
+            "\r\n\\Data length: " + std::to_string(image.data.size()) +
+            "\r\n\\Bytes/pixel: " + std::to_string(image.bytes_a_pixel) +
+            "\r\n\\Samps/line: " + std::to_string(image.nx) +
+            "\r\n\\Number of lines: " + std::to_string(image.ny) + "\r\n\\Scan Size: " + image.scan_size +
+            "\r\n\\Line Direction: " + image.line + "\r\n\\@2:Image Data: S [X] \"" + image.title +
+            "\"\r\n\\@2:Z scale: V [" + image.sensitivity + "] (0.001000000 V/LSB) " + image.volts + "\r\n";
+    data += image.data;
+  }
+  text += "\\*File list end\r\n\x1A";
+  return Bytes().field(text, header).text(data).bytes();
+}
+
 // NID: images one after another.
 struct NidImageExample {
   std::string name = "Z-Axis", unit = "m", range = "2e-06", least = "-1e-06", lines = "2", bits = "32",

@@ -149,7 +149,7 @@ TEST(TextMatrix, CommentHeaderWithUnits) {
       "export.txt", "# Channel: Height\n# Width: 10 um\n# Height: 5 um\n# Value units: nm\n1 2\n3 4\n"));
   EXPECT_DOUBLE_EQ(surface.grid().size_x, 1e-5);
   EXPECT_DOUBLE_EQ(surface.grid().size_y, 5e-6);
-  EXPECT_DOUBLE_EQ(surface.height(1, 1), 4e-9);
+  EXPECT_DOUBLE_EQ(surface.height(1, 0), 4e-9);
 }
 
 TEST(TextMatrix, DecimalCommaSample) {

@@ -252,6 +252,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
+  monitor.count_alike();
   if (command.terminal) monitor.show_as_on_terminal();
   ResultFiles results(std::move(kept));
   run->before_its_end([&results] { results.bring_to_disk(); });
@@ -275,6 +276,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
         [observer](std::string_view event, const Json& fields) { observer->recorded(event, fields); });
   }
   const auto summary = [&] {
+    monitor.tell_alike();
     if (observer != nullptr) return;
     const ResultFiles::Counts counts = results.counts();
     const std::string verdicts = run->expectations().summary();

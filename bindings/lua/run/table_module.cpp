@@ -46,6 +46,12 @@ const Block<ReadKeys>& read_table_block() {
     keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
                           "what dates and times of day are counted from, in seconds: the first one of their "
                           "column, or the beginning of 1970"));
+    keys.push_back(
+        choice("steps_back", &TableForm::steps_back,
+               {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
+               "what it means that times step back: a day is added where times of day fall by more "
+               "than half a day, or an hour where dates without a zone fall by about one")
+            .defaults_to("nothing"));
     return Block<ReadKeys>("read", std::move(keys));
   }();
   return block;
@@ -97,12 +103,13 @@ const Module& table_module() {
     m.functions = {
         {.name = "read",
          .body = read_table_file,
-         .sentence = "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Latin-1): a line "
-                     "of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points "
-                     "or commas. Units stand in the heads, load [N], load (N), load / N, or in the line "
-                     "below, or in the cells; numbers with a unit come in SI. Dates and times of day become "
-                     "seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two "
-                     "ways is an error that names the key that decides.",
+         .sentence =
+             "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line "
+             "of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points "
+             "or commas. Units stand in the heads, load [N], load (N), load / N, or in the line "
+             "below, or in the cells; numbers with a unit come in SI. Dates and times of day become "
+             "seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two "
+             "ways is an error that names the key that decides.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_table_block(),
          .options_optional = true,

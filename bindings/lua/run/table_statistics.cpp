@@ -65,12 +65,32 @@ std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, c
   return columns;
 }
 
-void warn_of_group(Call& call, const std::string& column, const MeanKeys& keys, const GroupMean& group) {
-  std::string where;
-  for (std::size_t k = 0; k < keys.by.size(); ++k)
-    where += (k == 0 ? " where " : " and ") + quoted(keys.by[k]) + " = " + short_text(group.by[k]);
-  for (const std::string& warning : group.of.warnings)
-    call.session().monitor().warn("column " + quoted(column) + where + ": " + warning);
+// One warning of each kind, with the first group that it is of and their number.
+void warn_of_groups(Call& call, const std::string& column, const MeanKeys& keys,
+                    const std::vector<GroupMean>& groups) {
+  struct Told {
+    std::string kind, where, warning;
+    std::size_t count = 0;
+  };
+  std::vector<Told> told;
+  for (const GroupMean& group : groups)
+    for (const std::string& warning : group.of.warnings) {
+      const std::string kind = kind_of_warning(warning);
+      auto found = std::ranges::find(told, kind, &Told::kind);
+      if (found == told.end()) {
+        std::string where;
+        for (std::size_t k = 0; k < keys.by.size(); ++k)
+          where += (k == 0 ? " where " : " and ") + quoted(keys.by[k]) + " = " + short_text(group.by[k]);
+        found = told.insert(told.end(), {kind, where, warning});
+      }
+      ++found->count;
+    }
+  for (const Told& of : told)
+    call.session().monitor().warn("column " + quoted(column) + of.where +
+                                  (of.count > 1 ? ", and in " + std::to_string(of.count - 1) + " more of " +
+                                                      std::to_string(groups.size()) + " groups"
+                                                : "") +
+                                  ": " + of.warning);
 }
 
 Values mean_of_column(Call& call) {
@@ -93,8 +113,8 @@ Values mean_of_column(Call& call) {
     row.push_back(cell_of_number(of.skewness));
     row.emplace_back(of.method);
     rows.push_back(std::move(row));
-    warn_of_group(call, column, keys, group);
   }
+  warn_of_groups(call, column, keys, groups);
   Rows means(std::move(columns), std::move(rows));
   means.rename("the means of " + quoted(column));
   return {object(std::move(means))};

@@ -246,13 +246,16 @@ Values from_table_body(Call& call) {
 // --- from files
 
 Listing formats_listing() {
-  Listing listing{"Formats", {"format", "endings", "read", "refused", "checked against"}, {}};
+  Listing listing{
+      "Formats", {"format", "endings", "read", "refused", "checked against", "first line stored"}, {}};
   for (const Format* format : formats()) {
     std::vector<std::string> endings;
     for (const std::string_view ending : format->extensions) endings.push_back("." + std::string(ending));
     const FormatAccount& account = format->account;
     listing.rows.push_back({std::string(format->name), joined(endings, ", "), std::string(account.read),
-                            std::string(account.refused), std::string(account.checked)});
+                            std::string(account.refused), std::string(account.checked),
+                            std::string(format->lines.first == FirstLine::top ? "top. " : "bottom. ") +
+                                std::string(format->lines.source)});
   }
   return listing;
 }
@@ -334,7 +337,9 @@ const Module& surface_module() {
          .body = read_body,
          .sentence = "A measured surface from a file: " + format_names() +
                      ", known by its content, then by its extension, as it is or packed with gzip. Points "
-                     "that it marks as not measured stay missing. Over x y z triples a line such as \"x "
+                     "that it marks as not measured stay missing. y runs upwards: j = 0 is the lowest line, "
+                     "whichever a "
+                     "format stores first. Over x y z triples a line such as \"x "
                      "[mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),

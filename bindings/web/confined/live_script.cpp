@@ -159,11 +159,13 @@ class LiveMonitor final : public Monitor {
   void progress(std::string_view, double) override {}
   void warn(std::string_view sentence) override {
     const std::lock_guard lock(mutex_);
-    if (warned_.emplace(sentence).second) text_ += "warning: " + std::string(sentence) + "\n";
+    if (warned_.emplace(sentence).second && kinds_.is_first(sentence))
+      text_ += "warning: " + std::string(sentence) + "\n";
   }
   ResultStore* results() override { return &results_; }
   std::string text() {
     const std::lock_guard lock(mutex_);
+    for (const std::string& line : kinds_.rest()) text_ += "warning: " + line + "\n";
     return text_;
   }
 
@@ -171,6 +173,7 @@ class LiveMonitor final : public Monitor {
   ResultStore& results_;
   std::mutex mutex_;
   std::set<std::string> warned_;
+  WarningKinds kinds_;
   std::string text_;
 };
 

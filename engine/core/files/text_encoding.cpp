@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/files/text_encoding.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -94,7 +95,12 @@ std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
   return text;
 }
 
-std::string utf8_or_latin1(std::string_view text) {
+std::string utf8_or_cp1252(std::string_view text) {
+  constexpr std::uint32_t none = 0xFFFD, first = 0x80;
+  static constexpr std::array<std::uint32_t, 32> from_first{
+      0x20AC, none,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
+      0x2039, 0x0152, none,   0x017D, none,   none,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
+      0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, none,   0x017E, 0x0178};
   bool utf8 = true;
   for (std::size_t k = 0; utf8 && k < text.size();) {
     const std::size_t length = utf8_length(text.substr(k));
@@ -103,7 +109,11 @@ std::string utf8_or_latin1(std::string_view text) {
   }
   if (utf8) return std::string(text);
   std::string converted;
-  for (const char c : text) append_utf8(converted, static_cast<unsigned char>(c));
+  for (const char c : text) {
+    const std::uint32_t byte = static_cast<unsigned char>(c);
+    const bool special = byte >= first && byte < first + from_first.size();
+    append_utf8(converted, special ? from_first[byte - first] : byte);
+  }
   return converted;
 }
 

@@ -15,7 +15,8 @@ bool is_utf16(std::string_view bytes);
 // Such bytes as UTF-8; nothing for any other bytes. Halves of a pair that stand alone become U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 
-// A short text as UTF-8: as it is where it is that, else each byte taken for a character of Latin-1.
-std::string utf8_or_latin1(std::string_view text);
+// A short text as UTF-8: unchanged where it is UTF-8, else each byte is a character of Windows-1252, which is
+// Latin-1 with dashes, quotes and the euro sign in place of control characters.
+std::string utf8_or_cp1252(std::string_view text);
 
 }  // namespace asperity

@@ -86,6 +86,17 @@ const Format& if_certain(const Format& format, const SourceFile& file) {
 
 }  // namespace
 
+void turn_over(Field& field) {
+  for (int low = 0, high = field.ny() - 1; low < high; ++low, --high)
+    std::ranges::swap_ranges(field.row(low), field.row(high));
+}
+
+const Format* format_of_extension(std::string_view extension) {
+  for (const Format* format : formats())
+    if (std::ranges::find(format->extensions, extension) != format->extensions.end()) return format;
+  return nullptr;
+}
+
 const Format& choose_format(const SourceFile& file, const std::string& forced) {
   std::vector<std::string> names;
   std::vector<std::string> marks;

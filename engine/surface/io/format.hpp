@@ -16,9 +16,16 @@
 
 namespace asperity {
 
+// The line of a map that a file stores first. Our maps have y upwards: j = 0 is the lowest line.
+enum class FirstLine { bottom, top };
+struct LineOrder {
+  FirstLine first = FirstLine::bottom;
+  std::string_view source;  // the specification or program that decides, a sentence
+};
+
 // What stands in a file.
 struct HeightMap {
-  Field heights;                         // the numbers of the file; NaN where a point is missing
+  Field heights;                         // the numbers, line by line as stored; NaN: a missing point
   std::optional<double> unit;            // m per number, if the file says
   std::optional<double> size_x, size_y;  // nodes times spacing; m, or numbers if size_in_units
   bool size_in_units = false;            // the file holds positions: lengths are in position_unit
@@ -28,6 +35,7 @@ struct HeightMap {
   bool trace = false;                    // one line of samples: ny = 1, and no size_y of its own
   std::optional<double> spacing;         // m between the samples of a trace, where a file states it
   std::optional<double> closed_radius;   // m, of a closed outline
+  std::optional<FirstLine> first_line;   // where the file's head decides, and not its format (Format::lines)
 };
 
 // What the list of formats says of one (help, docs/reference.md): a short sentence each.
@@ -41,6 +49,7 @@ struct Format {
   std::string_view name;   // as in `format = "npy"`
   std::string_view marks;  // what it is known by, for errors
   FormatAccount account;
+  LineOrder lines;
   std::vector<std::string_view> extensions;    // lower case, without dots
   bool (*recognises)(const SourceFile& file);  // by content alone; never throws but for a stop
   // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a
@@ -50,6 +59,9 @@ struct Format {
   // the format's account names where that is empty; null for the others.
   HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;
 };
+
+// Puts the last line first.
+void turn_over(Field& field);
 
 // Those that others name.
 const Format& stylus_csv_format();
@@ -69,6 +81,9 @@ bool many_triples(const SourceFile& file);
 // again, or which come in the order of a scan. A single line could be a point too, or three heights: it is
 // not asked here.
 bool may_be_triples(const SourceFile& file);
+
+// The first format with this extension (lower case, without dot); null if there is none.
+const Format* format_of_extension(std::string_view extension);
 
 // All of them, in the order in which they are tried: the most particular marks first.
 std::span<const Format* const> formats();

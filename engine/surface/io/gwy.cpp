@@ -304,6 +304,7 @@ const Format& gwy_format() {
       {"Gwyddion's own files: any of their maps; a mask only where it says that points were not measured.",
        "Maps that are no lengths, unless named with `channel`, volumes and curves.",
        "The published layout, and files that this program writes; no instrument's file was compared."},
+      {FirstLine::top, "Gwyddion's data fields begin at the top left."},
       {"gwy"},
       recognises_gwy,
       nullptr,

@@ -168,6 +168,7 @@ const Format& npy_format() {
       "\\x93NUMPY at the start",
       {"NumPy arrays of one or two axes, integers or floating-point numbers.",
        "Complex numbers, records and objects; arrays of three axes.", "Arrays written by NumPy."},
+      {FirstLine::bottom, "A matrix: its first row is j = 0."},
       {"npy"},
       recognises_npy,
       read_npy};

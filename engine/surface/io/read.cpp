@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -224,6 +225,14 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
   map.trace = true;
 }
 
+// Puts the lowest line first. A trace keeps its order.
+void stand_upright(HeightMap& map, const Format& format) {
+  if (map.trace || map.heights.ny() < 2) return;
+  if (map.first_line.value_or(format.lines.first) == FirstLine::bottom) return;
+  laws_met().meet(Law::line_order);
+  turn_over(map.heights);
+}
+
 }  // namespace
 
 Surface read_surface(const std::string& path, const ReadOptions& options, Monitor& monitor) {
@@ -242,6 +251,7 @@ Surface read_surface(const SourceFile& given, const ReadOptions& options, Monito
     refuse_file(file, "holds one line of three numbers: a point, or a matrix of three heights",
                 "say `format` = \"text\" for a matrix; one point is no surface");
   if (map.pairs) fold_positions(map, file);
+  stand_upright(map, *format);
 
   const std::optional<double> unit = unit_of(options.unit, map.unit, map, file, "unit", monitor);
   positions_into_metres(map, options.unit_xy, file, monitor);
@@ -275,6 +285,7 @@ Profile read_profile(const SourceFile& given, const ReadProfileOptions& options,
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
   if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format()))
     fold_positions(map, file);
+  stand_upright(map, *format);
   const int nx = map.heights.nx(), ny = map.heights.ny();
   if (nx > 1 && ny > 1)
     refuse_file(

@@ -51,12 +51,13 @@ struct ReadProfileOptions {
   std::string format, channel;
 };
 
-// First line of a text matrix, row 0 of an array: j = 0. A trace (stylus CSV, one-dimensional array) becomes
-// one row, ny = 1, whose size_y is one cell unless given. Points that the file marks as missing, each format
-// in its own way, are holes of the surface unless `fill` says otherwise. Traits: the material, nothing else.
-// Errors: bad_file, also where no point was measured; bad_value for a missing `size`, `unit` or `unit_xy`,
-// for a unit that contradicts the head of the file, for a `unit_xy` where there are no positions, or for more
-// than 65536 cells a side; unknown_name for `format`. Warns of sizes out of all proportion.
+// Maps have y upwards: j = 0 is the lowest line, whichever the file stores first (Format::lines). A trace
+// (stylus CSV, one-dimensional array) becomes one row, ny = 1, whose size_y is one cell unless given. Points
+// that the file marks as missing, each format in its own way, are holes of the surface unless `fill` says
+// otherwise. Traits: the material, nothing else. Errors: bad_file, also where no point was measured;
+// bad_value for a missing `size`, `unit` or `unit_xy`, for a unit that contradicts the head of the file, for
+// a `unit_xy` where there are no positions, or for more than 65536 cells a side; unknown_name for `format`.
+// Warns of sizes out of all proportion.
 Surface read_surface(const std::string& path, const ReadOptions& options = {},
                      Monitor& monitor = Monitor::silent());
 Surface read_surface(const SourceFile& file, const ReadOptions& options = {},

@@ -162,6 +162,7 @@ const Format& stylus_csv_format() {
                              {"Traces of stylus profilers (Dektak) as CSV with a line \"Scan Data\".",
                               "Uneven spacing, scans cut short of their stated length.",
                               "A file of the public test set of SurfaceTopography."},
+                             {FirstLine::bottom, "Profiles only."},
                              {},
                              recognises_stylus_csv,
                              read_stylus_csv};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text matrices: one line of numbers is one y, the first line is j = 0. Beside bare tables it knows
-// three headers: the one this program writes (`# asperity surface`, `# asperity profile`), the
-// instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
+// Text matrices: one line of numbers is one y, the first line is j = 0, under Gwyddion's head the top.
+// Besides bare tables it knows three headers: the one this program writes (`# asperity surface`, `# asperity
+// profile`), the instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
 // `Height:`, `Value units:`. A header that lies about the number of cells is an error. A profile of
 // this program's own is two columns, position and height, and so is a table over which a line such as
 // "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights. Under a head of words
@@ -26,6 +26,7 @@ struct Header {
   std::optional<double> size_x, size_y, unit, pixel, closed_radius;
   std::optional<std::vector<HeadColumn>> pair;  // position and height
   bool pair_named = false;                      // by a line, not by a comment
+  bool width = false, height = false;           // stated as Gwyddion states those of an image
 };
 
 std::optional<double> plain_number(std::string_view text) {
@@ -80,8 +81,10 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
     header.closed_radius = needed(plain_number(value), file, key, value);
   } else if (key == "width" || key == "breite") {  // Gwyddion writes heads in its user's language
     header.size_x = needed(length_with_unit(value), file, key, value);
+    header.width = true;
   } else if (key == "height" || key == "h\u00F6he") {
     header.size_y = needed(length_with_unit(value), file, key, value);
+    header.height = true;
   } else if (key == "value units") {
     try {
       const Quantity unit = parse_unit(trimmed(value));
@@ -259,6 +262,7 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   check_count(file, header.columns, table.columns, "columns");
   check_count(file, header.rows, table.rows, "rows");
   map.unit = header.unit;
+  if (header.width && header.height) map.first_line = FirstLine::top;
   map.heights = Field(table.columns, table.rows);
   std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
   if (header.pair_named && table.columns != 2)
@@ -284,6 +288,7 @@ const Format& text_format() {
        "Lines of different lengths; tables under words that may be points, a log or a "
        "wrapped matrix, unless the head or the call says.",
        "Files of the public test set of SurfaceTopography."},
+      {FirstLine::bottom, "A matrix: its first line is j = 0; under Gwyddion's head it is the top."},
       {"txt", "csv", "asc", "dat", "tsv"},
       recognises_text_matrix,
       read_text_matrix};

@@ -4,11 +4,13 @@
 #include "engine/surface/io/write.hpp"
 
 #include <bit>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
 
 namespace asperity {
@@ -103,10 +105,20 @@ void write_trace(const Profile& profile, const std::string& path, char separator
   file.commit();
 }
 
+// The surface with its lines in the order in which the format stores them.
+Surface as_stored(const Surface& surface, std::string_view extension) {
+  const Format* const format = format_of_extension(extension);
+  if (format == nullptr || format->lines.first == FirstLine::bottom) return surface;
+  Field lines = surface.measured_heights();
+  turn_over(lines);
+  return Surface::with_holes(surface.grid(), std::move(lines));
+}
+
 }  // namespace
 
-void write_surface(const Surface& surface, const std::string& path, Monitor& monitor) {
+void write_surface(const Surface& given, const std::string& path, Monitor& monitor) {
   const std::string extension = file_extension(path);
+  const Surface surface = as_stored(given, extension);
   const Grid& grid = surface.grid();
   if (extension == "npy") {
     write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx),

@@ -4,7 +4,8 @@
 // (ISO 25178-71, double), .sur (Digital Surf, in steps), .txt .asc (blanks) and .csv (commas) with a header
 // of size and unit. Heights of all but .sur read back bit for bit, with their holes; NPY carries no size or
 // unit, so reading it needs both. A point that was not measured is NaN, in Gwyddion's files under a mask, in
-// those of Digital Surf a number of its own. Material and periodicity are not written. Files appear whole or
+// those of Digital Surf a number of its own. Lines are stored from the top or the bottom as
+// the format wants it (Format::lines). Material and periodicity are not written. Files appear whole or
 // not at all.
 #pragma once
 

@@ -369,15 +369,17 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& x3p_format() {
-  static const Format format{"x3p",
-                             "a zip archive with main.xml",
-                             {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
-                              "points, zipped in a folder or not.",
-                              "Point clouds, several layers, uneven spacing.",
-                              "A file of the public test set of SurfaceTopography, heights and sizes."},
-                             {"x3p"},
-                             recognises_x3p,
-                             read_x3p};
+  static const Format format{
+      "x3p",
+      "a zip archive with main.xml",
+      {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
+       "points, zipped in a folder or not.",
+       "Point clouds, several layers, uneven spacing.",
+       "A file of the public test set of SurfaceTopography, heights and sizes."},
+      {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
+      {"x3p"},
+      recognises_x3p,
+      read_x3p};
   return format;
 }
 

@@ -358,6 +358,7 @@ const Format& xyz_format() {
                              {"Lines of x, y and z on a lattice, in any order, with holes.",
                               "Points that are not on a lattice, points given twice.",
                               "Files of the public test set of SurfaceTopography."},
+                             {FirstLine::bottom, "The coordinates of the points."},
                              {"xyz"},
                              recognises_xyz,
                              read_xyz};

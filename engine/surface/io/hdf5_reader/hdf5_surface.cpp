@@ -143,6 +143,7 @@ const Format& hdf5_format() {
       {"Arrays of two axes in HDF5, by name with `channel`, and surfaces that this program wrote.",
        "Packings other than deflate and shuffle, complex numbers and records.",
        "Files written by h5py and by this program."},
+      {FirstLine::bottom, "A matrix: its first row is j = 0, as the .xdmf file beside it says."},
       {"h5", "hdf5", "he5"},
       looks_like_hdf5,
       nullptr,

@@ -122,6 +122,7 @@ const Format& al3d_format() {
                               "Files of pictures alone; texture and quality are passed over.",
                               "A file of the public test set of SurfaceTopography, every height and size; it "
                               "has no missing points."},
+                             {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
                              {"al3d"},
                              recognises_al3d,
                              read_al3d};

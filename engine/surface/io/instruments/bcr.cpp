@@ -195,6 +195,7 @@ const Format& bcr_format() {
                               "Other kinds of number, heights that are no length.",
                               "A file in UTF-16 of the public test set of SurfaceTopography (bcrf): every "
                               "height, size; integers by the layout alone."},
+                             {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
                              {"bcr", "bcrf"},
                              recognises_bcr,
                              read_bcr};

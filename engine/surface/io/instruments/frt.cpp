@@ -122,6 +122,7 @@ const Format& frt_format() {
        "Files without a topography; other maps in a file are passed over.",
        "Two files of 16 bits of the public test set of SurfaceTopography, every height, missing points, "
        "size; 32 bits by the layout alone."},
+      {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
       {"frt"},
       recognises_frt,
       read_frt};

@@ -172,18 +172,20 @@ HeightMap read_ibw_channel(const SourceFile& file, const std::string& channel, M
 }  // namespace
 
 const Format& ibw_format() {
-  static const Format format{"ibw",
-                             "version 5 and a header whose sum is 0",
-                             {"Binary waves of Igor Pro, version 5, as Asylum Research's microscopes write "
-                              "them: the map of heights, or another by `channel`.",
-                              "Waves of integers and complex numbers, of other dimensions, of older versions "
-                              "and of big-endian machines.",
-                              "Two files of the public test set of SurfaceTopography: heights and sizes, by "
-                              "an independent program."},
-                             {"ibw"},
-                             recognises_ibw,
-                             nullptr,
-                             read_ibw_channel};
+  static const Format format{
+      "ibw",
+      "version 5 and a header whose sum is 0",
+      {"Binary waves of Igor Pro, version 5, as Asylum Research's microscopes write "
+       "them: the map of heights, or another by `channel`.",
+       "Waves of integers and complex numbers, of other dimensions, of older versions "
+       "and of big-endian machines.",
+       "Two files of the public test set of SurfaceTopography: heights and sizes, by "
+       "an independent program."},
+      {FirstLine::bottom, "WaveMetrics gives coordinates: y is the column of a wave times its step."},
+      {"ibw"},
+      recognises_ibw,
+      nullptr,
+      read_ibw_channel};
   return format;
 }
 

@@ -114,6 +114,7 @@ const Format& metropro_format() {
        "Files of intensities alone; intensities are passed over.",
        "A file of the public test set of SurfaceTopography (header 1, resolution 1), every height and size; "
        "it has no missing points."},
+      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
       {},  // .dat may be anything
       recognises_metropro,
       read_metropro};

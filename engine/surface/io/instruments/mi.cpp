@@ -120,6 +120,7 @@ const Format& mi_format() {
                               "Spectra, numbers written as text, buffers of other quantities.",
                               "A file of the public test set of SurfaceTopography: size, heights, and the "
                               "one that its tests state."},
+                             {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
                              {"mi"},
                              recognises_mi,
                              nullptr,

@@ -259,6 +259,7 @@ const Format& nanoscope_format() {
        "Force curves, files of text, versions before 4.3, images of other quantities.",
        "Six files of the public test set of SurfaceTopography, versions 5.12 to 10: heights and sizes, by an "
        "independent program."},
+      {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
       {"spm", "di"},
       recognises_nanoscope,
       nullptr,

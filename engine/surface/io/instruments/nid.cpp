@@ -165,6 +165,7 @@ const Format& nid_format() {
        "`channel`.",
        "Images of other quantities, numbers of other than 16 and 32 bits.",
        "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
+      {FirstLine::bottom, "Gwyddion's reader of the same layout (EZD) shows the first line at the bottom."},
       {"nid"},
       recognises_nid,
       nullptr,

@@ -71,15 +71,18 @@ HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& nms_format() {
-  static const Format format{"nms",
-                             "OM_MS_ at byte 32",
-                             {"NMS of NanoFocus confocal microscopes: the height image, in 16 bits.",
-                              "Other widths of number; no mark of missing points is known.",
-                              "Two files of the public test set of SurfaceTopography, every height and size; "
-                              "its public readers differ on units, and 160 um is the objective's field."},
-                             {"nms"},
-                             recognises_nms,
-                             read_nms};
+  static const Format format{
+      "nms",
+      "OM_MS_ at byte 32",
+      {"NMS of NanoFocus confocal microscopes: the height image, in 16 bits.",
+       "Other widths of number; no mark of missing points is known.",
+       "Two files of the public test set of SurfaceTopography, every height and size; "
+       "its public readers differ on units, and 160 um is the objective's field."},
+      {FirstLine::top,
+       "An image, shown by SurfaceTopography's reader from the top; no specification is public."},
+      {"nms"},
+      recognises_nms,
+      read_nms};
   return format;
 }
 

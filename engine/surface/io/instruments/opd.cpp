@@ -170,6 +170,7 @@ const Format& opd_format() {
        "Blocks that are no maps, heights of other than 2 or 4 bytes.",
        "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
        "points."},
+      {FirstLine::bottom, "Gwyddion's reader: y runs upwards along each stored column."},
       {"opd"},
       recognises_opd,
       nullptr,

@@ -218,6 +218,7 @@ const Format& opdx_format() {
                               "Maps, of which no file could be compared.",
                               "A file of the public test set of SurfaceTopography: heights and positions, "
                               "with its maker's export as text."},
+                             {FirstLine::bottom, "Profiles only."},
                              {"opdx"},
                              recognises_opdx,
                              nullptr,

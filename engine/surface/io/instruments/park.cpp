@@ -173,6 +173,7 @@ const Format& park_format() {
        "Line profiles, spectroscopy, other quantities, scans with x and y swapped, pictures without heights.",
        "A file of the public test set of SurfaceTopography: heights, size and the roughness that its tests "
        "state."},
+      {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
       {"tiff", "tif"},
       recognises_park,
       read_park};

@@ -90,6 +90,7 @@ const Format& plu_format() {
        "Profiles, pictures, thicknesses; pictures beside a topography are passed over.",
        "Two files of the public test sets of SurfaceTopography and surfalize, every height and size; they "
        "have no missing points."},
+      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
       {"plu", "apx"},
       recognises_plu,
       read_plu};

@@ -215,6 +215,7 @@ const Format& sdf_format() {
        "Compressed files.",
        "A text file of the public test set of SurfaceTopography; binary files of this program are read alike "
        "by surfalize."},
+      {FirstLine::bottom, "ISO 25178-71 gives coordinates: y is the profile times Yscale."},
       {"sdf"},
       recognises_sdf,
       read_sdf};

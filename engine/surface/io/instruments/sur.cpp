@@ -194,6 +194,7 @@ const Format& sur_format() {
        "Files of Apple computers, binary images and other studiables.",
        "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
        "points; compressed: files of surfalize's writer."},
+      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
       {"sur", "pro"},
       recognises_sur,
       read_sur};

@@ -151,6 +151,7 @@ const Format& wsxm_format() {
        "Maps of other quantities, spectra, movies, and maps of one height only.",
        "Two files of the public test set of SurfaceTopography (double, short): heights and sizes, by an "
        "independent program."},
+      {FirstLine::bottom, "Gwyddion's reader and WSxM's page of formats: lines by ascending y, x falling."},
       {"stp", "top"},
       recognises_wsxm,
       read_wsxm};
