@@ -27,8 +27,9 @@ enum class Law : int {
   alike_readings,    // recordings in which a filter made neighbouring readings alike
   whole_numbers,     // whole numbers in columns of notebooks
   asked_error,       // cells and tolerance chosen for an error
+  stray_readings,    // recordings with readings that leave the line through their neighbours
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::asked_error) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::stray_readings) + 1;
 
 // Thread-safe.
 class LawsMet {

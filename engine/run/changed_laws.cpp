@@ -57,6 +57,10 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "grids are tried from 16 cells on, and a corrected area of half-spaces lies within an outline between "
      "the nodes, whose doubt tells which cells are tried next, half-way ones among them",
      "cells, tolerance and costs of such presses, their corrected areas, and all that follows them"},
+    {Law::stray_readings, "0.2.0", "stray readings",
+     "a stray reading on a ramp, or several in a row, became a press or a release",
+     "up to three in a row that leave the lines through their neighbours are left out",
+     "events found in such recordings, their loads and dwells, and all that follows them"},
 }};
 
 constexpr bool each_in_its_place() {
