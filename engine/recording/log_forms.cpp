@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> other_na
      {"winkel", "angle"},       {"winkel", "rotation"}, {"hold", "dwell"},        {"haltezeit", "dwell"},
      {"standardkraft", "load"}, {"prüfkraft", "load"},  {"prüfzeit", "time"},     {"drehwinkel", "angle"}}};
 
-// What stands in a line, as far as it helps to find the heads of a table.
+// The kind of a line, by which the heads of a table are found.
 struct LineKind {
   enum class Kind { words, units, row, other };
   Kind kind = Kind::other;

@@ -146,7 +146,7 @@ LogTitle log_title(std::string_view title);
 // Cells of a line at its semicolons, else its tabs, else its commas, as they stand and without their quotes.
 std::vector<std::string> log_cells(std::string_view line);
 
-// Where the heads of a table stand that begins below other lines.
+// The heads of a table that begins below other lines.
 struct FoundHeads {
   std::size_t line;  // of the file, from 1
   std::string text;

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The presses of a log that the script reads are counted; a log that it would write by then is not missed.
 --! command: explain
---! output: protocol:on: 3 times by `pressure`,
---! output: together: 3 presses
+--! output: protocol:on: 3 times by `load`,
+--! output: together: 3 presses, about
 --! not output: there is no file
 local lab = require "asperity"
 local log = lab.protocol.read((arg[0]:match "^(.*/)" or "") .. "../data/press_log.csv")

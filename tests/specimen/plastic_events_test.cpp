@@ -81,7 +81,7 @@ TEST(PlasticEvents, ALoadAboveTheHardnessIsRefusedBeforeAnyEvent) {
   EXPECT_NE(refusal(box, pressure(1100)).find("event 3 of 3"), std::string::npos);
   EXPECT_EQ(refusal(scene_of(), pressure(1099)), "");
   EXPECT_EQ(refusal(scene_of(), {PressBy::approach, 1e-6, {}}), "");
-  EXPECT_EQ(refusal(scene_of(Boundary::periodic, {.hardening = 80e12}), pressure(1100)), "");
+  EXPECT_EQ(refusal(scene_of(Boundary::periodic, {{}, 80e12}), pressure(1100)), "");
   Scene elastic = scene_of();
   elastic.effects = {};
   EXPECT_EQ(refusal(elastic, pressure(1100)), "");

@@ -102,7 +102,7 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
-// Whether a dry run that plans contacts needs what the function makes: a body, or what is done to it.
+// Whether a dry run plans contacts with the result of the function: a body or a protocol.
 bool is_planned_with(const Function& function) {
   const Class* made = find_class(function.returns);
   return made != nullptr && (made->known != nullptr || made->name == "Protocol");

@@ -240,7 +240,7 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
 }
 
-// Three holds, a quarter turn after each of the first two, as a testing machine writes them.
+// Three holds, a quarter turn after each, as a testing machine writes them.
 std::string rows_of_a_log(const char* mark, bool turns) {
   std::ostringstream rows;
   const double loads[] = {20e3, 30e3, 40e3};
@@ -267,7 +267,7 @@ TEST_F(CommandLine, APressLogOfATestingMachineIsFoundDrawnAndReplayed) {
                             "found", "--", "cells=32"});
   EXPECT_EQ(ran.status, 0) << ran.error;
   for (const char* told :
-       {"found          3 holds, 0 peaks, 3 releases, 2 turns", "  hold  ", "  rise  ", "  release  ",
+       {"found          3 holds, 0 peaks, 3 releases, 3 turns", "  hold  ", "  rise  ", "  release  ",
         "  turn  ", "turned by 90 deg", "press 81.6", "Ra of the lower body: "})
     EXPECT_NE(ran.output.find(told), std::string::npos) << told << "\n" << ran.output;
   EXPECT_NE(ran.error.find("the titles of its columns were found in line 6"), std::string::npos) << ran.error;
