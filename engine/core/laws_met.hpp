@@ -28,8 +28,9 @@ enum class Law : int {
   whole_numbers,     // whole numbers in columns of notebooks
   asked_error,       // cells and tolerance chosen for an error
   line_order,        // maps from files that store the top line first
+  stray_readings,    // recordings with readings that leave the line through their neighbours
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::line_order) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::stray_readings) + 1;
 
 // Thread-safe.
 class LawsMet {

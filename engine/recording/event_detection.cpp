@@ -296,16 +296,28 @@ class EventMaker {
     if (doubts > 5) warn("and " + std::to_string(doubts - 5) + " more such moments are left out");
     warn_of_scatter();
     warn_of_limit();
-    if (!marks_.disturbances().empty()) {
-      std::string list;
-      constexpr std::size_t enough = 5;
-      const std::size_t count = marks_.disturbances().size();
-      for (std::size_t k = 0; k < std::min(count, enough); ++k)
-        list += (k > 0 ? ", " : "") + marks_.quantity(marks_.disturbances()[k].reading) + " in line " +
-                std::to_string(marks_.disturbances()[k].line);
-      warn("readings for a moment out of line are left out as disturbances: " + list +
-           (count > enough ? " and " + std::to_string(count - enough) + " more" : ""));
+    warn_of_stray();
+  }
+
+  void warn_of_stray() {
+    const auto stray = marks_.stray();
+    if (stray.empty()) return;
+    constexpr std::size_t enough = 12;
+    std::vector<std::string> runs;
+    std::size_t more = 0;
+    for (std::size_t k = 0, next = 0; k < stray.size(); k = next) {
+      for (next = k + 1; next < stray.size() && stray[next] <= stray[next - 1] + 1;) ++next;
+      const std::size_t first = marks_.line(stray[k]), last = marks_.line(stray[next - 1]);
+      if (runs.size() == enough)
+        more += next - k;
+      else
+        runs.push_back(std::to_string(first) + (last > first ? " to " + std::to_string(last) : ""));
     }
+    if (more > 0) runs.push_back(std::to_string(more) + " more");
+    const bool one = stray.size() == 1;
+    warn(std::to_string(stray.size()) + (one ? " stray reading is" : " stray readings are") +
+         " left out, in " + (one ? "line " : "lines ") + joined(runs, " and ") + ": the readings around " +
+         (one ? "it lie on a line that it" : "them lie on lines that they") + (one ? " leaves" : " leave"));
   }
 
   // A sensor at its limit gives one number where others scatter: how high the load was above it nobody knows.
@@ -313,7 +325,8 @@ class EventMaker {
     if (!(marks_.noise() > 0)) return;
     const auto row = marks_.row();
     double top = -INFINITY;
-    for (const std::uint32_t k : row) top = std::max(top, recording_.load[k]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (!std::ranges::binary_search(marks_.stray(), k)) top = std::max(top, recording_.load[row[k]]);
     constexpr std::size_t fewest = 8;
     constexpr double most_of_it = 0.8;
     std::size_t count = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 #include "engine/statistics/table_head.hpp"
@@ -15,22 +16,45 @@ namespace asperity {
 namespace {
 
 // Words of other tables for the columns of log_table.hpp.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> other_names{{{"force", "load"},
-                                                                                     {"kraft", "load"},
-                                                                                     {"last", "load"},
-                                                                                     {"charge", "load"},
-                                                                                     {"druck", "pressure"},
-                                                                                     {"stress", "pressure"},
-                                                                                     {"spannung", "pressure"},
-                                                                                     {"zeit", "time"},
-                                                                                     {"temps", "time"},
-                                                                                     {"uhrzeit", "time"},
-                                                                                     {"timestamp", "time"},
-                                                                                     {"angle", "rotation"},
-                                                                                     {"winkel", "angle"},
-                                                                                     {"winkel", "rotation"},
-                                                                                     {"hold", "dwell"},
-                                                                                     {"haltezeit", "dwell"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> other_names{
+    {{"force", "load"},         {"kraft", "load"},      {"last", "load"},         {"charge", "load"},
+     {"druck", "pressure"},     {"stress", "pressure"}, {"spannung", "pressure"}, {"zeit", "time"},
+     {"temps", "time"},         {"uhrzeit", "time"},    {"timestamp", "time"},    {"angle", "rotation"},
+     {"winkel", "angle"},       {"winkel", "rotation"}, {"hold", "dwell"},        {"haltezeit", "dwell"},
+     {"standardkraft", "load"}, {"prüfkraft", "load"},  {"prüfzeit", "time"},     {"drehwinkel", "angle"}}};
+
+// The kind of a line, by which the heads of a table are found.
+struct LineKind {
+  enum class Kind { words, units, row, other };
+  Kind kind = Kind::other;
+  std::size_t cells = 0;
+  bool is(Kind wanted, std::size_t count) const { return kind == wanted && cells == count; }
+};
+
+LineKind kind_of(std::string_view line) {
+  const Separator separator = line.find(';') != std::string_view::npos    ? Separator::semicolon
+                              : line.find('\t') != std::string_view::npos ? Separator::tab
+                                                                          : Separator::comma;
+  std::size_t words = 0, units = 0, values = 0;
+  bool begins = false;
+  const std::vector<std::string> cells = log_cells(line);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (cells[k].empty()) continue;
+    if (read_cell(cells[k], separator).kind == CellKind::number || is_time_stamp(cells[k])) {
+      ++values;
+      begins = begins || k == 0;
+    } else {
+      ++words;
+      units += unit_in_cell(utf8_or_latin1(cells[k])) ? 1 : 0;
+    }
+  }
+  using Kind = LineKind::Kind;
+  return {begins && values > 1      ? Kind::row
+          : values > 0 || words < 2 ? Kind::other
+          : units == words          ? Kind::units
+                                    : Kind::words,
+          cells.size()};
+}
 
 }  // namespace
 
@@ -54,6 +78,42 @@ LogTitle log_title(std::string_view title) {
     rest = rest.substr(open);
   parts.unit = bare_unit(rest);
   return parts;
+}
+
+std::vector<std::string> log_cells(std::string_view line) {
+  const auto has = [&](char mark) { return find_unquoted(line, mark) != std::string_view::npos; };
+  const char mark = has(';') ? ';' : has('\t') ? '\t' : ',';
+  std::vector<std::string> cells;
+  for (;;) {
+    const std::size_t end = find_unquoted(line, mark);
+    std::string_view cell = trimmed(line.substr(0, end));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    cells.emplace_back(cell);
+    if (end == std::string_view::npos) return cells;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::optional<FoundHeads> find_heads(TableLines lines) {
+  constexpr std::size_t most = 300, rows = 3;
+  std::vector<std::pair<FoundHeads, LineKind>> all;
+  for (std::string_view line; all.size() < most && lines.next_line(line);) {
+    if (TableLines::is_comment(line)) continue;
+    const std::string_view text = TableLines::without_comment(line);
+    all.push_back({{lines.line(), std::string(text)}, kind_of(text)});
+  }
+  using Kind = LineKind::Kind;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].second.kind != Kind::words) continue;
+    const std::size_t cells = all[k].second.cells;
+    std::size_t first = k + 1;
+    if (first < all.size() && all[first].second.is(Kind::units, cells)) ++first;
+    const std::size_t end = std::min(all.size(), first + rows);
+    bool table = first < end;
+    for (std::size_t i = first; i < end; ++i) table = table && all[i].second.is(Kind::row, cells);
+    if (table) return all[k].first;
+  }
+  return {};
 }
 
 bool means(std::string_view word, std::string_view column) {

@@ -51,6 +51,7 @@ std::optional<std::size_t> LogTable::find(int meaning) const {
 
 void LogTable::read_titles() {
   refuse_unknown_names();
+  skip_preamble();
   if (!lines_.read_heads())
     refuse_file(file_, "holds no line of column titles",
                 "begin with one such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\"");
@@ -67,6 +68,26 @@ void LogTable::read_titles() {
     if (columns_[k].known != nullptr && columns_[k].known->dimension != dimension::number)
       read_unit(k, below_are_units);
   if (below_are_units) lines_.skip_below();
+}
+
+// Lines above the heads, as loggers and testing machines write them, are left out; not where the first line
+// names columns itself.
+void LogTable::skip_preamble() {
+  if (form_.skip > 0 || !form_.heads.empty()) return;
+  TableLines ahead = lines_;
+  std::string_view first;
+  while (ahead.next_line(first) &&
+         (TableLines::is_comment(first) || lower_case(trimmed(first)).starts_with("sep="))) {
+  }
+  const std::optional<FoundHeads> heads = find_heads(lines_);
+  if (!heads || heads->line <= ahead.line()) return;
+  if (const std::size_t known = known_names(TableLines::without_comment(first));
+      known > 0 && known >= known_names(heads->text))
+    return;
+  for (std::string_view line; lines_.line() + 1 < heads->line && lines_.next_line(line);) {
+  }
+  warnings_.push_back(file_name(file_.path()) + ": the titles of its columns were found in line " +
+                      std::to_string(heads->line) + "; the lines above are left out");
 }
 
 // Own names are those that are known here.
@@ -183,31 +204,31 @@ void LogTable::match_titles() {
 }
 
 std::size_t LogTable::known_names(std::string_view titles) const {
-  const auto has = [&](char mark) { return find_unquoted(titles, mark) != std::string_view::npos; };
   std::size_t names = 0;
-  std::string_view rest = titles;
-  const char mark = has(';') ? ';' : has('\t') ? '\t' : ',';
-  while (true) {
-    const std::size_t end = find_unquoted(rest, mark);
-    std::string_view cell = trimmed(rest.substr(0, end));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+  for (const std::string& cell : log_cells(titles)) {
     Column column;
     column.title = cell;
     split_unit(column);
     if (known_as(column, false, "") != nullptr || known_as(column, true, "") != nullptr) ++names;
-    if (end == std::string_view::npos) return names;
-    rest.remove_prefix(end + 1);
   }
+  return names;
 }
 
 // Numbers, or words, above the titles.
 void LogTable::refuse_other_forms() const {
-  const std::string_view line = lines_.head_line();
-  if (is_row_of_numbers(line))
+  const bool numbers = is_row_of_numbers(lines_.head_line());
+  if (!numbers && std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; }))
+    return;
+  const TableForm whole;
+  if (const auto heads = find_heads(TableLines(file_, whole)); heads && heads->line != line())
+    refuse_file(file_,
+                std::string("is read from ") + (numbers ? "numbers" : "words") + " in " + here() +
+                    " on, and the titles of its columns stand in line " + std::to_string(heads->line),
+                "give skip=" + std::to_string(heads->line - 1));
+  if (numbers)
     refuse_file(file_, "begins with numbers, in " + here() + ", and names no columns",
                 "begin with a line such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\", or "
                 "give the titles, as in columns={ \"time [s]\", \"load [kN]\" }");
-  if (std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; })) return;
   constexpr std::size_t nearby = 100;
   TableLines ahead = lines_;
   std::string_view next;

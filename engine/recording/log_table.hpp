@@ -98,6 +98,7 @@ class LogTable {
     std::string thousands{};  // the first number whose comma may part thousands, and its place
     bool decimals = false;    // there is one whose comma cannot
   };
+  void skip_preamble();
   void choose_columns();
   void refuse_unknown_names() const;
   void match_titles();
@@ -141,6 +142,18 @@ struct LogTitle {
   std::string unit;  // "" where there is none
 };
 LogTitle log_title(std::string_view title);
+
+// Cells of a line at its semicolons, else its tabs, else its commas, as they stand and without their quotes.
+std::vector<std::string> log_cells(std::string_view line);
+
+// The heads of a table that begins below other lines.
+struct FoundHeads {
+  std::size_t line;  // of the file, from 1
+  std::string text;
+};
+// The first line of words below which a table begins: three rows, or all that follow, of as many cells, two
+// of them numbers or times, after a line of units if there is one. Nothing where none of 300 lines is so.
+std::optional<FoundHeads> find_heads(TableLines lines);
 
 // Whether a word may mean the column: its own name, or what others call it ("kraft" for load, "angle" for
 // rotation).

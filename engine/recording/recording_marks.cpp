@@ -15,6 +15,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/straight_pieces.hpp"
+#include "engine/recording/stray_readings.hpp"
 
 namespace asperity {
 
@@ -119,6 +120,7 @@ RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionO
   join_levels();
   look_between();
   time_marks();
+  std::sort(stray_.begin(), stray_.end());
 }
 
 void RecordingMarks::refuse(const std::string& finding, const std::string& hint) const {
@@ -148,6 +150,8 @@ void RecordingMarks::take_samples() {
   Array<double> steps;
   for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
   interval_ = median_of(steps);
+  stray_ = mend_stray_readings(t_, y_, options_.noise);
+  if (!stray_.empty()) laws_met().meet(Law::stray_readings);
   shortest_hold_ = options_.shortest_hold.value_or(4 * interval_);
   evidence_ = options_.evidence.value_or(10 + 4 * elementary::log(static_cast<double>(t_.size())));
   top_ = highest_of_three(y_, 1);
@@ -167,19 +171,11 @@ void RecordingMarks::refuse_negative_compression() const {
 }
 
 void RecordingMarks::measure_noise() {
-  Array<double> above, below;
-  double resolution = INFINITY;
-  for (std::size_t k = 1; k + 1 < t_.size(); ++k) {
-    if (const double step = std::abs(y_[k] - y_[k - 1]); step > 0) resolution = std::min(resolution, step);
-    const double w = (t_[k + 1] - t_[k]) / (t_[k + 1] - t_[k - 1]);
-    const double bend = y_[k] - w * y_[k - 1] - (1 - w) * y_[k + 1];
-    const double scaled = std::abs(bend) / std::sqrt(1 + w * w + (1 - w) * (1 - w));
-    (y_[k] > bottom_ + 0.5 * range_ ? above : below).push_back(scaled);
-  }
-  constexpr std::size_t enough = 30;
-  const double high = above.size() < enough && below.size() >= enough ? 0 : median_of(above);
-  const double low = below.size() < enough && above.size() >= enough ? 0 : median_of(below);
-  noise_ = options_.noise.value_or(std::max(high, low) / per_deviation);
+  double resolution = INFINITY;  // of the readings as they stand, for a mended one has more digits
+  for (std::size_t k = 1; k + 1 < t_.size(); ++k)
+    if (const double step = std::abs(recording_.load[row_[k]] - recording_.load[row_[k - 1]]); step > 0)
+      resolution = std::min(resolution, step);
+  noise_ = options_.noise.value_or(noise_of_bends(t_, y_, bottom_ + 0.5 * range_));
   // A reading in coarse steps is off by up to half of one, and no ramp is straight to the last digit.
   constexpr double of_a_step = 0.3, of_the_range = 1e-4;
   effective_noise_ =
@@ -307,21 +303,17 @@ bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
       std::max(4 * error, a.kind == Mark::Kind::rest ? drift_ : options_.same_load * std::abs(level));
   if (std::abs(b.line.y - level) > tolerance) return false;
   const double band = std::max(tolerance, certain * effective_noise_);
-  std::size_t out = 0;
-  double furthest = 0;
-  std::size_t at = a.last;
+  constexpr std::size_t glitch = 3;
+  constexpr double of_the_range = 0.05;  // greater ones were looked at before
+  Array<std::uint32_t> out;
   for (std::size_t k = a.last + 1; k < b.first; ++k)
-    if (const double off = y_[k] - level; std::abs(off) > band) {
-      ++out;
-      if (std::abs(off) > std::abs(furthest)) {
-        furthest = off;
-        at = k;
-      }
+    if (const double off = std::abs(y_[k] - level); off > band) {
+      if (out.size() == glitch || off > std::max(3 * band, of_the_range * range_)) return false;
+      out.push_back(static_cast<std::uint32_t>(k));
     }
-  constexpr std::size_t glitch = 2;
-  if (out == 0) return true;
-  if (b.first - a.last - 1 > glitch + 2 || out > glitch) return false;
-  disturbances_.push_back({line(at), level + furthest});
+  if (out.empty()) return true;
+  if (b.first - a.last - 1 > glitch + 2) return false;
+  stray_.insert(stray_.end(), out.begin(), out.end());
   return true;
 }
 
@@ -426,7 +418,7 @@ void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, st
   while (left > first && !(low(left - 1) && (left < first + 2 || low(left - 2)))) --left;
   while (right + 1 < end && !(low(right + 1) && (right + 2 >= end || low(right + 2)))) ++right;
   if (pulse && left == right) {
-    disturbances_.push_back({line(at), *top});
+    stray_.push_back(static_cast<std::uint32_t>(at));
     return;
   }
   const auto crossing = [&](std::size_t in, std::size_t out) {

@@ -37,11 +37,6 @@ class RecordingMarks {
 
     bool loaded() const { return kind != Kind::rest; }
   };
-  // A sample or two out of line that were left out.
-  struct Disturbance {
-    std::size_t line;
-    double reading;
-  };
 
   // Throws what detect_events does for the loads; warns of doubtful zeros.
   RecordingMarks(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor);
@@ -49,7 +44,8 @@ class RecordingMarks {
   const std::vector<Mark>& marks() const { return marks_; }
   // Perhaps holds, but too short for the noise.
   const std::vector<Mark>& doubtful() const { return doubtful_; }
-  const std::vector<Disturbance>& disturbances() const { return disturbances_; }
+  // Samples whose readings were left out, in order.
+  std::span<const std::uint32_t> stray() const { return stray_; }
   // What is read without load, in the order of time; one value if it was given, or none was found.
   struct Zero {
     double time, level;
@@ -119,7 +115,7 @@ class RecordingMarks {
   std::vector<Zero> zeros_;
   Array<StraightPiece> pieces_;
   std::vector<Mark> levels_, marks_, doubtful_;
-  std::vector<Disturbance> disturbances_;
+  Array<std::uint32_t> stray_;
 };
 
 // Turns of the body between the loads of a recording (recorded_turns.cpp). O(rows).

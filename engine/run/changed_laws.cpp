@@ -61,6 +61,10 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "the first line of every file was j = 0, so images were upside down",
      "the top line of an image has the largest y, as Gwyddion shows it",
      "surfaces read from such files, their lay and skew along y, and all that follows them"},
+    {Law::stray_readings, "0.2.0", "stray readings",
+     "a stray reading on a ramp, or several in a row, became a press or a release",
+     "up to three in a row that leave the lines through their neighbours are left out",
+     "events found in such recordings, their loads and dwells, and all that follows them"},
 }};
 
 constexpr bool each_in_its_place() {

@@ -2,7 +2,7 @@
 // A loading protocol: what is done to a specimen pair, in order. A press, a release, a fresh placement, a
 // turn or a shift of the upper body, each perhaps with the time at which a log recorded it. An immutable
 // value, cheap to copy; it knows no contact, and does nothing itself (protocol_run.hpp does). Whether a
-// contact can turn by an angle, or carry a load, is for the contact to say when it comes to it.
+// contact can turn by an angle, or carry a load, is for the contact to say (SpecimenPair::check_ahead).
 #pragma once
 
 #include <cstdint>

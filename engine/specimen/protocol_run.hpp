@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"
@@ -17,6 +18,8 @@ namespace asperity {
 // Several runs may share a protocol, and take turns on one pair.
 class ProtocolRun {
  public:
+  // Throws for the first event that the pair can refuse before any is done (SpecimenPair::check_ahead); the
+  // sentence names the event.
   ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair);
 
   const Protocol& protocol() const { return protocol_; }
@@ -32,6 +35,11 @@ class ProtocolRun {
   std::optional<State> step(Monitor& monitor = Monitor::silent());
 
  private:
+  std::string title(std::size_t k) const;
+  // Calls it; what it throws gets the title of event k.
+  template <class Work>
+  void with_title(std::size_t k, const Work& work) const;
+
   Protocol protocol_;
   std::shared_ptr<SpecimenPair> pair_;
   std::size_t next_ = 0;

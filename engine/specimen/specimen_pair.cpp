@@ -322,14 +322,14 @@ void SpecimenPair::place(std::uint64_t seed) {
   history_.push_back({Protocol::Place{seed}});
 }
 
-void SpecimenPair::rotate(double angle) {
+Pose SpecimenPair::turned(const Pose& from, double angle) const {
   constexpr double quarter = 0.5 * std::numbers::pi;
   const double quarters = angle / quarter;
   const std::string asked =
       "a turn by " + format_short(angle * 180 / std::numbers::pi, 10) + " deg was asked";
   if (!(std::abs(quarters) < 1e6)) throw Error(ErrorCode::bad_value, asked, "give a finite angle");
   const Grid& grid = scene_.lower.grid();
-  const Pose turned = pose().turned(angle, grid);
+  const Pose turned = from.turned(angle, grid);
   if (scene_.boundary == Boundary::periodic && !turned.on_lattice()) {
     const double whole = std::round(turned.angle() / quarter);
     if (std::abs(turned.angle() - whole * quarter) <= 1e-9)
@@ -339,18 +339,48 @@ void SpecimenPair::rotate(double angle) {
                 "put the body down afresh with `place{seed=}`, or give boundary=\"free\": surfaces are never "
                 "resampled in place");
   }
-  lay(turned);
+  return turned;
+}
+
+void SpecimenPair::rotate(double angle) {
+  lay(turned(pose(), angle));
   history_.push_back({Protocol::Rotate{angle}});
 }
 
-void SpecimenPair::shift(double x, double y) {
+Pose SpecimenPair::shifted(const Pose& from, double x, double y) const {
   if (scene_.boundary != Boundary::periodic)
     throw Error(ErrorCode::bad_value,
                 "`shift` was asked on a free boundary, where a shifted body overhangs the rim",
                 "use `boundary` = \"periodic\"");
   const Grid& grid = scene_.lower.grid();
-  lay(placement().shifted(whole_cells(x, grid.hx(), "x"), whole_cells(y, grid.hy(), "y")));
+  return from.lattice().shifted(whole_cells(x, grid.hx(), "x"), whole_cells(y, grid.hy(), "y"));
+}
+
+void SpecimenPair::shift(double x, double y) {
+  lay(shifted(pose(), x, y));
   history_.push_back({Protocol::Shift{x, y}});
+}
+
+void SpecimenPair::check_ahead(const Protocol::Step& step, Pose& lying) const {
+  if (const auto* place = std::get_if<Protocol::Place>(&step))
+    lying = draw_placement(scene_.lower.grid(), scene_.boundary, place->seed);
+  if (const auto* turn = std::get_if<Protocol::Rotate>(&step)) lying = turned(lying, turn->angle);
+  if (const auto* moved = std::get_if<Protocol::Shift>(&step)) lying = shifted(lying, moved->x, moved->y);
+  const auto* press = std::get_if<PressRequest>(&step);
+  if (press == nullptr) return;
+  check(*press, plan_.attracts());
+  const bool by_load = press->by == PressBy::load;
+  if ((!by_load && press->by != PressBy::pressure) || !plan_.yield || !plan_.yield->limits() ||
+      plan_.yield->hardens())
+    return;
+  const double pressure = by_load ? press->value / scene_.lower.grid().area() : press->value;
+  const double hardness = plan_.yield->softened(press->dwell) * plan_.yield->hardness();
+  if (pressure >= hardness)
+    throw Error(ErrorCode::infeasible,
+                "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
+                    " cannot be carried: `hardness` is " + format_quantity(hardness, dimension::pressure) +
+                    (hardness < plan_.yield->hardness() ? " after that dwell" : ""),
+                "press with less than the hardness, or give `hardening`");
 }
 
 Surface SpecimenPair::upper() const {

@@ -82,6 +82,10 @@ class SpecimenPair {
   // Shifts the upper specimen by (x, y) m, whole cells (to 1e-9 of a cell), on a periodic boundary only.
   void shift(double x, double y);
 
+  // Throws what can be told of a step before it is done to a body that lies so: a turn or a shift that does
+  // not fit, and a mean pressure that all nodes together cannot carry. `lying` is then how it lies after it.
+  void check_ahead(const Protocol::Step& step, Pose& lying) const;
+
   // All that was done since the pair was made, in order; a copy goes on from that of its original.
   const std::vector<Done>& history() const { return history_; }
   // Gives a time to every entry of that list from number `first` on.
@@ -109,6 +113,8 @@ class SpecimenPair {
 
  private:
   void lay(const Pose& pose);
+  Pose turned(const Pose& from, double angle) const;
+  Pose shifted(const Pose& from, double x, double y) const;
   void carry(const State& state, const PressRequest& request);
   void unload();
   void warn(const PressRequest& request, Monitor& monitor);

@@ -250,7 +250,7 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
        "seconds from the start"},
       {"time,pressure [MPa]\n2026-11-23,1\nlater,2\n", "line 3, column 1 (time): \"later\" is no date"},
       {"Druck\n1\n", "\"Druck\" (did you mean `pressure [MPa]`?)"},
-      {"Machine 7\nOperator Li\n\ntime [s],pressure [MPa]\n0,1\n",
+      {"Machine 7\nOperator Li\n\ntime [s],pressure [MPa]\nnone,1\n0,1\n",
        "begins with words, in line 1; the titles of its columns stand in line 4; put # before the lines "
        "above the titles, delete them, or skip them with skip=3"},
       {"pressure [MPa],dwell [s]\n10 N,1\n",

@@ -2,6 +2,7 @@
 // Events on a rough pair with plastic memory: what stays on the specimens, what a second press finds, and
 // that nothing but yielding ever changes a stored surface.
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/quantities.hpp"
+#include "engine/specimen/protocol_run.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
@@ -60,6 +62,30 @@ class Warnings : public Monitor {
   void warn(std::string_view sentence) override { all.emplace_back(sentence); }
   std::vector<std::string> all;
 };
+
+TEST(PlasticEvents, ALoadAboveTheHardnessIsRefusedBeforeAnyEvent) {
+  const double tile = specimen(1).grid().area();
+  const auto refusal = [](const Scene& scene, const PressRequest& request) {
+    const auto pair = std::make_shared<SpecimenPair>(scene);
+    return error_of([&] { ProtocolRun(Protocol({{pressure(10)}, {Protocol::Release{}}, {request}}), pair); });
+  };
+  const std::string told =
+      "event 3 of 3: press 1.1 GPa: a mean pressure of 1.1 GPa cannot be carried: `hardness` "
+      "is 1.1 GPa; press with less than the hardness, or give `hardening`";
+  EXPECT_NE(refusal(scene_of(), pressure(1100)).find(told), std::string::npos)
+      << refusal(scene_of(), pressure(1100));
+  EXPECT_NE(refusal(scene_of(), {PressBy::load, 2e9 * tile, {}}).find("a mean pressure of 2 GPa"),
+            std::string::npos);
+  Scene box = scene_of();
+  box.elasticity = BoxOptions{};
+  EXPECT_NE(refusal(box, pressure(1100)).find("event 3 of 3"), std::string::npos);
+  EXPECT_EQ(refusal(scene_of(), pressure(1099)), "");
+  EXPECT_EQ(refusal(scene_of(), {PressBy::approach, 1e-6, {}}), "");
+  EXPECT_EQ(refusal(scene_of(Boundary::periodic, {{}, 80e12}), pressure(1100)), "");
+  Scene elastic = scene_of();
+  elastic.effects = {};
+  EXPECT_EQ(refusal(elastic, pressure(1100)), "");
+}
 
 TEST(PlasticEvents, APressFlattensBothBodiesByWhatItReports) {
   SpecimenPair pair(scene_of());

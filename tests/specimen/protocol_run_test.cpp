@@ -66,19 +66,30 @@ TEST(ProtocolRun, AProtocolServesTwoContactsAndTwice) {
   EXPECT_EQ(done(ProtocolRun(five(), pair)).back(), first.back());  // placed afresh before the last press
 }
 
-TEST(ProtocolRun, AFailedEventLeavesThePairAsItWas) {
-  const auto pair = rough_pair();
-  ProtocolRun run(Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}, 9.0, "log.csv line 3"}}), pair);
-  run.step();
-  const auto placement = pair->placement();
-  const std::string error = error_of([&] { run.step(); });
-  EXPECT_NE(error.find("event 2 of 2: rotate 45 deg (log.csv line 3): a turn by 45 deg was asked"),
-            std::string::npos)
-      << error;
-  EXPECT_TRUE(pair->placement() == placement);
-  EXPECT_TRUE(pair->under_load());
-  EXPECT_EQ(run.next(), 1U);  // it is still the next one
-  EXPECT_EQ(error_of([&] { run.step(); }), error);
+TEST(ProtocolRun, AnEventThatDoesNotFitIsRefusedBeforeTheFirst) {
+  const auto refusal = [](const std::shared_ptr<SpecimenPair>& pair, const Protocol& protocol) {
+    const auto placement = pair->placement();
+    std::string error = error_of([&] { ProtocolRun(protocol, pair); });
+    EXPECT_TRUE(pair->history().empty() && pair->placement() == placement && !pair->under_load());
+    return error;
+  };
+  const auto expect_told = [](const std::string& error, const std::string& part) {
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  };
+  expect_told(
+      refusal(rough_pair(),
+              Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}, 9.0, "log.csv line 3"}})),
+      "event 2 of 2: rotate 45 deg (log.csv line 3): a turn by 45 deg was asked; a periodic contact turns by "
+      "whole multiples of 90 deg only");
+  expect_told(refusal(rough_pair(12, 8), Protocol({{pressure(1)}, {Protocol::Rotate{quarter}}})),
+              "event 2 of 2: rotate 90 deg: a turn by 90 deg was asked of a tile that is not square");
+  expect_told(refusal(rough_pair(), Protocol({{pressure(1)}, {Protocol::Shift{0.1, 0}}})),
+              "event 2 of 2: shift");
+  const auto free_pair = std::make_shared<SpecimenPair>(
+      scene_of(random_surface(12, 12, 1), random_surface(12, 12, 2), 3.0, Boundary::free));
+  EXPECT_NO_THROW(ProtocolRun(Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}}}), free_pair));
+  expect_told(refusal(free_pair, Protocol({{pressure(1)}, {Protocol::Shift{0.25, 0}}})),
+              "event 2 of 2: shift by 250 mm along x and 0 m along y: `shift` was asked on a free boundary");
 }
 
 TEST(ProtocolRun, AStopIsSeenBetweenEvents) {

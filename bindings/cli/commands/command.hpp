@@ -44,6 +44,7 @@ Command accuracy_command();
 Command check_command();
 Command explain_command();
 Command lesson_command();
+Command press_log_command();
 Command repl_command();
 // `overview` is asked for the lines of all commands, which `asperity help` begins with.
 Command help_command(std::string (*overview)());

@@ -102,10 +102,10 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
-// Whether a dry run that plans contacts needs what the function makes: a body.
-bool makes_a_body(const Function& function) {
+// Whether a dry run plans contacts with the result of the function: a body or a protocol.
+bool is_planned_with(const Function& function) {
   const Class* made = find_class(function.returns);
-  return made != nullptr && made->known != nullptr;
+  return made != nullptr && (made->known != nullptr || made->name == "Protocol");
 }
 
 // The path that a call was given; empty where it takes none or that is not known.
@@ -128,7 +128,7 @@ Values dry_call(const Call& call, const Function& function) {
       function.options->check(table, call.function_name());
   }
   if (function.look != nullptr) function.look(call);
-  if (const std::string_view path = path_given(call, function); !path.empty() && !makes_a_body(function))
+  if (const std::string_view path = path_given(call, function); !path.empty() && !is_planned_with(function))
     call.session().paths_left_out.emplace(path);
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
@@ -167,11 +167,11 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  // To explain a contact its bodies are needed, but for those in files that the script itself writes; to
-  // check a script they are not.
+  // To explain a contact its bodies and protocols are needed, but for those in files that the script itself
+  // writes; to check a script they are not.
   const bool left_out =
       function.unknown_when_dry ||
-      (function.heavy && (call.session().explanation == nullptr || !makes_a_body(function) ||
+      (function.heavy && (call.session().explanation == nullptr || !is_planned_with(function) ||
                           call.session().paths_left_out.contains(path_given(call, function))));
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);

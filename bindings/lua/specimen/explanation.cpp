@@ -177,7 +177,10 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
       return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
     return nullptr;
   };
-  if (!function.heavy) return nullptr;
+  // A function that writes a file presses nothing.
+  if (!function.heavy ||
+      std::ranges::find(function.parameters, "path", &Parameter::name) != function.parameters.end())
+    return nullptr;
   const SpecimenPair* own = contact_at(1);
   return own != nullptr || call.count() < 1 ? own : contact_at(2);
 }

@@ -201,7 +201,8 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   for (std::string program, command, rest;
        overview >> program >> command && program == "asperity" && std::getline(overview, rest);)
     told += command + " ";
-  EXPECT_EQ(told, "run run replay check explain accuracy repl serve lesson help materials version ");
+  EXPECT_EQ(told,
+            "run run replay press-log check explain accuracy repl serve lesson help materials version ");
   // What each does begins in one column.
   std::istringstream lines(call({"help"}).output);
   std::set<std::size_t> columns;
@@ -237,6 +238,75 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   EXPECT_NE(ran.output.find("Why: "), std::string::npos);
   EXPECT_TRUE(exists("found/stretched.svg"));
   EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
+}
+
+// Three holds, a quarter turn after each, as a testing machine writes them.
+std::string rows_of_a_log(const char* mark, bool turns) {
+  std::ostringstream rows;
+  const double loads[] = {20e3, 30e3, 40e3};
+  for (int k = 0; k < 240; ++k) {
+    const int part = k % 80;
+    const double share = part < 20   ? 0
+                         : part < 30 ? (part - 20) / 10.0
+                         : part < 60 ? 1
+                         : part < 70 ? (70 - part) / 10.0
+                                     : 0;
+    rows << k << mark << loads[k / 80] * share + 3 * ((k * 37) % 11 - 5);
+    if (turns) rows << mark << 90 * ((k + 5) / 80);
+    rows << "\n";
+  }
+  return rows.str();
+}
+
+TEST_F(CommandLine, APressLogOfATestingMachineIsFoundDrawnAndReplayed) {
+  write("utm.csv",
+        "\"Prüfprotokoll\";\"Nr. 7\"\n\"Prüfer\";\"Müller\"\n\"Datum\";\"23.11.2026\"\n\"Werkstoff\";\"Al\"\n"
+        "\"Probe\";\"A 3\"\n\"Prüfzeit\";\"Standardkraft\";\"Drehwinkel\"\n\"s\";\"N\";\"°\"\n" +
+            rows_of_a_log(";", true));
+  const Outcome ran = call({"press-log", "utm.csv", "--area", "490 mm^2", "--turn-step", "90 deg", "--out",
+                            "found", "--", "cells=32"});
+  EXPECT_EQ(ran.status, 0) << ran.error;
+  for (const char* told :
+       {"found          3 holds, 0 peaks, 3 releases, 3 turns", "  hold  ", "  rise  ", "  release  ",
+        "  turn  ", "turned by 90 deg", "press 81.6", "Ra of the lower body: "})
+    EXPECT_NE(ran.output.find(told), std::string::npos) << told << "\n" << ran.output;
+  EXPECT_NE(ran.error.find("the titles of its columns were found in line 6"), std::string::npos) << ran.error;
+  EXPECT_TRUE(exists("found/press_log.svg") && exists("found/done.csv") && exists("found/manifest.json"));
+  EXPECT_EQ(call({"replay", "found"}).status, 0);
+
+  write(
+      "pair.lua",
+      "local lab = require 'asperity'\nlocal s = lab.surface.sine{ cells=32, size='1 mm', amplitude='1 um', "
+      "material=lab.material 'Al-2011' }\nlocal function pair(p)\n  assert(p.presses == 3)\n  return "
+      "lab.contact{ lower=s, upper=lab.rigid, boundary='periodic', effects={ elasticity='half_space' } "
+      "}\nend\n"
+      "return pair\n");
+  const Outcome own =
+      call({"press-log", "utm.csv", "--area", "490 mm^2", "--specimen", "pair.lua", "--skip", "5"});
+  EXPECT_EQ(own.status, 0) << own.error;
+  EXPECT_EQ(own.error.find("were found in line"), std::string::npos) << own.error;
+
+  const Outcome without_area = call({"press-log", "utm.csv"});
+  EXPECT_EQ(without_area.status, 1);
+  EXPECT_NE(without_area.error.find("give the area of the specimen"), std::string::npos)
+      << without_area.error;
+  const Outcome wrong_skip = call({"press-log", "utm.csv", "--area", "490 mm^2", "--skip", "3"});
+  EXPECT_NE(wrong_skip.error.find("the titles of its columns stand in line 6; give skip=5"),
+            std::string::npos)
+      << wrong_skip.error;
+}
+
+TEST_F(CommandLine, APressLogOfLabViewIsReadBelowItsHead) {
+  write("labview.lvm",
+        "LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\nDate\t2026/11/23\n"
+        "Time\t10:11:12.345678\n***End_of_Header***\t\n\nChannels\t2\t\nSamples\t240\t240\n"
+        "X_Dimension\tTime\tTime\nX0\t0.0\t0.0\n***End_of_Header***\t\t\nTime [s]\tForce [N]\n" +
+            rows_of_a_log("\t", false));
+  const Outcome ran = call({"press-log", "labview.lvm", "--area", "490 mm^2", "--", "cells=32"});
+  EXPECT_EQ(ran.status, 0) << ran.error;
+  EXPECT_NE(ran.output.find("found          3 holds, 0 peaks, 3 releases"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.error.find("the titles of its columns were found in line 14"), std::string::npos)
+      << ran.error;
 }
 
 // B8: no option takes the word after its value, be that the script or the run.
