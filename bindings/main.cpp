@@ -45,15 +45,17 @@ const std::vector<Listed>& commands() {
   static const std::vector<Listed> all{
       {1, cli::run_command({web::to_be_confined, web::run_behind_barriers})},
       {2, cli::replay_command({web::to_be_confined, web::replay_behind_barriers})},
-      {5, cli::accuracy_command()},
-      {7, web::serve_command()},
+      {7, cli::accuracy_command()},
+      {9, web::serve_command()},
       {3, cli::check_command()},
       {4, cli::explain_command()},
-      {6, cli::repl_command()},
-      {8, cli::lesson_command()},
-      {9, cli::help_command(overview)},
-      {10, cli::materials_command()},
-      {11, cli::version_command()},
+      {5, cli::cases_command()},
+      {6, cli::status_command()},
+      {8, cli::repl_command()},
+      {10, cli::lesson_command()},
+      {11, cli::help_command(overview)},
+      {12, cli::materials_command()},
+      {13, cli::version_command()},
   };
   return all;
 }

@@ -201,7 +201,8 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   for (std::string program, command, rest;
        overview >> program >> command && program == "asperity" && std::getline(overview, rest);)
     told += command + " ";
-  EXPECT_EQ(told, "run run replay check explain accuracy repl serve lesson help materials version ");
+  EXPECT_EQ(told,
+            "run run replay check explain cases status accuracy repl serve lesson help materials version ");
   // What each does begins in one column.
   std::istringstream lines(call({"help"}).output);
   std::set<std::size_t> columns;
