@@ -45,16 +45,18 @@ const std::vector<Listed>& commands() {
   static const std::vector<Listed> all{
       {1, cli::run_command({web::to_be_confined, web::run_behind_barriers})},
       {2, cli::replay_command({web::to_be_confined, web::replay_behind_barriers})},
-      {3, cli::press_log_command()},
-      {6, cli::accuracy_command()},
-      {8, web::serve_command()},
-      {4, cli::check_command()},
-      {5, cli::explain_command()},
-      {7, cli::repl_command()},
-      {9, cli::lesson_command()},
-      {10, cli::help_command(overview)},
-      {11, cli::materials_command()},
-      {12, cli::version_command()},
+       {3, cli::press_log_command()},
+       {8, cli::accuracy_command()},
+       {10, web::serve_command()},
+       {4, cli::check_command()},
+       {5, cli::explain_command()},
+       {6, cli::cases_command()},
+       {7, cli::status_command()},
+       {9, cli::repl_command()},
+       {11, cli::lesson_command()},
+       {12, cli::help_command(overview)},
+       {13, cli::materials_command()},
+       {14, cli::version_command()},
   };
   return all;
 }

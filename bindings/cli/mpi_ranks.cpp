@@ -40,9 +40,26 @@ std::optional<int> whole(const std::optional<std::string>& text) {
   return std::stoi(*text);
 }
 
+// Of `srun -n 3`. A batch script has SLURM_NTASKS too, and is one process: only srun sets the number of tasks
+// of the step, and PMIx the rank.
+std::optional<LaunchedRank> started_by_srun(bool share) {
+  const auto rank = whole(environment_variable("PMIX_RANK"));
+  const auto tasks = whole(environment_variable(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS"));
+  const auto task = rank ? rank : whole(environment_variable("SLURM_PROCID"));
+  if (share || !tasks || !task || *tasks < 2) return {};
+  if (!rank || !environment_variable("PMIX_NAMESPACE"))
+    throw Error(
+        ErrorCode::bad_value,
+        "srun started " + std::to_string(*tasks) + " tasks without MPI, and each would run the whole script",
+        "use srun --mpi=pmix or mpirun; for separate runs give each --shard i/n, or start it by "
+        "env -u PMIX_RANK -u SLURM_STEP_NUM_TASKS");
+  return LaunchedRank{*task, *tasks,
+                      std::max(1, whole(environment_variable("SLURM_TASKS_PER_NODE")).value_or(1))};
+}
+
 }  // namespace
 
-std::optional<LaunchedRank> launched_rank() {
+std::optional<LaunchedRank> launched_rank(bool share) {
   using Names = std::array<const char*, 3>;
   for (const Names& names :
        {Names{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE"},
@@ -52,7 +69,7 @@ std::optional<LaunchedRank> launched_rank() {
     if (*size < 2) return {};
     return LaunchedRank{*rank, *size, std::max(1, whole(environment_variable(names[2])).value_or(1))};
   }
-  return {};
+  return started_by_srun(share);
 }
 
 int threads_of(const LaunchedRank& launched) {
@@ -62,13 +79,18 @@ int threads_of(const LaunchedRank& launched) {
   return std::max(1, std::min(bound, processors / launched.on_this_machine));
 }
 
-MpiRanks::MpiRanks() {
+MpiRanks::MpiRanks(int started) {
   const auto table = part_function<AsperityMpiTable>(part, "asperity_mpi_1");
   mpi_ = table();
   pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
   std::array<char, 512> reason{};
   if (mpi_->open(&rank_, &size_, reason.data(), reason.size()) != 0)
     throw Error(ErrorCode::bad_file, reason.data());
+  if (size_ < started)
+    throw Error(ErrorCode::bad_value,
+                std::to_string(started) + " processes were started, and MPI joins " + std::to_string(size_) +
+                    " of them",
+                "start them by srun --mpi=pmix or by the mpirun of Open MPI");
   if (leads()) return;
   std::string pattern = (std::filesystem::temp_directory_path() / "asperity-rank-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr)

@@ -14,20 +14,23 @@ struct AsperityMpi;
 
 namespace asperity::cli {
 
-// What the launcher says of this process before MPI is started; none where it is alone.
+// What the launcher says of this process before MPI is started; none where it is alone. Tasks of Slurm's srun
+// that `share` a store by themselves are alone too. Throws Error{bad_value} for tasks that srun started
+// without MPI.
 struct LaunchedRank {
   int rank = 0, size = 1;
   int on_this_machine = 1;
 };
-std::optional<LaunchedRank> launched_rank();
+std::optional<LaunchedRank> launched_rank(bool share);
 // Threads of each rank where none are asked for: the processors it may use, shared by the ranks of a machine.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {
  public:
   // Joins the others; the signals of a stop are blocked first, so that no thread of MPI takes them. Throws
-  // Error{bad_file} where the program was built without it.
-  MpiRanks();
+  // Error{bad_file} where the program was built without it, Error{bad_value} where MPI joins fewer processes
+  // than the launcher `started`.
+  explicit MpiRanks(int started);
   ~MpiRanks() override = default;
 
   Team& team() override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/shard.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -34,13 +35,18 @@ Shard from_slurm() {
   };
   const long id = read("SLURM_ARRAY_TASK_ID"), count = read("SLURM_ARRAY_TASK_COUNT");
   const long first = environment_variable("SLURM_ARRAY_TASK_MIN") ? read("SLURM_ARRAY_TASK_MIN") : 1;
+  const long last =
+      environment_variable("SLURM_ARRAY_TASK_MAX") ? read("SLURM_ARRAY_TASK_MAX") : first + count - 1;
   const long index = id - first + 1;
-  if (count < 1 || count > 1'000'000 || index < 1 || index > count)
+  // Some tasks of an array, submitted once more, do not know how many there were.
+  const bool whole = (first == 0 || first == 1) && last - first + 1 == count;
+  if (!whole || count > 1'000'000 || index < 1 || index > count)
     throw Error(ErrorCode::bad_value,
                 "task " + std::to_string(id) + " of a job array of " + std::to_string(count) + " from " +
-                    std::to_string(first) + " on is none of its shards",
-                "number the tasks one after the other, as in sbatch --array=1-" +
-                    std::to_string(count < 1 ? 4 : count));
+                    std::to_string(first) + " to " + std::to_string(last) + " is none of its shards",
+                "number all tasks one after the other, as in sbatch --array=1-" +
+                    std::to_string(std::max(count < 1 ? 4 : count, last)) +
+                    "; for some of them alone, give --shard i/n");
   return {static_cast<int>(index), static_cast<int>(count)};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/cli/shard.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/program_identity.hpp"
@@ -75,7 +76,24 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   for (const auto& [name, knob] : given.members())
     if (const Json* as_recorded = then.find(name); as_recorded == nullptr || !(*as_recorded == knob))
       changed.push_back("the knob " + asperity::quoted(name));
+  const std::string share = command.shard ? command.shard->text() : "";
+  if ((command.shard || command.merge_only) && share != recorded.shard)
+    changed.push_back("the share (" + (recorded.shard.empty() ? "all cases" : "shard " + recorded.shard) +
+                      ")");
   return changed;
+}
+
+// A share of the cases stays what it was, in the same store. A confined run takes no folder from a record,
+// which may come from elsewhere.
+void take_share(RunCommand& command, const RecordedRun& recorded) {
+  if (recorded.store.empty()) return;
+  if (!command.barriers.is_null() && !command.store)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(recorded.root.string()) + " shares the folder " +
+                    asperity::quoted(recorded.store) + ", which a confined run does not take from a record",
+                "give it by --store");
+  if (!command.store) command.store = recorded.store;
+  if (!command.shard && !recorded.shard.empty()) command.shard = parse_shard(recorded.shard);
 }
 
 // Another version rounds otherwise, and has other laws: what it adds does not belong to the same run.
@@ -157,6 +175,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
                     (changed.size() > 1 ? " are" : " is") + " not the one given now",
                 "leave it out to go on as recorded, or add `--reuse " + *command.resume +
                     "` to begin anew there with the results that are still the same");
+  take_share(command, recorded);
   command.anew = !changed.empty() || program_version(recorded) != lua::version_text();
   if (command.anew) {
     if (!command.script.empty()) return command;
@@ -174,6 +193,9 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     command.damages = damages_of(recorded);
     if (command.damages.empty()) return {};
     command.journal_lost = !recorded.journal_fault.empty();
+  } else if (!recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty())) {
+    // Cases that failed then may be mended: the journal is made again from the script and the store.
+    command.journal_lost = true;
   } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};
     command.journal_lost = true;

@@ -13,14 +13,15 @@
 
 namespace asperity::cli {
 
-// The command that goes on with the run in `command.resume`: its script, arguments and seed, unless there is
-// nothing there yet but what a run writes before its first manifest, when it is begun there. None where that
-// run is done and its journal and every output have the digests of its manifest; where they do not, the
-// command names the damages and makes the run again. `leads`: takes the lock of the directory, as one process
-// of a run does, unless the command has it already. Throws Error for a script, arguments or a seed that are
-// not its own, unless `reuse` is given, for a run by another version that is not done and whole, unless
-// `reuse` is given, for a run that was trusted otherwise, for one whose own files are links, for a directory
-// that is no run, and where another process has the lock.
+// The command that goes on with the run in `command.resume`: its script, arguments, seed, store and share,
+// unless there is nothing there yet but what a run writes before its first manifest, when it is begun there.
+// None where that run is done and its journal and every output have the digests of its manifest; where they
+// do not, the command names the damages and makes the run again. `leads`: takes the lock of the directory, as
+// one process of a run does, unless the command has it already. Throws Error for a script, arguments or a
+// seed that are not its own, unless `reuse` is given, for a run by another version that is not done and
+// whole, unless `reuse` is given, for a run that was trusted otherwise, for one whose own files are links,
+// for a directory that is no run, for a share of the cases that is not its own, and where another process has
+// the lock.
 std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
 // Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the

@@ -35,12 +35,11 @@ class CaseScheduler {
   CaseScheduler(EnsembleCases& cases, const CaseSchedule& schedule)
       : cases_(cases),
         schedule_(schedule),
-        shard_(schedule.shard),
         ranks_(schedule.ranks),
         results_(cases.count()),
         finished_(cases.count(), false) {
     for (std::size_t k = 0; k < cases.count(); ++k)
-      if (!follows() && (!shard_ || shard_->own(k))) waiting_.push_back(k);
+      if (!follows() && (!schedule.own || schedule.own(k))) waiting_.push_back(k);
     wanted_ = follows() ? cases.count() : waiting_.size();
     if (ranks_ == nullptr) return;
     open_ = true;
@@ -59,7 +58,8 @@ class CaseScheduler {
     {
       std::vector<std::jthread> workers;
       const Ending ending(*this);
-      if (leads()) find_kept();
+      if (leads() || looks_first()) find_kept();
+      if (looks_first()) schedule_.report({{waiting_.begin(), waiting_.end()}, {}});
       if (follows()) ranks_->send(0, Ranks::Kind::hello, hello(wanted));
       start(workers, wanted, single);
       while (!look()) {
@@ -67,7 +67,7 @@ class CaseScheduler {
     }
     stop_flag().check();
     if (leads()) ranks_->send_to_others(Ranks::Kind::rows, all_rows());
-    if (shard_) find_others();
+    if (schedule_.own) find_others();
     double transforms = 0;
     for (const Finished& result : results_) transforms += result->transforms;
     cost::count_transforms(transforms);
@@ -113,6 +113,7 @@ class CaseScheduler {
       const std::optional<std::size_t> k = next();
       if (!k) break;
       Finished result = result_of(*k);
+      if (result == nullptr) break;
       const std::lock_guard lock(mutex_);
       finish(*k, std::move(result));
     }
@@ -131,22 +132,24 @@ class CaseScheduler {
     return k;
   }
 
+  // Null where the process is being stopped: a stop makes cases fail, or take another way past the error.
   Finished result_of(std::size_t k) {
+    const auto stopped = [] { return stop_flag().reason() != StopReason::none; };
     try {
       if (Finished found = cases_.find_kept(k, false)) return found;
       Finished result = cases_.compute(k);
-      if (stop_flag().reason() != StopReason::none && !result->failure.empty()) return result;
+      if (stopped()) return nullptr;
       if (ranks_ != nullptr) require_bytes(k, *result);
       try {
-        cases_.keep(k, *result, shard_.has_value());
+        cases_.keep(k, *result, static_cast<bool>(schedule_.own));
       } catch (const Error& error) {
-        // Nobody else would find what this shard is here to compute.
+        // Other processes would not find the result that this shard is here to compute.
         cases_.fail(*result, error.what());
         cases_.keep(k, *result, true);
       }
       return result;
     } catch (const std::exception& error) {
-      return cases_.failed(error.what());
+      return stopped() ? nullptr : cases_.failed(error.what());
     }
   }
 
@@ -189,14 +192,19 @@ class CaseScheduler {
     return out.take();
   }
 
-  // Rank 0 looks up all cases before any is handed out.
+  // Whether to report on a store that other processes fill, before anything is computed.
+  bool looks_first() const { return schedule_.report && !schedule_.own && !follows(); }
+
+  // Looks up all cases before any is computed or handed out.
   void find_kept() {
-    for (std::size_t k = 0; k < results_.size(); ++k)
-      if (Finished found = cases_.find_kept(k, false)) {
-        const std::lock_guard lock(mutex_);
-        std::erase(waiting_, k);
+    const std::lock_guard lock(mutex_);
+    std::deque<std::size_t> missing;
+    for (const std::size_t k : std::exchange(waiting_, {}))
+      if (Finished found = cases_.find_kept(k, false))
         finish(k, std::move(found));
-      }
+      else
+        missing.push_back(k);
+    waiting_ = std::move(missing);
   }
 
   // Gives a rank up to so many cases; those there are not, once there are.
@@ -312,29 +320,26 @@ class CaseScheduler {
     }
   }
 
-  // What other shards have kept. Ends the process if something is missing: the script needs every row.
+  // Takes the results of other processes from the store, and reports: the script needs every row.
   void find_others() {
-    std::size_t own = 0, kept = 0;
+    StoreReport report;
     for (std::size_t k = 0; k < results_.size(); ++k) {
-      if (shard_->own(k)) {
-        ++own;
+      if (schedule_.own(k)) {
         if (!cases_.find_kept(k, true))
-          throw Error(ErrorCode::bad_file, "what " + cases_.name(k) + " found could not be kept",
+          throw Error(ErrorCode::bad_file, "the result of " + cases_.name(k) + " could not be stored",
                       "see that the folder given by --store can be written and has room");
-        ++kept;
+        if (!results_[k]->failure.empty()) report.failed.emplace_back(k, results_[k]->failure);
         continue;
       }
-      Finished found = cases_.find_kept(k, true);
-      if (!found) continue;
-      ++kept;
-      const std::lock_guard lock(mutex_);
-      finish(k, std::move(found));
+      if (!schedule_.needs_others) continue;
+      if (Finished found = cases_.find_kept(k, true)) {
+        const std::lock_guard lock(mutex_);
+        finish(k, std::move(found));
+      } else {
+        report.missing.push_back(k);
+      }
     }
-    if (kept < results_.size())
-      schedule_.shard_end("shard " + std::to_string(shard_->index) + " of " + std::to_string(shard_->count) +
-                          ": its " + std::to_string(own) + (own == 1 ? " case" : " cases") +
-                          " of the ensemble " + schedule_.place + (own == 1 ? " is" : " are") + " done; " +
-                          std::to_string(kept) + " of " + std::to_string(results_.size()) + " are");
+    schedule_.report(report);
     show();
   }
 
@@ -376,8 +381,7 @@ class CaseScheduler {
         output += result.output;
         result.output.clear();
         warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
-        // A stop makes the states that run fail: that is no failure of their cases.
-        if (!result.failure.empty() && stop_flag().reason() == StopReason::none)
+        if (!result.failure.empty())
           failures.push_back(cases_.name(shown_) + " failed: " + without_traceback(result.failure));
       }
     }
@@ -390,7 +394,6 @@ class CaseScheduler {
 
   EnsembleCases& cases_;
   const CaseSchedule& schedule_;
-  const std::optional<Shard> shard_;
   Ranks* const ranks_;
   std::string name_;                          // of this ensemble among those of the run, for other ranks
   std::vector<std::set<std::size_t>> given_;  // of rank 0: to each of the others

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cases of an ensemble, spread over the threads of a process, over the shards of a run and over the ranks
 // of mpirun. Threads take cases in order; the calling thread waits, shows progress, what cases printed and
-// warned of in the order of the cases, and carries a stop to the cases that run. Cases that are kept are
-// taken from the store; a shard takes those of others there as well. With more than one thread the engine's
-// own loops stay on the thread of their case; results are the same bits for any number. What a case is and
-// how it is computed is the caller's.
+// warned of in the order of the cases, and carries a stop to the cases that run. A case that ends while its
+// process is being stopped has no result. Stored cases are taken from the store; a shard takes those of
+// others there as well. With more than one thread the engine's own loops stay on the thread of their case;
+// results are the same bits for any number. What a case is and how it is computed is the caller's.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/monitor.hpp"
@@ -28,6 +28,14 @@ struct Shard {
   bool own(std::size_t k) const {
     return k % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
   }
+  std::string text() const { return std::to_string(index) + "/" + std::to_string(count); }
+  bool operator==(const Shard&) const = default;
+};
+
+// Case `number` of ensemble `ensemble` of the run, both counted from 1.
+struct CaseNumber {
+  int ensemble = 1;
+  std::size_t number = 1;
 };
 
 // What the scheduler reads of a case that was computed; whoever computes it adds what it found.
@@ -65,16 +73,24 @@ class EnsembleCases {
   virtual Finished from_bytes(std::size_t k, std::string_view bytes) const = 0;
 };
 
+// What the store of several processes lacks, for the ensemble that one of them has come to.
+struct StoreReport {
+  std::vector<std::size_t> missing;                         // cases
+  std::vector<std::pair<std::size_t, std::string>> failed;  // own cases, and why
+};
+
 struct CaseSchedule {
   Monitor& monitor;
-  std::string place{};           // of the ensemble in the script, for messages: "at sweep.lua:12"
-  int ensemble = 0;              // of the run, counted from 1
-  std::optional<Shard> shard{};  // of a run that computes some of the cases only
-  Ranks* ranks = nullptr;        // the processes that share the cases; null: this one alone
+  int ensemble = 0;        // of the run, counted from 1
+  Ranks* ranks = nullptr;  // the processes that share the cases; null: this one alone
+  // Which cases this process computes, where it takes those of other processes from the store; empty: all.
+  std::function<bool(std::size_t k)> own{};
+  bool needs_others = true;  // with `own`: whether the script goes on, and so needs the other rows
   // What cases printed, in their order.
   std::function<void(std::string_view)> print{};
-  // Ends the process of a shard that lacks cases of others, with a sentence that says which.
-  std::function<void(const std::string& sentence)> shard_end{};
+  // Called with what the store lacks: after the own cases of `own`, or else before any case is computed. It
+  // may end the process. Empty: the store is of this run alone.
+  std::function<void(const StoreReport& report)> report{};
 };
 
 // The results of all cases, in their order. A case that fails is told as a warning and the others run on, so

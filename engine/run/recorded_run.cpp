@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
@@ -141,6 +142,8 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
   if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;
+  for (const auto& [name, text] : {std::pair("shard", &run.shard), std::pair("store", &run.store)})
+    if (const Json* found = rest.is_object() ? rest.find(name) : nullptr) *text = found->string();
   run.manifest = without_unhashed(manifest);
   try {
     run.journal = read_journal(root / run_names::journal, !run.ended()).lines;

@@ -18,8 +18,11 @@ struct DifferingMember;
 
 struct RecordedRun {
   std::filesystem::path root;
-  std::string status;       // "done", "failed", "interrupted", "killed", or "running" where it was cut off
-  std::string script_path;  // as it was given
+  // "done", "failed", "shard" (it ended at an ensemble for lack of the cases of others), "interrupted",
+  // "killed", or "running" where it was cut off.
+  std::string status;
+  std::string shard, store;  // "1/3", of a run that computed a share; and the folder that it shared; else ""
+  std::string script_path;   // as it was given
   std::string script_text;
   std::vector<std::string> arguments;
   std::int64_t seed = 1;

@@ -24,6 +24,8 @@ std::string_view name(RunStatus status) {
       return "running";
     case RunStatus::done:
       return "done";
+    case RunStatus::shard:
+      return "shard";
     case RunStatus::failed:
       return "failed";
     case RunStatus::interrupted:
@@ -135,6 +137,8 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("script_path", setup.script_name)
       .set("threads", setup.threads)
       .set("machine", machine_facts());
+  if (!setup.store.empty()) unhashed_.set("store", fs::absolute(setup.store).lexically_normal().string());
+  if (!setup.shard.empty()) unhashed_.set("shard", setup.shard);
   if (again) take_up();
   journal_->write("begin", Json::object({{"script", script}, {"digest", digest}, {"seed", setup.seed}}));
   // What it takes to go on after a power cut, whatever becomes of the rest.

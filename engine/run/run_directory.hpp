@@ -55,12 +55,16 @@ struct RunSetup {
   std::vector<std::string> arguments;
   std::int64_t seed = 1;
   int threads = 1;
+  // The folder that the run shares with others, and its share of the cases, "1/3", where it has one: a run
+  // that is resumed takes them from its manifest.
+  std::string store, shard;
   Json knobs{};                    // given_knobs_json() of what was given; null for none
   Json versions = Json::object();  // program, libraries, compiler
   Json barriers{};  // what held a confined run and what it could read; null for one that was not confined
 };
 
-enum class RunStatus { running, done, failed, interrupted, killed };
+// `shard`: a share of the cases is done, and the script needs the others.
+enum class RunStatus { running, done, shard, failed, interrupted, killed };
 std::string_view name(RunStatus status);
 
 // Thread-safe.

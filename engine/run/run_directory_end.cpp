@@ -96,13 +96,14 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   if (finished_.exchange(true)) return false;
   std::exception_ptr first;
   std::string reason(given_reason);
+  const auto ends_well = [&] { return status == RunStatus::done || status == RunStatus::shard; };
   // What goes wrong now is the end of a run that would be done; the first failure is told.
   const auto attempt = [&](const std::function<void()>& step) {
     try {
       step();
     } catch (const std::exception& problem) {
       if (!first) first = std::current_exception();
-      if (status != RunStatus::done) return;
+      if (!ends_well()) return;
       status = RunStatus::failed;
       reason = problem.what();
     }
@@ -118,7 +119,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
     attempt([&] {
       // A run that must die now does not read its large files once more.
       files = outputs(status != RunStatus::killed);
-      if (status != RunStatus::done) return;
+      if (!ends_well()) return;
       if (const std::string unlike = unlike_recorded(files); !unlike.empty())
         throw Error(ErrorCode::bad_state, unlike,
                     "the script does not do the same again, or what it reads has changed");
@@ -135,8 +136,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   if (records) {
     // What comes to its own end is compared later by what the manifest says, and so is on the disk before it.
     const auto durable = [&] {
-      return !scratch_ && (status == RunStatus::done || status == RunStatus::failed) ? Durable::yes
-                                                                                     : Durable::no;
+      return !scratch_ && (ends_well() || status == RunStatus::failed) ? Durable::yes : Durable::no;
     };
     if (durable() == Durable::yes) {
       attempt([&] {

@@ -86,7 +86,9 @@ fs::path given_directory(const fs::path& out, std::shared_ptr<RunLock>& lock, bo
   const auto require_new = [&] {
     if (!is_not_begun(out))
       throw Error(ErrorCode::bad_value, "`--out` names " + quoted(out.string()) + ", which is not empty",
-                  "give a new directory");
+                  fs::exists(out / run_names::manifest, reason)
+                      ? "give a new directory, or --resume to go on with the run there"
+                      : "give a new directory");
   };
   if (!locked) {
     require_new();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity check` and `asperity explain`: a script followed without its heavy calls.
+// `asperity check`, `asperity explain` and `asperity cases`: a script followed without its heavy calls.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -124,23 +124,51 @@ int explain(const RunCommand& command, bool json) {
   });
 }
 
-// What is given to either command.
+// The cases of its ensembles, as --case of `asperity run` numbers them.
+int cases(const RunCommand& command, bool list) {
+  TerminalMonitor monitor;
+  lua::Session session(monitor);
+  session.on_ensemble = [&](const std::string& place, std::size_t count,
+                            const std::function<std::string(std::size_t)>& name) {
+    const int ensemble = session.numbered_ensembles;
+    if (!list)
+      std::printf("ensemble %d, %s: %zu %s\n", ensemble, place.c_str(), count, count == 1 ? "case" : "cases");
+    const std::string before = ensemble == 1 ? "" : std::to_string(ensemble) + ".";
+    for (std::size_t k = 0; list && k < count; ++k)
+      std::printf("%s%zu\t%s\n", before.c_str(), k + 1, name(k).c_str());
+  };
+  return dry_run(command, "list of cases", session, [&](const std::string& reached) {
+    if (reached.empty()) return;
+    std::fprintf(stderr, "%s: listed %s\n", command.script.c_str(), reached.c_str());
+  });
+}
+
+enum class Follows { check, explain, cases };
+
+// What is given to each of these commands.
 struct FollowedScript {
   RunCommand run;
   std::string time;
   std::vector<std::string> knobs;
   bool json = false;  // of `explain`
+  bool list = false;  // of `cases`
 };
 
-CommandReader declare(CLI::App& options, bool explains) {
+CommandReader declare(CLI::App& options, Follows follows) {
   const auto given = std::make_shared<FollowedScript>();
   add_script_options(options, given->run, given->time);
   add_knobs(options, given->knobs);
-  if (explains) options.add_flag("--json", given->json, "as JSON");
-  return [given, explains]() -> CommandWork {
+  if (follows == Follows::explain) options.add_flag("--json", given->json, "as JSON");
+  if (follows == Follows::cases)
+    options.add_flag("--list", given->list, "a line for each case: its number, a tab, and its values");
+  return [given, follows]() -> CommandWork {
     given->run.limit_time = seconds_of(given->time);
     given->run.knobs = knobs_of(given->knobs);
-    return [given, explains] { return explains ? explain(given->run, given->json) : cli::check(given->run); };
+    return [given, follows] {
+      return follows == Follows::explain ? explain(given->run, given->json)
+             : follows == Follows::cases ? cases(given->run, given->list)
+                                         : cli::check(given->run);
+    };
   };
 }
 
@@ -150,7 +178,7 @@ Command check_command() {
   return {.name = "check",
           .sentence = "look for mistakes in a script without running it",
           .overview = "asperity check SCRIPT                          look for mistakes without running it\n",
-          .declare = [](CLI::App& options) { return declare(options, false); }};
+          .declare = [](CLI::App& options) { return declare(options, Follows::check); }};
 }
 
 Command explain_command() {
@@ -160,7 +188,17 @@ Command explain_command() {
           "what a script will compute, and at what cost: its surfaces are made and its contacts planned, "
           "but nothing is pressed; a loop over a sweep turns once",
       .overview = "asperity explain SCRIPT                        what it will compute, and at what cost\n",
-      .declare = [](CLI::App& options) { return declare(options, true); }};
+      .declare = [](CLI::App& options) { return declare(options, Follows::explain); }};
+}
+
+Command cases_command() {
+  return {
+      .name = "cases",
+      .sentence =
+          "the cases of a script's ensembles, found without running it; an ensemble whose values "
+          "depend on results is listed as far as they are known",
+      .overview = "asperity cases SCRIPT --list                   the cases of its ensembles, by number\n",
+      .declare = [](CLI::App& options) { return declare(options, Follows::cases); }};
 }
 
 int check(const RunCommand& command) {

@@ -41,11 +41,13 @@ struct Command {
 // Commands that show nobody else what they do, each defined in the source of its name; the last three in
 // information_commands.cpp.
 Command accuracy_command();
+Command cases_command();
 Command check_command();
 Command explain_command();
 Command lesson_command();
 Command press_log_command();
 Command repl_command();
+Command status_command();
 // `overview` is asked for the lines of all commands, which `asperity help` begins with.
 Command help_command(std::string (*overview)());
 Command materials_command();

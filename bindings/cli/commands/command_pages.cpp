@@ -80,6 +80,7 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
       ".SH EXIT STATUS\n"
       ".TP\n\\fB0\\fR\ndone\n.TP\n\\fB1\\fR\nthe script or an expectation failed, or a replay differs\n"
       ".TP\n\\fB2\\fR\nbad usage, or another process writes that run\n"
+      ".TP\n\\fB3\\fR\ncases are missing in a store that several processes fill\n"
       ".TP\n\\fB130\\fR\ninterrupted\n.TP\n\\fB143\\fR\nasked to end (TERM)\n"
       ".TP\n\\fB129\\fR\nits terminal was closed (HUP)\n"
       ".SH FILES\n"
@@ -124,7 +125,7 @@ std::string bash_completion(const CLI::App& app, const std::vector<std::string>&
          "    return\n"
          "  fi\n"
          "  case $command:$before in\n"
-         "    *:--out | *:--resume | *:--reuse | *:--store | replay:replay)\n"
+         "    *:--out | *:--resume | *:--reuse | *:--store | replay:replay | status:status)\n"
          "      mapfile -t COMPREPLY < <(compgen -d -- \"$word\") ;;\n"
          "    serve:--names) mapfile -t COMPREPLY < <(compgen -f -- \"$word\") ;;\n"
          "    " +
@@ -133,7 +134,7 @@ std::string bash_completion(const CLI::App& app, const std::vector<std::string>&
          "    lesson:*) mapfile -t COMPREPLY < <(compgen -W \"" +
          words(lessons) +
          "\" -- \"$word\") ;;\n"
-         "    run:* | check:* | explain:* | accuracy:*)\n"
+         "    run:* | check:* | explain:* | cases:* | accuracy:*)\n"
          "      mapfile -t COMPREPLY < <(compgen -f -X '!*.lua' -- \"$word\"; compgen -d -- \"$word\") ;;\n"
          "  esac\n"
          "}\n"

@@ -257,6 +257,11 @@ int replay(const ReplayCommand& command) {
   std::vector<std::string> altered = altered_outputs(*recorded);
   if (!recorded->journal_fault.empty()) altered.push_back(recorded->journal_fault);
   for (const std::string& sentence : altered) std::fprintf(stderr, "asperity: %s\n", sentence.c_str());
+  if (!recorded->shard.empty() && recorded->status != "done")
+    std::printf(
+        "%s is shard %s of a run, and ends where the script needs the cases of the others; "
+        "the replay computes all cases and compares until there\n",
+        recorded->root.c_str(), recorded->shard.c_str());
 
   RunCommand run = command.run;
   run.script = recorded->script_path;

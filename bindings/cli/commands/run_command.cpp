@@ -5,8 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -64,7 +66,8 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
   return "";
 }
 
-void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard) {
+void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
+                       std::string& one_case) {
   CLI::Option* resume =
       options.add_option("--resume", run.resume,
                          "go on with the run in this directory where it was cut off; its script, arguments "
@@ -80,20 +83,47 @@ void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, s
       "--store", run.store,
       "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
       "machines, may share it at the same time (no limit unless --store-limit is given)");
-  options
-      .add_option(
-          "--shard", shard,
-          "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
-          "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
-          "ensemble once all its cases are there, and else ends. A run without --shard puts all together")
-      ->needs(options.get_option("--store"))
-      ->excludes(options.get_option("--trust"));
+  CLI::Option* share = options.add_option(
+      "--shard", shard,
+      "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
+      "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
+      "ensemble once all its cases are there, and else ends. A run without --shard puts all together");
+  CLI::Option* one = options.add_option(
+      "--case", one_case,
+      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by "
+      "--store, and leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 "
+      "cases of an earlier ensemble are missing. `asperity cases` lists the numbers");
+  CLI::Option* merge =
+      options.add_flag("--merge-only", run.merge_only,
+                       "compute no case: take all from the folder given by --store, or end with exit "
+                       "status 3 and the list of the missing cases");
+  for (CLI::Option* option : {share, one, merge})
+    option->needs(options.get_option("--store"))->excludes(options.get_option("--trust"));
+  for (CLI::Option* other :
+       {share, merge, resume, options.get_option("--out"), options.get_option("--reuse")})
+    one->excludes(other);
+  merge->excludes(share);
+}
+
+CaseNumber case_number(const std::string& text) {
+  CaseNumber one;
+  const std::size_t dot = text.find('.');
+  const auto read = [&](std::string_view part, auto& value) {
+    const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return problem == std::errc() && end == part.data() + part.size() && value >= 1;
+  };
+  const std::string_view all(text);
+  if ((dot == std::string::npos || read(all.substr(0, dot), one.ensemble)) &&
+      read(dot == std::string::npos ? all : all.substr(dot + 1), one.number))
+    return one;
+  throw Error(ErrorCode::bad_value, "`--case` is " + quoted(text),
+              "give the number of a case, such as 17, or 2.17 for the second ensemble");
 }
 
 CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers) {
   struct Given {
     RunCommand run;
-    std::string time, memory, store_limit, shard, disk;
+    std::string time, memory, store_limit, shard, one_case, disk;
     std::vector<std::string> knobs;
   };
   const auto given = std::make_shared<Given>();
@@ -101,7 +131,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
   add_run_options(options, given->run, given->memory);
   add_knobs(options, given->knobs);
   add_trust(options, given->run.trust);
-  add_store_options(options, given->run, given->store_limit, given->shard);
+  add_store_options(options, given->run, given->store_limit, given->shard, given->one_case);
   add_confinement(options, given->run, given->disk);
 
   return [given, &options, barriers]() -> CommandWork {
@@ -112,8 +142,10 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     run.knobs = knobs_of(given->knobs);
     run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit, "the limit of the store");
     if (!given->shard.empty()) run.shard = parse_shard(given->shard);
-    if (run.shard && run.store_limit == 0)
-      throw Error(ErrorCode::bad_value, "`--shard` keeps its cases, and `--store-limit 0` keeps nothing",
+    if (!given->one_case.empty()) run.one_case = case_number(given->one_case);
+    if ((run.shard || run.one_case || run.merge_only) && run.store_limit == 0)
+      throw Error(ErrorCode::bad_value,
+                  "`--shard`, `--case` and `--merge-only` share a store, and `--store-limit 0` keeps nothing",
                   "leave one of them out");
     if (run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
@@ -121,10 +153,26 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     run.limit_disk = bytes_of(given->disk, "the limit of the disk");
     run.confined = barriers.wanted(run);
     check_confinement(run);
+    if (run.confined && (run.one_case || run.merge_only))
+      throw Error(ErrorCode::bad_value, "a confined run takes neither `--case` nor `--merge-only`",
+                  "share its cases by --shard, and merge them by a run without it");
     return [given, barriers] {
       return given->run.confined ? barriers.carry_out(given->run) : cli::run(given->run);
     };
   };
+}
+
+// A run of one case writes into a folder among the temporary files, and leaves its case in the store alone.
+std::string make_case_folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "asperity-case-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr)
+    throw Error(ErrorCode::bad_file, "no temporary folder can be made for a case");
+  return pattern + "/run";
+}
+void remove_case_folder(const RunCommand& command) {
+  std::error_code ignored;
+  if (command.one_case && command.out)
+    std::filesystem::remove_all(std::filesystem::path(*command.out).parent_path(), ignored);
 }
 
 }  // namespace
@@ -227,7 +275,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.journal_lost = command.journal_lost;
     setup.lock = command.lock;
     // What another rank than the first one writes is taken away at its end.
-    setup.scratch = command.ranks != nullptr && !command.ranks->leads();
+    setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
+    setup.store = command.store.value_or("");
+    if (command.shard) setup.shard = command.shard->text();
     setup.trusted = command.trust;
     setup.barriers = command.barriers;
     setup.arguments = command.arguments;
@@ -266,9 +316,6 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     store = &of_ranks.emplace(*command.ranks);
   }
   monitor.keep_results_in(store);
-  if (command.shard)
-    run->note_unhashed("shard",
-                       std::to_string(command.shard->index) + " of " + std::to_string(command.shard->count));
   RunObserver* const observer = command.observer;
   if (observer != nullptr) {
     monitor.report_to(observer);
@@ -296,7 +343,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (const std::string departure = run->journal().departure(); !departure.empty())
       std::fprintf(stderr, "%s\n", departure.c_str());
     if (run->mended()) std::fprintf(stderr, "every file is again as it was recorded\n");
-    std::fprintf(stderr, "results in %s\n", run->path().c_str());
+    if (!command.one_case) std::fprintf(stderr, "results in %s\n", run->path().c_str());
   };
   Watchdog watchdog(command.limit_time, [&](StopReason reason) {
     const std::string why = reason_text(reason, command);
@@ -310,6 +357,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
       observer->ended(exit_status(reason), reason, why);
     else
       std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
+    remove_case_folder(command);
   });
 
   std::optional<UnlinkedFilesBound> unlinked;
@@ -384,20 +432,37 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   for (const std::string& argument : context.command.arguments) script.add(argument);
   if (!context.command.knobs.empty()) script.add("knobs").add(RunKnobs(context.command.knobs).given_text());
   session.script_digest = script.hex();
-  session.shard = context.command.shard;
+  lua::SharedStore shared;
+  if (context.command.store) {
+    shared = {*context.command.store,
+              context.command.shard,
+              context.command.one_case,
+              context.command.merge_only,
+              {},
+              {}};
+    session.shared = &shared;
+  }
   if (RunObserver* observer = context.command.observer; observer != nullptr && observer->looks_at_results())
     session.onlooker = [observer, run = context.run.get()](const std::string& call,
                                                            const lua::Values& results) {
       observer->found(call, run->journal().count(), results);
     };
   session.ranks = context.command.ranks;
-  session.shard_end = [&](const std::string& sentence) {
+  shared.tell = [&](const std::string& sentence) {
     context.monitor.clear();
-    std::fprintf(stderr, "%s in %s\n", sentence.c_str(), context.command.store->c_str());
-    context.run->finish(RunStatus::done, sentence);
+    if (context.command.observer == nullptr) std::fprintf(stderr, "%s\n", sentence.c_str());
+  };
+  shared.end = [&](lua::SharedEnd end, const std::string& sentence) {
+    using lua::SharedEnd;
+    shared.tell(sentence);
+    context.run->finish(context.command.merge_only ? RunStatus::failed : RunStatus::shard, sentence);
     context.summary();
+    remove_case_folder(context.command);
     std::fflush(nullptr);
-    std::_Exit(done);
+    std::_Exit(end == SharedEnd::stored    ? done
+               : end == SharedEnd::failed  ? failed
+               : end == SharedEnd::missing ? cases_missing
+                                           : bad_usage);
   };
   session.exit_hook = [&](int code) {
     const std::string unmade = code == 0 ? unmade_knobs(session) : "";
@@ -421,7 +486,15 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
 
 int run(const RunCommand& asked) {
   RunCommand command = asked;
-  const std::optional<LaunchedRank> launched = launched_rank();
+  const bool shares = asked.shard || asked.one_case || asked.merge_only;
+  std::optional<LaunchedRank> launched;
+  try {
+    launched = launched_rank(shares);
+    if (asked.one_case && !launched) command.out = make_case_folder();
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
   if (asked.resume) {
     try {
       std::optional<RunCommand> again = taken_up(asked, !launched || launched->rank == 0);
@@ -442,16 +515,25 @@ int run(const RunCommand& asked) {
       return bad_usage;
     }
   }
-  const auto work = [](RunContext& context) { return run_script(context, [](int code) { return code; }); };
-  if (!launched) return in_run_directory(command, work);
+  const auto leave = [&command](int code) {
+    remove_case_folder(command);
+    if (!command.one_case || code != done) return code;
+    std::fprintf(stderr,
+                 "asperity: %s came to its end and has no case %d.%zu; `asperity cases` lists its cases\n",
+                 command.script.c_str(), command.one_case->ensemble, command.one_case->number);
+    return bad_usage;
+  };
+  const auto work = [&leave](RunContext& context) { return run_script(context, leave); };
+  if (!launched) return leave(in_run_directory(command, work));
 
   std::unique_ptr<MpiRanks> ranks;
   try {
-    if (command.shard)
-      throw Error(ErrorCode::bad_value, "`--shard` was given to one of the ranks of mpirun",
+    if (command.shard || shares)
+      throw Error(ErrorCode::bad_value,
+                  "`--shard`, `--case` or `--merge-only` was given to one of the ranks of mpirun",
                   "use one of the two: mpirun spreads the cases itself");
     if (command.threads == 0) command.threads = threads_of(*launched);
-    ranks = std::make_unique<MpiRanks>();
+    ranks = std::make_unique<MpiRanks>(launched->size);
   } catch (const Error& error) {
     if (launched->rank == 0)
       std::fprintf(stderr, "asperity: started as %d ranks: %s\n", launched->size, error.what());

@@ -185,6 +185,21 @@ const Block<EnsembleKeys>& ensemble_block() {
   return block;
 }
 
+// A dry run calls `run` in the script's own state: ensembles in there are not counted and not listed.
+struct NestedEnsembles {
+  explicit NestedEnsembles(Session& s)
+      : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
+  ~NestedEnsembles() {
+    session.on_ensemble = listed;
+    session.numbered_ensembles = numbered;
+  }
+  NestedEnsembles(const NestedEnsembles&) = delete;
+  NestedEnsembles& operator=(const NestedEnsembles&) = delete;
+  Session& session;
+  decltype(Session::on_ensemble) listed;
+  int numbered;
+};
+
 // What a dry run can say of the rows from running one of the cases here.
 Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run) {
   lua_State* L = call.L;
@@ -359,8 +374,14 @@ Values ensemble(Call& call) {
     const CaseSetup common = common_setup(call.L, session,
                                           pack(call.L, run.index(), Cargo::functions, "run",
                                                "make it inside `run`, or use it on the rows that come back"));
+    ++session.numbered_ensembles;
+    std::string place = where(call.L);
+    place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
+      if (session.on_ensemble)
+        session.on_ensemble(place, keys.count(), [&](std::size_t k) { return case_name(keys.values(k)); });
+      const NestedEnsembles nested(session);
       return dry_rows(call, keys, run);
     }
     const Stream seeds(session.seed, "ensemble");
@@ -371,9 +392,8 @@ Values ensemble(Call& call) {
       return one;
     };
     const StoredCases kept(session, *common.run);
-    std::string place = where(call.L);
-    place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
-    std::vector<CaseResult> results = run_cases(keys.count(), setup, kept, place, session);
+    std::vector<CaseResult> results =
+        run_cases(keys.count(), setup, kept, place, keys.on_failure == OnFailure::report, session);
     note_inputs(session, results);
     record(session, keys, results);
     const std::vector<std::size_t> failed = failed_cases(results);

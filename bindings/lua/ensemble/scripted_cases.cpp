@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/ensemble/scripted_cases.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
+
+#include "bindings/lua/ensemble/case_roster.hpp"
+#include "engine/core/program_identity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/ranks.hpp"
 
 namespace asperity::lua {
 
@@ -60,18 +66,131 @@ EnsembleCases::Finished ScriptedCases::from_bytes(std::size_t k, std::string_vie
   return std::make_unique<CaseResult>(case_from_bytes(bytes, setup_(k).values));
 }
 
+namespace {
+
+// Which cases this process computes, and its words on the others.
+class SharedEnsemble {
+ public:
+  SharedEnsemble(const ScriptedCases& cases, const std::function<CaseSetup(std::size_t)>& setup,
+                 const StoredCases& kept, const std::string& place, bool reports_failures,
+                 const Session& session)
+      : shared_(*session.shared),
+        cases_(cases),
+        setup_(setup),
+        kept_(kept),
+        place_(place),
+        reports_failures_(reports_failures),
+        here_(shared_.one && shared_.one->ensemble == session.numbered_ensembles) {
+    if (here_ && shared_.one->number > cases.count())
+      shared_.end(SharedEnd::no_such_case, "there is no case " + std::to_string(shared_.one->number) +
+                                               ": the ensemble " + place_ + " has " +
+                                               std::to_string(cases.count()) + " cases");
+    roster_.script = session.script.path;
+    roster_.place = place;
+    roster_.ensemble = session.numbered_ensembles;
+    roster_.shards = shared_.shard ? shared_.shard->count : 0;
+    roster_.build = build_identity();
+    note_roster(shared_.folder, session.script_digest, roster_, cases.count(), [&](std::size_t k) {
+      return RosterEntry{cases_.name(k), kept_.keys(setup_(k))};
+    });
+  }
+
+  void put_into(CaseSchedule& schedule) {
+    if (shared_.shard)
+      schedule.own = [shard = *shared_.shard](std::size_t k) { return shard.own(k); };
+    else if (shared_.one || shared_.merge_only)
+      schedule.own = [this](std::size_t k) { return here_ && k + 1 == shared_.one->number; };
+    schedule.needs_others = !here_;
+    schedule.report = [this](const StoreReport& report) { say(report); };
+  }
+
+ private:
+  void say(const StoreReport& report) const {
+    std::string failures;
+    for (const auto& [k, why] : report.failed)
+      failures += "\n  " + cases_.name(k) + ": " + without_traceback(why);
+    if (here_) {
+      const std::string name = cases_.name(shared_.one->number - 1);
+      if (failures.empty()) shared_.end(SharedEnd::stored, name + " is stored in " + shared_.folder);
+      shared_.end(SharedEnd::failed, "the case failed:" + failures);
+    }
+    if (report.missing.empty()) return;
+    const std::size_t count = cases_.count(), stored = count - report.missing.size();
+    if (shared_.shard) {
+      std::size_t own = 0;
+      for (std::size_t k = 0; k < count; ++k) own += shared_.shard->own(k) ? 1 : 0;
+      const std::string its = own == 1 ? "its 1 case" : "its " + std::to_string(own) + " cases";
+      const std::string of = " of the ensemble " + place_;
+      const std::string are = own == 1 ? " is" : " are";
+      shared_.end(
+          failures.empty() || reports_failures_ ? SharedEnd::stored : SharedEnd::failed,
+          "shard " + std::to_string(shared_.shard->index) + " of " + std::to_string(shared_.shard->count) +
+              ": " +
+              (failures.empty() ? its + of + are + " done"
+                                : std::to_string(report.failed.size()) + " of " + its + of + " failed") +
+              "; " + std::to_string(stored) + " of " + std::to_string(count) + " are in " + shared_.folder +
+              failures);
+    }
+    const std::string sentence = std::to_string(report.missing.size()) + " of " + std::to_string(count) +
+                                 " cases of the ensemble " + place_ + " are not in " + shared_.folder +
+                                 which(report.missing);
+    if (shared_.one || shared_.merge_only)
+      shared_.end(SharedEnd::missing, sentence + of_other_builds(report));
+    shared_.tell(sentence + "; computed here" + of_other_builds(report));
+  }
+
+  std::string which(const std::vector<std::size_t>& missing) const {
+    if (missing.size() == cases_.count()) return "";
+    int shards = 0;
+    for (const CaseRoster& roster : rosters_in(shared_.folder))
+      if (roster.script == roster_.script && roster.ensemble == roster_.ensemble &&
+          roster.cases.size() == cases_.count() && roster.shards > 0)
+        shards = roster.shards;
+    return ": " + cases_text(missing, cases_.count(), shards);
+  }
+
+  // Another build may round otherwise: its cases are not taken.
+  std::string of_other_builds(const StoreReport& report) const {
+    std::string text;
+    for (const CaseRoster& roster : rosters_in(shared_.folder)) {
+      if (roster.build == roster_.build || roster.cases.size() != cases_.count()) continue;
+      const StoreReport there = look_up(shared_.folder, roster);
+      std::size_t stored = 0;
+      for (const std::size_t k : report.missing)
+        if (std::ranges::find(there.missing, k) == there.missing.end() &&
+            roster.cases[k].keys == kept_.keys(setup_(k)))
+          ++stored;
+      if (stored > 0)
+        text += "; " + std::to_string(stored) + (stored == 1 ? " is" : " are") + " there of another build, " +
+                roster.build + ", whose results are not taken";
+    }
+    return text;
+  }
+
+  const SharedStore& shared_;
+  const ScriptedCases& cases_;
+  const std::function<CaseSetup(std::size_t)>& setup_;
+  const StoredCases& kept_;
+  const std::string& place_;
+  const bool reports_failures_;
+  const bool here_;  // the case that this process is to compute is of this ensemble
+  CaseRoster roster_;
+};
+
+}  // namespace
+
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  const StoredCases& kept, const std::string& place, Session& session) {
+                                  const StoredCases& kept, const std::string& place, bool reports_failures,
+                                  Session& session) {
   ScriptedCases scripted(cases, setup, kept);
   CaseSchedule schedule{session.monitor()};
-  schedule.place = place;
   schedule.ensemble = session.ensembles;
   // A case inside a case has no other processes to share its own with.
-  if (!session.is_case) {
-    schedule.shard = session.shard;
-    schedule.ranks = session.ranks;
-    schedule.shard_end = session.shard_end;
-  }
+  if (!session.is_case) schedule.ranks = session.ranks;
+  const bool follows = session.ranks != nullptr && !session.ranks->leads();
+  std::optional<SharedEnsemble> shared;
+  if (!session.is_case && session.shared != nullptr && kept.keeps() && !follows)
+    shared.emplace(scripted, setup, kept, place, reports_failures, session).put_into(schedule);
   schedule.print = [&session](std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), session.output);
   };

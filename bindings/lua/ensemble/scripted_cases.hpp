@@ -45,8 +45,10 @@ class ScriptedCases : public EnsembleCases {
 };
 
 // setup(k) describes case k and is called from several threads at once. Throws what run_cases of the
-// scheduler throws; `place` is that of the ensemble in the script.
+// scheduler throws; `place` is that of the ensemble in the script, `reports_failures` whether the script goes
+// on past cases that failed.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  const StoredCases& kept, const std::string& place, Session& session);
+                                  const StoredCases& kept, const std::string& place, bool reports_failures,
+                                  Session& session);
 
 }  // namespace asperity::lua

@@ -2,13 +2,16 @@
 #include "bindings/lua/ensemble/stored_cases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <utility>
 
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/program_identity.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/ranks.hpp"
 #include "engine/run/run_facts.hpp"
 
@@ -18,6 +21,9 @@ namespace {
 
 constexpr std::string_view case_form = "asperity case 3";
 constexpr std::size_t most_bytes_of_many = 16384;
+// Whether a case drew random numbers, and asked for knobs.
+constexpr std::array<std::pair<bool, bool>, 4> ways = {
+    {{false, false}, {true, false}, {false, true}, {true, true}}};
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
 
 // Bytes in a field of a kept result.
@@ -156,25 +162,37 @@ std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) c
   return "case " + digester.hex();
 }
 
+std::vector<std::string> StoredCases::keys(const CaseSetup& setup) const {
+  std::vector<std::string> keys;
+  for (const auto& [drew, asked] : ways) keys.push_back(key_of(setup, drew, asked));
+  return keys;
+}
+
 std::optional<CaseResult> StoredCases::find(const CaseSetup& setup, bool with_failures) const {
   if (store_ == nullptr) return {};
-  for (const auto& [drew, asked] :
-       {std::pair(false, false), std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
-    try {
-      std::optional<FoundResult> found = store_->find(key_of(setup, drew, asked));
-      if (!found) continue;
-      const std::string bytes = unpacked(found->take("case"), found->number("bytes"));
-      CaseResult result = case_from_bytes(bytes, setup.values);
-      if (!result.failure.empty() && !with_failures) continue;
-      if (found->text("names lines") == "yes" && found->text("lines") != content_.lines) continue;
-      for (CaseInput& input : result.inputs)
-        if (!input.beside_script.empty()) input.file = folder_ + "/" + input.beside_script;
-      const bool same = std::ranges::all_of(
-          result.inputs, [](const CaseInput& input) { return present_digest(input.file) == input.digest; });
-      if (same) return result;
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::bad_file && error.code() != ErrorCode::internal) throw;
-    }
+  for (const auto& [drew, asked] : ways)
+    if (auto found = find_under(key_of(setup, drew, asked), setup); found && found->failure.empty())
+      return found;
+  if (!with_failures) return {};
+  for (const auto& [drew, asked] : ways)
+    if (auto found = find_under(std::string(failed_case) + key_of(setup, drew, asked), setup)) return found;
+  return {};
+}
+
+std::optional<CaseResult> StoredCases::find_under(const std::string& key, const CaseSetup& setup) const {
+  try {
+    std::optional<FoundResult> found = store_->find(key);
+    if (!found) return {};
+    const std::string bytes = unpacked(found->take("case"), found->number("bytes"));
+    CaseResult result = case_from_bytes(bytes, setup.values);
+    if (found->text("names lines") == "yes" && found->text("lines") != content_.lines) return {};
+    for (CaseInput& input : result.inputs)
+      if (!input.beside_script.empty()) input.file = folder_ + "/" + input.beside_script;
+    const bool same = std::ranges::all_of(
+        result.inputs, [](const CaseInput& input) { return present_digest(input.file) == input.digest; });
+    if (same) return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_file && error.code() != ErrorCode::internal) throw;
   }
   return {};
 }
@@ -196,7 +214,12 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
   facts.numbers = {{"bytes", static_cast<double>(bytes.size())}};
   facts.texts = {{"lines", content_.lines}, {"names lines", names_a_line(bytes) ? "yes" : "no"}};
   const Field field = packed(bytes);
-  store_->keep(key_of(setup, result.drew, !result.knobs.empty()), "lab.ensemble", facts, {{"case", &field}});
+  std::string key = key_of(setup, result.drew, !result.knobs.empty());
+  if (result.row == nullptr) {
+    key.insert(0, failed_case);
+    facts.texts.emplace_back("failure", without_traceback(result.failure));
+  }
+  store_->keep(key, "lab.ensemble", facts, {{"case", &field}});
 }
 
 }  // namespace asperity::lua

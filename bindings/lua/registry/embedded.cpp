@@ -37,7 +37,7 @@ CompiledTexts& compiled_texts() {
   return texts;
 }
 
-int append_code(lua_State*, const void* bytes, std::size_t size, void* code) {
+int append_bytes_of_code(lua_State*, const void* bytes, std::size_t size, void* code) {
   try {
     static_cast<std::string*>(code)->append(static_cast<const char*>(bytes), size);
     return 0;
@@ -55,7 +55,7 @@ int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
 void keep_compiled(lua_State* L, std::string_view text) {
   try {
     std::string code;
-    if (lua_dump(L, append_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
+    if (lua_dump(L, append_bytes_of_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
   } catch (const std::bad_alloc&) {
     // it is compiled again
   }

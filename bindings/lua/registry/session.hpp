@@ -36,6 +36,22 @@ struct CaseNotes;
 struct Refinement;
 class Variation;
 
+// How a process that shares its cases with others ends at an ensemble.
+enum class SharedEnd { stored, failed, missing, no_such_case };
+
+// The folder in which several processes store the cases of one script (--store), and the part of this
+// process.
+struct SharedStore {
+  std::string folder;             // as given
+  std::optional<Shard> shard;     // it computes this share of the cases
+  std::optional<CaseNumber> one;  // or this case
+  bool merge_only = false;        // or no case; else all that are missing
+  // Says a sentence on standard error, outside the record.
+  std::function<void(const std::string& sentence)> tell;
+  // Ends the process.
+  std::function<void(SharedEnd end, const std::string& sentence)> end;
+};
+
 class Session {
  public:
   explicit Session(Monitor& monitor) : monitor_(&monitor) {}
@@ -91,9 +107,13 @@ class Session {
   std::string script_digest;     // of the text of the script and its arguments; may be empty
   int ensembles = 0;             // that the script has begun
   std::int64_t heavy_calls = 0;  // that this state has made; computed or found in the store, they count alike
-  std::optional<Shard> shard;    // of a run that computes some of the cases only
-  // What a shard does where the script can go no further without the cases of others: ends the process.
-  std::function<void(const std::string& sentence)> shard_end;
+  int numbered_ensembles = 0;    // calls of lab.ensemble by the script itself, as --case counts them
+  const SharedStore* shared = nullptr;  // null: no other process computes cases of this run
+  // Of a dry run: called for each ensemble of the script, with its place, its cases and their names; may be
+  // empty.
+  std::function<void(const std::string& place, std::size_t cases,
+                     const std::function<std::string(std::size_t)>& name)>
+      on_ensemble;
   // Called with the results of each heavy call; may be empty.
   std::function<void(const std::string& call, const Values& results)> onlooker;
   Ranks* ranks = nullptr;  // the processes that share the cases; may be null

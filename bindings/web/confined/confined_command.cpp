@@ -259,7 +259,7 @@ class Undertaking {
           ErrorCode::bad_value,
           "`--trust` gives a script the whole of Lua and files anywhere, and `--confined` keeps it in",
           "leave one of them out");
-    if (cli::launched_rank())
+    if (cli::launched_rank(run_.shard.has_value()))
       throw Error(ErrorCode::bad_value, "a confined run was started as one of the ranks of mpirun",
                   "start it alone, or share the cases of ensembles by `--shard` and `--store`");
   }

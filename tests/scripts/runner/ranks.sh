@@ -107,6 +107,36 @@ for how in interrupt kill; do
 done
 grep -q '"status": *"interrupted"' interrupt/manifest.json || { cat interrupt.txt; fail "interrupt: no record"; }
 
+# A stop of one rank is no failure of its case: nothing of it is recorded, and the run goes on where it was. Rank 0
+# waits until rank 1 has its case, and has done all others when rank 1 is stopped.
+cat > stopped.lua <<'LUA'
+local lab = require "asperity"
+local rows = lab.ensemble{ over = { k = { 1, 2, 3, 4, 5, 6 } }, run = function(case)
+  local file <close> = io.open "stopped.lua"
+  local wait = os.getenv "OMPI_COMM_WORLD_RANK" == "1" and "stopped.go" or "stopped.begun"
+  for _ = 1, math.maxinteger do
+    local there = io.open(wait)
+    if there then there:close() break end
+  end
+  return { twice = 2 * case.k }
+end }
+for _, r in ipairs(rows) do print(r.twice) end
+LUA
+mpirun --oversubscribe --bind-to none -n 2 "$program" run stopped.lua --threads 1 --out stopped > stopped.txt 2>&1 &
+launcher=$!
+in_case() {
+  victim=$(processes_of 1 "stopped.lua.*--out stopped")
+  [ -n "$victim" ] && ls -l /proc/$victim/fd | grep -q "/stopped.lua$"
+}
+until_true in_case
+victim=$(processes_of 1 "stopped.lua.*--out stopped")
+touch stopped.begun
+kill -TERM $victim
+wait $launcher && fail "a run of which one rank was stopped ended well" || true
+if grep -q '"event":"warning"' stopped/journal.jsonl; then cat stopped/journal.jsonl; fail "a stop was recorded as a failure"; fi
+ends 0 "results in" "$program" run --resume stopped
+[ "$(grep -c '"failed"' stopped/journal.jsonl)" = 0 ] || fail "a case failed because a rank was stopped"
+
 # Alone, nothing of MPI is touched; without the part, several ranks say so.
 echo 'for line in io.lines "/proc/self/maps" do if line:find "mpi" then print(line) end end' > maps.lua
 "$program" run maps.lua --out maps > maps.txt 2>&1
