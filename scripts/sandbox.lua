@@ -43,6 +43,10 @@ end
 local lab = require "asperity"
 function help(topic) print(lab.help(topic)) end
 
+-- lab.materials.steel is a material of the list; a name that is none is an error with the nearest one.
+setmetatable(lab.materials, {
+  __index = function(_, name) if type(name) == "string" then return lab.material(name) end end })
+
 if not trusted then
   local function refused(what, instead)
     return function()

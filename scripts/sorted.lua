@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- lab.sorted(t): goes through a table in the order of its keys, numbers first, then names, so that a
--- script does the same on every run (pairs() promises no order).
+-- script does the same in an interpreter whose pairs() promises no order.
 local function before(a, b)
   if type(a) == type(b) then return a < b end
   return type(a) == "number"

@@ -128,8 +128,12 @@ const Module& lab_module() {
          .example = "print(lab.help \"surface.sine\")"});
     m.constants = {
         {"rigid", "Material", "a body that does not deform", rigid_value},
-        {"materials", "Material[]", "the materials known by name", materials_list},
-        {"sorted", "function", "lab.sorted(t) goes through a table in the order of its keys, for a for loop",
+        {"materials", "Material[]", "the materials known by name, a list; lab.materials.steel is one of them",
+         materials_list},
+        {"sorted", "function",
+         "lab.sorted(t) goes through a table in the order of its keys, for a for loop, as `pairs` does in a "
+         "script (numbers, strings by their bytes, booleans); other keys than numbers and strings are "
+         "refused",
          [] { return Value(Script{"sorted"}); }},
         {"version", "string", "the version of the program", [] { return Value(version_text()); }}};
     return m;

@@ -382,6 +382,13 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
   if (result.reason.empty() && !is_psd)
     result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
+  // Boxes miss so much of a dimension that they hardly show where the heights have none.
+  if (result.reason.empty() && method == DimensionMethod::box)
+    if (const FractalDimension other = measure(
+            set,
+            {.method = DimensionMethod::structure, .steps = {}, .wrap = options.wrap, .tip = options.tip});
+        !other.resolved)
+      result.reason = "by the method `structure` on the same profiles, " + other.reason;
   result.resolved = result.reason.empty();
   return result;
 }

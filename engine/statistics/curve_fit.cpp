@@ -82,6 +82,9 @@ CurveFit described(const UsedPoints& used, const std::vector<FitStart>& values, 
   const auto degrees = static_cast<double>(fit.degrees);
   fit.residual_deviation = std::sqrt(sum / degrees);
   if (total > 0) fit.r_squared = 1 - sum / total;
+  if (fit.r_squared && *fit.r_squared < 0)
+    fit.warnings.push_back("the curve is farther from the points than their mean is (R² = " +
+                           format_short(*fit.r_squared, 3) + "): try another `start` or another model");
   for (auto& row : covariance)
     for (double& value : row) value *= sum / degrees;
   const double factor = student_t_factor(confidence, degrees);

@@ -137,6 +137,8 @@ TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
     const std::string text = help_text(asked);
     EXPECT_NE(text.find(found), std::string::npos) << asked << ":\n" << text;
   }
+  EXPECT_EQ(help_text("observe").find("order_observed") != std::string::npos, true);
+  EXPECT_THROW(help_text("serve"), Error);  // is in ob-serve-d
   EXPECT_THROW(help_text("w"), Error);
   EXPECT_THROW(help_text("zzzz"), Error);
 }

@@ -119,6 +119,21 @@ TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
     }
 }
 
+// Boxes hardly show where the structure function runs, and miss more there than their error holds.
+TEST(DimensionScaling, BoxesAreBelievedOnlyWhereTheStructureFunctionIs) {
+  for (const double hurst : {0.1, 0.3, 0.5, 0.8}) {
+    const Surface s = smooth_below(2, hurst);
+    const FractalDimension boxes = fractal_dimension(s, with(DimensionMethod::box));
+    const FractalDimension lags = fractal_dimension(s, with(DimensionMethod::structure));
+    EXPECT_LE(boxes.resolved, lags.resolved) << hurst << ": " << lags.reason;
+    EXPECT_TRUE(!boxes.resolved || std::abs(boxes.D - (2 - hurst)) < boxes.error) << hurst << ": " << boxes.D;
+  }
+  const FractalDimension found = fractal_dimension(smooth_below(2, 0.3), with(DimensionMethod::box));
+  EXPECT_NE(found.reason.find("by the method `structure` on the same profiles, D runs from"),
+            std::string::npos)
+      << found.reason;
+}
+
 TEST(DimensionScaling, TheBiasOfBoxCountingGoesToNothingWithD) {
   EXPECT_EQ(box_counting_bias(1, 1000), 0);
   EXPECT_EQ(box_counting_bias(0.9, 1000), 0);

@@ -28,6 +28,17 @@ namespace asperity::cli {
 
 namespace {
 
+// The line of the script itself that an error with its traceback came from, whose own place may be in a
+// module.
+std::string line_in_script(const std::string& message, const std::string& script) {
+  // As Lua shortens the name of a chunk.
+  const std::string name =
+      script.size() < LUA_IDSIZE ? script : "..." + script.substr(script.size() - (LUA_IDSIZE - 4));
+  const std::string lead = "\n\t" + name + ":";
+  const std::size_t at = message.find(lead);
+  return lua::line_of(at == std::string::npos ? message : message.substr(at + lead.size() - 1));
+}
+
 // A run without its heavy calls. `report` tells what was found, and how far the script could be followed: ""
 // to its end, otherwise why no further.
 int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
@@ -48,9 +59,14 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   });
   session.dry_run = true;
   session.mistakes = std::make_shared<lua::Mistakes>();
+  session.mistakes->script = text;
   // Mistakes that were gone past, and what ended the dry run, if anything did.
   const auto end = [&](const std::string& reached, const std::string& failure) {
-    if (observer != nullptr) observer->made_knobs(session.knobs->json());
+    if (observer != nullptr)
+      observer->made_knobs(session.knobs->json());
+    else
+      for (const std::string& note : session.mistakes->notes())
+        std::fprintf(stderr, "asperity: note: %s\n", note.c_str());
     std::vector<std::string> mistakes = session.mistakes->messages();
     if (mistakes.empty() && failure.empty()) return report(reached), done;
     if (!failure.empty()) mistakes.push_back(failure);
@@ -86,10 +102,10 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       return exit_status(stop_flag().reason());
     }
     if (lua::stopped_at_placeholder(message))
-      return end("to line " + lua::line_of(message) + ": " + lua::cannot_follow, "");
+      return end("to line " + line_in_script(message, command.script) + ": " + lua::cannot_follow, "");
     // What a result would have set is not set here; or the script forgot to.
     if (session.gave_placeholders && lua::met_nothing(message))
-      return end("to line " + lua::line_of(message) + ", " + lua::without_place(message) +
+      return end("to line " + line_in_script(message, command.script) + ", " + lua::without_place(message) +
                      ": a mistake, unless a result that is not known before the run sets it",
                  "");
     return end("", message);

@@ -38,6 +38,8 @@ std::string help_page(const HelpRequest& asked, const CLI::App& program, std::st
   }
   if (asked.reference) return lua::reference_page();
   if (asked.types) return lua::editor_types();
+  for (const CLI::App* command : program.get_subcommands({}))
+    if (command->get_name() == asked.topic) return command->help(program.get_name());
   if (!asked.topic.empty()) return lua::help_text(asked.topic);
   return overview() + "\nEach command explains itself with --help.\n\n" + lua::help_text("");
 }
@@ -54,7 +56,7 @@ int print_help(const HelpRequest& asked, const CLI::App& program, std::string (*
 
 CommandReader declare_help(CLI::App& options, std::string (*overview)()) {
   const auto asked = std::make_shared<HelpRequest>();
-  options.add_option("topic", asked->topic, "e.g. lab.surface, sine, State.area");
+  options.add_option("topic", asked->topic, "e.g. lab.surface, sine, State.area; or a command");
   options.add_flag("--reference", asked->reference, "the whole reference as Markdown");
   options.add_flag("--types", asked->types, "the types of the language for editors (LuaCATS)");
   options.add_flag("--manual", asked->manual, "this program's manual page");

@@ -301,7 +301,7 @@ std::string hits_help(const std::string& asked, const std::vector<Topic>& topics
   const auto look = [&](const std::string& name, std::string_view own, const std::string& sentence,
                         const std::string& type) {
     if (beside && lower_case(own) == word) return;
-    if (lower_case(own).find(word) != std::string::npos)
+    if (has_word(lower_case(own), word))
       by_name.push_back(name + ": " + sentence);
     else if (has_word(lower_case(sentence + " " + type), word))
       by_sentence.push_back(name + ": " + sentence);
@@ -480,7 +480,8 @@ std::string reference_page() {
       "Excepted are contacts spread over several ranks (`lab.spread`), whose transforms choose by the "
       "processor, and\n"
       "what a script itself computes by `^` and by `math`, which is the C library's; where they differ,\n"
-      "`asperity replay` names processor, C library and build.\n"
+      "`asperity replay` names processor, C library and build. `pairs` and `next` go in one order: numbers,\n"
+      "strings by their bytes, booleans.\n"
       "A quantity is a plain SI number or a string with a unit, `\"250 um\"`. Every entry has an example "
       "that runs\n"
       "after these lines:\n\n```lua\n" +

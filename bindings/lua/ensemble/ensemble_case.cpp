@@ -180,6 +180,38 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
+// Pushes what a function has in its upvalues, of a list the length. Returns how many there are.
+int push_upvalues(lua_State* L, int function) {
+  if (lua_checkstack(L, 300) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+  int count = 0;
+  for (; lua_getupvalue(L, function, count + 1) != nullptr; ++count) {
+    if (!lua_istable(L, -1)) continue;
+    lua_pushinteger(L, static_cast<lua_Integer>(lua_rawlen(L, -1)));
+    lua_replace(L, -2);
+  }
+  return count;
+}
+
+// A case changes its own copy of a variable outside `run`. `before`: the place of the first upvalue as it
+// was.
+void warn_of_lost_changes(lua_State* L, int function, int before) {
+  const Argument::StackGuard guard(L);
+  const int count = push_upvalues(L, function), after = lua_gettop(L) - count + 1;
+  for (int k = 0; k < count; ++k) {
+    const int type = lua_type(L, after + k);
+    if ((type != LUA_TNUMBER && type != LUA_TSTRING) || lua_type(L, before + k) != type ||
+        lua_rawequal(L, before + k, after + k) != 0)
+      continue;
+    const std::string name = lua_getupvalue(L, function, k + 1);
+    lua_Debug facts;
+    lua_pushvalue(L, function);
+    lua_getinfo(L, ">S", &facts);
+    Session::of(L).monitor().warn(
+        std::string(facts.short_src) + ":" + std::to_string(facts.linedefined) + ": `run` changes " +
+        quoted(name) + ", of which each case has its own copy; " + "return the value and use the rows");
+  }
+}
+
 std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup, CaseNotes& notes) {
   const lua_Integer first = first_draw(L, setup.seed);
   const int random = lua_gettop(L) - 1;
@@ -202,9 +234,14 @@ std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup
     return 3;
   };
   if (protect(L, 0, 3, prepare) != LUA_OK) fail(L);
+  const int function = handler + 2;  // then its argument
+  push_upvalues(L, function);
+  lua_pushvalue(L, function);
+  lua_pushvalue(L, function + 1);
   const int ended = lua_pcall(L, 1, 1, handler);
   if (has_drawn(L, random, first)) notes.drew = true;
   if (ended != LUA_OK) fail(L);
+  warn_of_lost_changes(L, function, function + 2);
   make_table(L);
   const Argument given(L, handler + 1), returned(L, -1);
   refuse_other_values(setup, returned, given);

@@ -168,9 +168,12 @@ class Packer {
     const lua_CFunction function = lua_tocfunction(L, -1);
     const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
     if (has_state) lua_pop(L, 1);
-    // A case has a print of its own, which keeps the order of what cases print.
+    // A case has a print of its own, which keeps the order of what cases print, and loops in a fixed order,
+    // whatever the host of the loadable module does.
     const BasePath* path = base_function(function);
-    if (path != nullptr && (has_state || *path == BasePath{"_G", "print"})) return popped(base(*path));
+    const auto own = [path](const char* name) { return *path == BasePath{"_G", name}; };
+    if (path != nullptr && (has_state || own("print") || own("pairs") || own("next")))
+      return popped(base(*path));
     if (!has_state) return popped(function);
     return open(identity, PackedValue::HostFunction{function, {}});
   }

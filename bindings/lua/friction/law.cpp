@@ -2,6 +2,7 @@
 #include "bindings/lua/friction/law.hpp"
 
 #include "bindings/lua/contact/state_class.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/contact/effects/interlocking.hpp"
@@ -29,7 +30,15 @@ const Block<FrictionOptions>& friction_block() {
   return block;
 }
 
-Values make_law(Call& call) { return {object(JunctionLaw(call.options(friction_block())))}; }
+Values make_law(Call& call) {
+  const JunctionLaw law(call.options(friction_block()));
+  if (law.tau_max() && *law.tau_max() < law.tau0())
+    call.session().monitor().warn(
+        where(call.L) + "lab.friction: `tau_max` of " + format_quantity(*law.tau_max(), dimension::pressure) +
+        " is below `tau0` of " + format_quantity(law.tau0(), dimension::pressure) +
+        "; every junction has the strength `tau_max`, and `alpha` counts for nothing");
+  return {object(law)};
+}
 
 const Block<OnKeys>& on_block() {
   static const Block<OnKeys> block{"on", {rest_option()}};

@@ -105,12 +105,6 @@ int module_new_index(lua_State* L) {
   return luaL_error(L, "%s cannot be changed", module.path.c_str());
 }
 
-// The storage stays an upvalue: handed to the script, it could be written to.
-int module_next(lua_State* L) {
-  lua_settop(L, 2);
-  return lua_next(L, lua_upvalueindex(1)) != 0 ? 2 : (lua_pushnil(L), 1);
-}
-
 int module_pairs(lua_State* L) {
   lua_settop(L, 1);
   const Module& module = *static_cast<const Module*>(lua_touserdata(L, lua_upvalueindex(1)));
@@ -123,8 +117,7 @@ int module_pairs(lua_State* L) {
     push_proxy(L, *inner);
     lua_setfield(L, storage, name.data());  // the end of the module's path
   }
-  lua_pushvalue(L, storage);
-  lua_pushcclosure(L, module_next, 1);
+  push_ordered_loop(L, storage);  // which keeps the storage: handed to the script, it could be written to
   lua_pushvalue(L, 1);
   lua_pushnil(L);
   return 3;

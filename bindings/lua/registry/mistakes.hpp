@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mistakes of a dry run that goes on past them: a call or a field that is refused is noted with its
-// place, and the script goes on with a placeholder for its result, in functions given to pcall too. So one
-// run tells all mistakes of a file. An error of Lua itself, and a path that depends on a result, end the
-// dry run as ever.
+// place, and the script goes on with a placeholder for its result. So one run tells all mistakes of a file.
+// An error that a pcall of the script catches is raised, as in a run, and is a note. An error of Lua itself,
+// and a path that depends on a result, end the dry run as ever.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,12 +20,21 @@ class Mistakes {
   void add(const std::string& message) {
     if (known_.insert(message).second) messages_.push_back(message);
   }
+  // A remark that does not make the script wrong.
+  void note(const std::string& message) {
+    if (known_.insert(message).second) notes_.push_back(message);
+  }
   // In the order of the script's path.
   const std::vector<std::string>& messages() const { return messages_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  std::string script;  // its text
+  // The columns that the script has written so far, by notebook; an empty one stands for any.
+  std::map<std::string, std::set<std::string>> columns;
 
  private:
   std::set<std::string> known_;
-  std::vector<std::string> messages_;
+  std::vector<std::string> messages_, notes_;
 };
 
 // Notes the error on top of the stack, takes it off and returns true, in a dry run that goes on past

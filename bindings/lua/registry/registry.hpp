@@ -214,6 +214,14 @@ const Module* module_at(lua_State* L, int index);
 // Pushes this state's table of a module.
 void push_proxy(lua_State* L, const Module& module);
 
+// pairs and next in an order that is the same in every process (fixed_order.cpp): numbers, strings by their
+// bytes, booleans, then other keys in Lua's own order, of which a dry run keeps a note. A loop sees the keys
+// that a table has when the loop begins, less those that it has lost. C functions of Lua without upvalues.
+int ordered_pairs(lua_State* L);
+int ordered_next(lua_State* L);
+// Pushes the function by which such a loop goes over the table at an index. Raises.
+void push_ordered_loop(lua_State* L, int index);
+
 // Pushes `lab`, a table of everything. Raises like any luaopen function.
 void push_library(lua_State* L);
 

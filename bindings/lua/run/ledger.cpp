@@ -17,7 +17,8 @@ const RecordType<LedgerLine>& ledger_line_type() {
       "What the calls of a function have cost.",
       {{"call", &L::call, "the function, as \"contact:press\""},
        {"in_case", &L::in_case, "whether cases of an ensemble called it"},
-       {"times", &L::calls, "how often it was called"},
+       {"times", &L::calls,
+        "how often it was called; of functions that are not heavy, calls of 50 us and longer"},
        {"seconds", [](const L& l) { return l.cost.seconds; }, dimension::time, "of all calls"},
        {"transforms", [](const L& l) { return l.cost.transforms; }, "Fourier transforms of all calls"},
        {"bytes", [](const L& l) { return l.cost.bytes; }, "greatest memory of one call"}}};

@@ -2,9 +2,11 @@
 #include "bindings/lua/run/notebook.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
+#include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
@@ -47,9 +49,52 @@ Values open_notebook(Call& call) {
 
 // --- rows
 
+// The columns that a dry run has seen in rows of the notebook; null in a run.
+std::set<std::string>* columns_seen(const Call& call) {
+  Mistakes* const mistakes = call.session().mistakes.get();
+  const auto* book = call.argument(0).as<Notebook>();
+  return mistakes == nullptr || book == nullptr ? nullptr : &mistakes->columns[book->name()];
+}
+
+// A name that is not in the text of the script was computed; other turns of a loop may write others.
+void note_columns(const Call& call) {
+  std::set<std::string>* const columns = columns_seen(call);
+  if (columns == nullptr) return;
+  const Argument row = call.argument(1);
+  if (!row.is_table()) columns->insert("");
+  if (row.is_table())
+    row.each([&](const Argument& key, const Argument&) {
+      const bool literal =
+          key.is_text() && call.session().mistakes->script.find(key.text()) != std::string::npos;
+      columns->insert(literal ? split_column_unit(key.text()).name : "");
+    });
+}
+
+// Refuses a column that no row has, where all names of columns are known.
+void look_at_columns(const Call& call) {
+  const std::set<std::string>* const columns = columns_seen(call);
+  if (columns == nullptr || columns->empty() || columns->contains("")) return;
+  const auto look = [&](const Argument& column) {
+    const std::string name(column.is_text() ? split_column_unit(column.text()).name : *columns->begin());
+    if (!columns->contains(name))
+      throw Error(ErrorCode::unknown_name,
+                  "no row of the notebook has a column " + quoted(name) +
+                      did_you_mean(name, std::vector<std::string>(columns->begin(), columns->end())));
+  };
+  const Argument first = call.argument(1);
+  look(first);
+  for (const char* key : {"x", "y", "of"})
+    if (first.is_table())
+      with_key(first, key, [&](const Argument& named) {
+        look(named);
+        for (std::int64_t k = 1; named.is_table() && k <= named.length(); ++k) named.element(k, look);
+      });
+}
+
 Values write_row(Call& call) {
   auto& book = call.self<Notebook>();
   const bool dry = call.session().dry_run;
+  note_columns(call);
   const std::vector<Entry> row = entries_of(call.argument(1), dry, "write book:write{ N=1, mu=0.4 }",
                                             [&](const std::string& column) { return book.unit_of(column); });
   if (row.empty() && dry) return {};
@@ -184,7 +229,8 @@ const Class& class_of<Notebook>() {
              "Adds a row. A column may carry its unit in its name: [\"Ra [m]\"] = s:roughness().Ra. A number "
              "is kept as it is, in that unit; a quantity such as \"3 um\" is converted to it.",
          .parameters = {{"row", "table", "columns and their values: numbers, strings, booleans"}},
-         .example = "book:write{ N=1, mu=0.4 }"},
+         .example = "book:write{ N=1, mu=0.4 }",
+         .look = note_columns},
         {.name = "units",
          .body = units,
          .sentence = "Gives columns their units, for the table's header and the charts. Numbers are kept as "
@@ -211,10 +257,15 @@ const Class& class_of<Notebook>() {
          .options = &expect_block(),
          .returns = "boolean",
          .example = "book:expect(\"mu\", { where={N=1}, near=0.4, within=0.05 })",
-         .heavy = true},
+         .heavy = true,
+         .look = look_at_columns},
     };
+    static constexpr std::array<std::string_view, 4> looking = {"chart", "fit", "histogram", "mean"};
     for (auto* methods : {table_methods, table_analysis_methods})
-      for (Function& method : methods()) c.methods.push_back(std::move(method));
+      for (Function& method : methods()) {
+        if (std::ranges::find(looking, method.name) != looking.end()) method.look = look_at_columns;
+        c.methods.push_back(std::move(method));
+      }
     c.results = table_analysis_results();
     return c;
   }();

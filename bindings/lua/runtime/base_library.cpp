@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
 
@@ -45,6 +46,8 @@ FunctionPaths read_function_paths() {
           path->second.key = key.text();
       });
     });
+  paths.try_emplace(ordered_pairs, BasePath{"_G", "pairs"});
+  paths.try_emplace(ordered_next, BasePath{"_G", "next"});
   return paths;
 }
 

@@ -159,6 +159,10 @@ int set_up(lua_State* L) {
   // What is made here stays: collecting meanwhile finds nothing.
   lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
+  // Here, and not in the loadable module, where `pairs` is the host's: the states of the program and of
+  // cases.
+  lua_register(L, "pairs", ordered_pairs);
+  lua_register(L, "next", ordered_next);
   Session::attach(L, session);
   if (session.dry_run) open_dry_run_library(L);
 

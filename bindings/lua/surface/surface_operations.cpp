@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The methods of a surface that make other surfaces and profiles of it.
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"
@@ -112,7 +114,7 @@ const Block<CropKeys>& crop_block() {
   using K = CropKeys;
   static const Block<K> block{"cropped",
                               {pair_option("size", &K::size_x, &K::size_y, dimension::length, above(0),
-                                           "size of the part; or give cells"),
+                                           "size of the part, taken to whole cells; or give cells"),
                                cells_option(&K::nx, &K::ny),
                                quantity("x", &K::x, dimension::length, at_least(0),
                                         "lower left corner of the part, taken to the nearest node"),
@@ -129,7 +131,15 @@ Values crop(Call& call) {
   const Surface& s = call.self<Surface>();
   const double size_x = keys.size_x ? *keys.size_x : keys.nx * s.grid().hx();
   const double size_y = keys.size_y ? *keys.size_y : keys.ny * s.grid().hy();
-  return {object(cropped_to(s, keys.x, keys.y, size_x, size_y))};
+  Surface part = cropped_to(s, keys.x, keys.y, size_x, size_y);
+  const Grid &whole = s.grid(), &found = part.grid();
+  if (std::abs(found.size_x - size_x) > 1e-6 * whole.hx() ||
+      std::abs(found.size_y - size_y) > 1e-6 * whole.hy())
+    call.session().monitor().warn(
+        where(call.L) + "cropped: `size` is not a whole number of cells, so the part is " +
+        format_quantity(found.size_x, dimension::length) + " x " +
+        format_quantity(found.size_y, dimension::length) + "; give `cells` to choose it exactly");
+  return {object(std::move(part))};
 }
 
 struct CellKeys {

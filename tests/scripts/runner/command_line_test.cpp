@@ -220,6 +220,7 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
     const Outcome help = call({name, "--help"});
     EXPECT_EQ(help.status, 0) << name;
     EXPECT_NE(help.output.find("Usage: asperity " + name), std::string::npos) << help.output;
+    EXPECT_EQ(call({"help", name}).output, help.output);
   }
 }
 
