@@ -40,6 +40,46 @@ for _, event in ipairs{ "__add", "__sub", "__mul", "__div", "__mod", "__pow", "_
   end
 end
 
+-- Script files are read by the host: a run records them and copies them, and one that is replayed or resumed
+-- loads its copies. What is no file that can be read is left to Lua, which says so.
+local load_any, loadfile_original, searchpath, path_of = load, loadfile, package.searchpath, package
+local all_modes = trusted and "bt" or "t" -- bytecode can be made to crash the interpreter
+local function load_script(path, is_module, mode, ...)
+  if type(path) == "string" then
+    local text, message = host.script_text(path, is_module)
+    if text then return load_any(text, "@" .. path, mode, ...) end
+    if message then fail(message) end
+  end
+  return loadfile_original(path, mode, ...)
+end
+function loadfile(path, mode, ...) return load_script(path, false, trusted and mode or all_modes, ...) end
+function dofile(path)
+  local chunk, message = load_script(path, false, all_modes)
+  -- A mistake in the file has its own place.
+  if not chunk and find(message, "cannot open", 1, true) then fail(message) end
+  if not chunk then error(message, 0) end
+  return chunk()
+end
+local gsub, gmatch = string.gsub, string.gmatch
+function package.searchpath(name, path, separator, replacement)
+  local function place() return (gsub(name, "%.", "/")) end
+  if not separator and type(name) == "string" and type(path) == "string" then
+    for template in gmatch(path, "[^;]+") do
+      local file = gsub(template, "%?", place)
+      if host.was_loaded(file) then return file end
+    end
+  end
+  return searchpath(name, path, separator, replacement)
+end
+local search = package.searchpath
+package.searchers[2] = function(name)
+  local file, message = search(name, path_of.path)
+  if not file then return message end
+  local chunk, problem = load_script(file, true, all_modes)
+  if not chunk then error(problem, 0) end
+  return chunk, file
+end
+
 local lab = require "asperity"
 function help(topic) print(lab.help(topic)) end
 
@@ -71,7 +111,9 @@ if not trusted then
   end
   function io.open(path, mode)
     if mode ~= nil and find(tostring(mode), "[wa+]") then
-      path = destination(path, "/dev/null")
+      local file, message, code = open(destination(path, "/dev/null"), mode)
+      host.settled()
+      return file, message, code
     elseif type(path) == "string" then
       local place, message = host.input_path(path)
       if not place then return nil, message end
@@ -104,6 +146,7 @@ if not trusted then
     if type(file) == "string" then
       local handle, message = open(destination(file, "/dev/null"), "w")
       if not handle then fail(message) end
+      host.settled()
       return output(handle)
     end
     return output(file)
@@ -112,45 +155,25 @@ if not trusted then
   function os.remove(path)
     local place = destination(path)
     if host.dry then return true end
-    return remove(place)
+    local done, message, code = remove(place)
+    if done then host.settled(place) end
+    return done, message, code
   end
   function os.rename(from, to)
     local old, new = destination(from), destination(to)
     if host.dry then return true end
-    return rename(old, new)
+    local done, message, code = rename(old, new)
+    if done then host.settled(old) end
+    return done, message, code
   end
 
-  -- Chunks are text: bytecode can be made to crash the interpreter.
-  local load_any, loadfile_original = load, loadfile
-  local function loadfile_any(path, ...) return loadfile_original(source(path), ...) end
+  -- Chunks are text.
   function load(chunk, name, _, ...)
     if select("#", ...) > 0 then return load_any(chunk, name, "t", (...)) end
     return load_any(chunk, name, "t")
   end
-  function loadfile(path, _, ...)
-    if select("#", ...) > 0 then return loadfile_any(path, "t", (...)) end
-    return loadfile_any(path, "t")
-  end
-  function dofile(path)
-    local chunk, message = loadfile_any(path, "t")
-    -- A mistake in the file has its own place.
-    if not chunk and find(message, "cannot open", 1, true) then fail(message) end
-    if not chunk then error(message, 0) end
-    return chunk()
-  end
-  local searchpath, path_of = package.searchpath, package
   package.loadlib, package.cpath = nil, ""
-  package.searchers = {
-    package.searchers[1], -- package.preload
-    function(name)
-      local file, message = searchpath(name, path_of.path)
-      if not file then return message end
-      -- Known to be a module: where a case takes it from the script's folder, its name there counts.
-      local chunk, problem = loadfile_original(host.input_path(file, true) or file, "t")
-      if not chunk then error(problem, 0) end
-      return chunk, file
-    end,
-  }
+  package.searchers = { package.searchers[1], package.searchers[2] } -- package.preload, and script files
 
   -- What is known of a running function, less the function itself: the originals of what was taken
   -- away can be met on the stack.

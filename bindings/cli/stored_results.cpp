@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/stored_results.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -134,6 +135,13 @@ void require_repeatable(const RunCommand& command, const RecordedRun& recorded, 
               std::string("leave `--trust` out to ") + purpose + " it as it was");
 }
 
+void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell) {
+  command.loaded = std::make_shared<const LoadedFiles>(recorded.loaded);
+  if (!tell) return;
+  for (const std::string& sentence : altered_originals(recorded))
+    std::fprintf(stderr, "asperity: %s\n", sentence.c_str());
+}
+
 ResultFilesSetup result_files(const RunCommand& command) {
   ResultFilesSetup setup;
   for (const std::string& named : command.reuse) setup.also.push_back(results_of(named));
@@ -182,6 +190,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     require_repeatable(command, recorded, "begin it anew");
     command.script = recorded.script_path;
     command.text = recorded.script_text;
+    load_as_recorded(command, recorded, leads);
     if (command.arguments.empty()) command.arguments = recorded.arguments;
     if (!command.seed_given) command.seed = static_cast<std::uint64_t>(recorded.seed);
     GivenKnobs knobs = recorded.knobs;
@@ -199,12 +208,17 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};
     command.journal_lost = true;
+  } else if (recorded.ended() && !recorded.journal_fault.empty() &&
+             fs::is_regular_file(root / run_names::journal)) {
+    command.damages = {recorded.journal_fault};
+    command.journal_lost = true;
   } else if (!recorded.journal_hint.empty()) {
     throw Error(ErrorCode::bad_file, recorded.journal_fault, recorded.journal_hint);
   }
   require_repeatable(command, recorded, "go on with");
   command.script = recorded.script_path;
   command.text = recorded.script_text;
+  load_as_recorded(command, recorded, leads);
   command.arguments = recorded.arguments;
   command.seed = static_cast<std::uint64_t>(recorded.seed);
   command.knobs = recorded.knobs;

@@ -29,6 +29,10 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 // with".
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
+// Takes the script files that the recorded run loaded from its copies, and tells which originals are others
+// now.
+void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell);
+
 // How results of a run are kept, and where else they are looked for; the folder is left open. Throws
 // Error{bad_value} for a `reuse` that is no folder, or a run whose store is a link.
 ResultFilesSetup result_files(const RunCommand& command);

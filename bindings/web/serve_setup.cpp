@@ -3,8 +3,6 @@
 
 #include <arpa/inet.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -61,11 +59,6 @@ std::vector<std::string> names_in(const std::string& path) {
 
 }  // namespace
 
-std::int64_t machine_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
-}
-
 std::vector<Person> people_of(const ServeCommand& command) {
   std::vector<std::string> names;
   if (command.classroom.empty()) {
@@ -102,7 +95,7 @@ QueueSetup queue_of(const ServeCommand& command) {
   RunLimits& limits = setup.limits;
   limits.threads = room ? 1 : processors;
   limits.seconds = command.limit_time.value_or(room ? 60 : 600);
-  const std::int64_t share = machine_memory() / 2 / setup.at_once, least = std::int64_t{256} << 20;
+  const std::int64_t share = memory::of_machine() / 2 / setup.at_once, least = std::int64_t{256} << 20;
   limits.memory_bytes = command.limit_memory.value_or(
       std::clamp(share, least, (room ? std::int64_t{1} : std::int64_t{8}) << 30));
   limits.directory_bytes = (room ? std::int64_t{64} : std::int64_t{1024}) << 20;

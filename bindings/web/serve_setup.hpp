@@ -13,8 +13,6 @@
 
 namespace asperity::web {
 
-// Bytes of memory that the machine has.
-std::int64_t machine_memory();
 // The one who started it, and the students of a room. Throws Error{bad_value} or Error{bad_file}.
 std::vector<Person> people_of(const ServeCommand& command);
 // The queue's bounds; folder and barriers are left empty.

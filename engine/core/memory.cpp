@@ -4,6 +4,7 @@
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -55,6 +56,11 @@ std::size_t rounded_up(std::size_t bytes) {
   throw Error(ErrorCode::out_of_memory, sentence, "fewer cells need less");
 }
 }  // namespace
+
+std::int64_t of_machine() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
+}
 
 std::int64_t held() { return held_bytes.load(); }
 void set_limit(std::int64_t bytes) {

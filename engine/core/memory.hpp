@@ -22,6 +22,9 @@ std::int64_t held();
 void set_limit(std::int64_t bytes);
 std::int64_t limit();
 
+// Bytes of memory that the machine has; 4 GiB where the system does not say.
+std::int64_t of_machine();
+
 // Whether a request was refused for good since the limit was set, even if the error was caught. Whoever
 // frees something and asks again decides when a refusal is final.
 void note_exceeded() noexcept;

@@ -146,14 +146,6 @@ int wait_for(pid_t child) {
   }
 }
 
-// Ours is also the limit of what we start.
-int handles_if_few() {
-  constexpr rlim_t enough = 32;
-  rlimit handles{};
-  if (::getrlimit(RLIMIT_NOFILE, &handles) != 0 || handles.rlim_cur >= enough) return 0;
-  return static_cast<int>(handles.rlim_cur);
-}
-
 std::string without_ends(std::string text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return {};
@@ -220,10 +212,6 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
 }
 
 std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::path& file) {
-  if (result.messages.empty() && result.few_handles > 0)
-    return {asperity::quoted(file.filename().string()) +
-            " may lack its fonts: gnuplot, which drew it, may have " + std::to_string(result.few_handles) +
-            " files open at once; allow more with `ulimit -n`"};
   if (result.messages.empty()) return {};
   constexpr std::size_t longest = 300;
   std::string said;
@@ -273,7 +261,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   for (const GnuplotData& item : data) write_atomically(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
   GnuplotResult result{without_date(content_of(folder.path() / "picture")),
-                       without_ends(content_of(folder.path() / "messages")), handles_if_few()};
+                       without_ends(content_of(folder.path() / "messages"))};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   // A shell's convention, for systems where a missing program is found out only by the child.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())

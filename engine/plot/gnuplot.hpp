@@ -40,12 +40,10 @@ struct GnuplotData {
 struct GnuplotResult {
   std::string picture;   // the bytes of the file
   std::string messages;  // what gnuplot said on its standard error; empty when all was well
-  int few_handles = 0;   // how many files it was allowed to have open, where fonts may need more; else 0
 };
 
 // What gnuplot said though it drew, as warnings that name the file: the picture may look otherwise than it
-// should (a font or a file that could not be opened). A font that takes one handle more than are left is
-// passed over without a word, so that few handles are a warning too.
+// should (a font or a file that could not be opened).
 std::vector<std::string> complaints_of(const GnuplotResult& result, const std::filesystem::path& file);
 
 // Who draws instead of a program started here: a process that may start none asks another for its pictures.

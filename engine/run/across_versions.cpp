@@ -240,6 +240,8 @@ class Comparison {
     for (const auto& [file, digest] : together(then, now)) {
       const Json *one = in(then, file), *other = in(now, file);
       if (one != nullptr && other != nullptr && *one == *other) continue;
+      // Earlier versions did not list script files.
+      if (one == nullptr && again_.loaded.contains(file)) continue;
       result_.differences.push_back({"input " + quoted(file), brief(one), brief(other)});
     }
   }

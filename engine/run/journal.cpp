@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <fstream>
 #include <string>
 #include <utility>
 
@@ -14,6 +14,7 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/run_folder.hpp"
 #include "engine/run/timed_lock.hpp"
 
 namespace asperity {
@@ -141,6 +142,15 @@ std::optional<JournalFacts> Journal::facts() const {
   return JournalFacts{count_, digester_.hex()};
 }
 
+bool Journal::is_altered() const {
+  const std::optional<JournalFacts> written = facts();
+  try {
+    return written && facts_of(read_journal(path_, false).lines) != *written;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 JournalFacts facts_of(const std::vector<Json>& lines) {
   Digester digester;
   for (const Json& line : lines) digester.add(line.text());
@@ -166,19 +176,15 @@ std::string results_remain(const std::filesystem::path& journal) {
 }  // namespace
 
 JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
-  std::error_code missing;
-  std::ifstream file;
-  // A pipe that stands in its place would keep whoever opens it.
-  if (std::filesystem::is_regular_file(path, missing)) file.open(path, std::ios::binary);
-  if (!file.is_open())
-    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
-                "give the directory of a run, such as runs/quick_start-1");
+  const std::string text = text_of_run_file(path);
   JournalLines read;
   std::int64_t bytes = 0;
-  for (std::string line; std::getline(file, line);) {
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
     const std::string name = "line " + std::to_string(read.lines.size() + 1) + " of " + quoted(path.string());
     // No newline after it; or a hole that a power cut left in the file, which reads as zeros.
-    if (may_be_torn && (file.eof() || line.find('\0') != std::string::npos)) break;
+    if (may_be_torn && (end == text.size() || line.find('\0') != std::string::npos)) break;
     bytes += static_cast<std::int64_t>(line.size()) + 1;
     if (line.find('\0') != std::string::npos)
       throw Error(ErrorCode::bad_file, name + " holds zeros, as a power cut leaves them",

@@ -66,6 +66,8 @@ class Journal {
   const std::filesystem::path& path() const { return path_; }
   // Whether its file was removed, or another one put in its place, while it was written.
   bool is_lost() const;
+  // Whether its file, once closed, holds other lines than were written.
+  bool is_altered() const;
   // Of a journal that is closed; none before, of one without a file, and while a writer is stuck in the disk.
   std::optional<JournalFacts> facts() const;
 

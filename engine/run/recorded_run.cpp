@@ -2,9 +2,7 @@
 #include "engine/run/recorded_run.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "engine/core/digest.hpp"
@@ -21,19 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* unhashed = "unhashed";
-
-std::string whole_file(const fs::path& path) {
-  std::error_code missing;
-  std::ifstream file;
-  // A pipe that stands in its place would keep whoever opens it.
-  if (fs::is_regular_file(path, missing)) file.open(path, std::ios::binary);
-  if (!file.is_open())
-    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
-                "give the directory of a run, such as runs/quick_start-1");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 const Json& member(const Json& record, std::string_view name, const fs::path& file) {
   if (const Json* found = record.is_object() ? record.find(name) : nullptr) return *found;
@@ -67,6 +52,27 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
 std::optional<std::string> named(const Json& entry) {
   const Json* file = entry.is_object() ? entry.find("file") : nullptr;
   return file != nullptr ? std::optional(file->string()) : std::nullopt;
+}
+
+// A record from elsewhere names no other file than one of its own folder of copies.
+void read_loaded(RecordedRun& run) {
+  for (const Json& entry : run.inputs.list()) {
+    const Json *copy = entry.find("copy"), *digest = entry.find("digest");
+    const auto file = named(entry);
+    if (copy == nullptr || digest == nullptr || !file) continue;
+    const fs::path inside(copy->string()), place = run.root / inside;
+    std::error_code missing;
+    if (inside.parent_path() != run_names::loaded ||
+        !fs::is_regular_file(fs::symlink_status(place, missing))) {
+      run.loaded_fault.push_back(quoted(inside.string()) + " is missing from the run");
+      continue;
+    }
+    LoadedFile loaded{text_of_run_file(place), digest->string()};
+    if (content_digest(loaded.text) == loaded.digest)
+      run.loaded.emplace(*file, std::move(loaded));
+    else
+      run.loaded_fault.push_back(quoted(inside.string()) + " was altered since the run");
+  }
 }
 
 // Lists of files, each with its digest.
@@ -117,7 +123,7 @@ std::string program_version(const RecordedRun& run) {
 
 Json read_manifest(const fs::path& root) {
   const fs::path file = root / run_names::manifest;
-  return Json::parse(whole_file(file), quoted(file.string()));
+  return Json::parse(text_of_run_file(file), quoted(file.string()));
 }
 
 RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
@@ -129,7 +135,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   const Json& script = member(manifest, "script", file);
   const Json& rest = member(manifest, unhashed, file);
   run.script_path = member(rest, "script_path", file).string();
-  run.script_text = whole_file(root / run_names::script);
+  run.script_text = text_of_run_file(root / run_names::script);
   const std::string digest = Digester().add(run.script_text).hex();
   if (digest != member(script, "digest", file).string())
     throw Error(ErrorCode::bad_file,
@@ -145,6 +151,10 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   for (const auto& [name, text] : {std::pair("shard", &run.shard), std::pair("store", &run.store)})
     if (const Json* found = rest.is_object() ? rest.find(name) : nullptr) *text = found->string();
   run.manifest = without_unhashed(manifest);
+  const Json* inputs = manifest.find("inputs");
+  if (inputs == nullptr && rest.is_object()) inputs = rest.find(run_names::inputs_so_far);
+  if (inputs != nullptr) run.inputs = *inputs;
+  read_loaded(run);
   try {
     run.journal = read_journal(root / run_names::journal, !run.ended()).lines;
   } catch (const Error& error) {
@@ -162,7 +172,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
 }
 
 std::vector<std::string> altered_outputs(const RecordedRun& run) {
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = run.loaded_fault;
   const Json* outputs = run.manifest.find("outputs");
   if (outputs == nullptr) return sentences;
   for (const Json& entry : outputs->list()) {
@@ -186,7 +196,7 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
   for (const Json& entry : inputs->list()) {
     const auto file = named(entry);
     const Json* digest = entry.find("digest");
-    if (!file || digest == nullptr) continue;
+    if (!file || digest == nullptr || entry.find("copy") != nullptr) continue;
     bool found = false, same = false;
     // A file that the run wrote itself is named by its place in the run.
     for (const fs::path& place : {fs::path(*file), run.root / *file}) {
@@ -199,6 +209,18 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
       sentences.push_back("\"" + plain_text(*file) + "\"" +
                           (found ? " is not what it was when the run had read it"
                                  : ", which the run had read, is not found from here"));
+  }
+  for (std::string& sentence : altered_originals(run)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+std::vector<std::string> altered_originals(const RecordedRun& run) {
+  std::vector<std::string> sentences;
+  for (const auto& [file, loaded] : run.loaded) {
+    std::error_code missing;
+    if (fs::is_regular_file(file, missing) && file_digest(file) != loaded.digest)
+      sentences.push_back("\"" + plain_text(file) +
+                          "\" is not what it was when the run loaded it; the run's own copy is used");
   }
   return sentences;
 }

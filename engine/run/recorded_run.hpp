@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,12 @@
 namespace asperity {
 
 struct DifferingMember;
+
+// A script file that a run loaded by `require`, `dofile` or `loadfile`, as its directory keeps it.
+struct LoadedFile {
+  std::string text, digest;
+};
+using LoadedFiles = std::map<std::string, LoadedFile, std::less<>>;  // by the name it was loaded under
 
 struct RecordedRun {
   std::filesystem::path root;
@@ -34,6 +42,9 @@ struct RecordedRun {
   std::string journal_fault;      // what is wrong with it: a sentence, and what serves in its place; else ""
   std::string journal_hint;
   Json manifest;
+  Json inputs = Json::List();             // as far as the run had come
+  LoadedFiles loaded;                     // whose copies are as the run made them
+  std::vector<std::string> loaded_fault;  // a sentence for each other copy
 
   // Whether it came to its own end, so that its journal is whole and its files are listed.
   bool ended() const { return status == "done" || status == "failed"; }
@@ -50,13 +61,17 @@ Json read_manifest(const std::filesystem::path& root);
 // was cut off may be torn; it is left out.
 RecordedRun read_run(const std::filesystem::path& root, bool journal_may_be_damaged = false);
 
-// What the files of a run no longer are: a sentence each for an output that is missing or whose content is
-// not that of the manifest.
+// What the files of a run no longer are: a sentence each for an output, or the copy of a loaded file, that is
+// missing or whose content is not that of the manifest.
 std::vector<std::string> altered_outputs(const RecordedRun& run);
 
 // The same of the files that it read, as they are found from the working folder; none of a run that did not
 // come to its end. O(their bytes).
 std::vector<std::string> altered_inputs(const RecordedRun& run);
+
+// A sentence for each loaded file that, found from the working folder, is another one now: a run that is
+// replayed or resumed takes its copy.
+std::vector<std::string> altered_originals(const RecordedRun& run);
 
 struct Difference {
   std::string where;  // "line 4, contact:press, result"

@@ -163,7 +163,7 @@ std::optional<FoundResult> ResultFiles::read(const fs::path& file, const std::st
 
 void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   std::error_code problem;
-  fs::create_directories(setup_.folder, problem);
+  fs::create_directory(setup_.folder, problem);
   const fs::path to = setup_.folder / name;
   if (fs::exists(to, problem)) return;
   const auto bytes = fs::file_size(from, problem);
@@ -250,7 +250,7 @@ void ResultFiles::bring_to_disk() {
 
 void ResultFiles::ready_folder() {
   std::error_code problem;
-  fs::create_directories(setup_.folder, problem);
+  fs::create_directory(setup_.folder, problem);
   if (problem)
     throw Error(ErrorCode::bad_file,
                 "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/run/run_directory.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,12 +12,28 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
 
 namespace asperity {
 
 namespace fs = std::filesystem;
+
+namespace {
+std::pair<std::uint64_t, std::uint64_t> place_of(const fs::path& folder) {
+  struct ::stat facts {};
+  if (::stat(folder.c_str(), &facts) != 0) return {};
+  return {facts.st_dev, facts.st_ino};
+}
+}  // namespace
+
+void RunDirectory::require_place() const {
+  if (!root_.empty() && place_of(root_) != place_)
+    throw Error(ErrorCode::bad_file,
+                quoted(root_.string()) + " was moved or removed while the run wrote there",
+                "go on with --resume where it is now");
+}
 
 std::string_view name(RunStatus status) {
   switch (status) {
@@ -110,6 +127,8 @@ std::vector<fs::path> RunDirectory::needed_to_resume() const {
 }
 
 void RunDirectory::begin(const RunSetup& setup) {
+  place_ = place_of(root_);
+  script_text_ = setup.script_text;
   const bool again = setup.resume && !setup.anew;
   const Durable durable = scratch_ ? Durable::no : Durable::yes;
   if (again && setup.journal_lost) {
@@ -168,7 +187,7 @@ void RunDirectory::take_up() {
   }
   if (!recorded_outputs_.is_null()) unhashed_.set(mending_member, recorded_outputs_);
   const Json* read = earlier.find("inputs");
-  if (read == nullptr && kept != nullptr) read = kept->find(reading_member);
+  if (read == nullptr && kept != nullptr) read = kept->find(run_names::inputs_so_far);
   if (read == nullptr) return;
   for (const Json& entry : read->list()) {
     const Json *file = entry.find("file"), *digest = entry.find("digest");
@@ -178,7 +197,7 @@ void RunDirectory::take_up() {
 
 void RunDirectory::write_manifest(Durable durable) {
   Json whole = manifest_, unhashed = unhashed_;
-  if (!finished_ && !inputs_.empty()) unhashed.set(reading_member, inputs());
+  if (!finished_ && !inputs_.empty()) unhashed.set(run_names::inputs_so_far, inputs());
   whole.set("unhashed", std::move(unhashed));
   write_atomically(root_ / run_names::manifest, whole.text(2) + "\n", durable);
 }
@@ -195,16 +214,40 @@ void RunDirectory::note_unhashed(std::string_view key, Json value) {
 
 Json RunDirectory::inputs() const {
   Json::List list;
-  for (const Input& input : inputs_)
-    list.push_back(Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
+  for (const Input& input : inputs_) {
+    Json entry = Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}});
+    if (!input.copy.empty()) entry.set("copy", input.copy);
+    list.push_back(std::move(entry));
+  }
   return list;
 }
 
-bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::string_view digest) {
+std::string RunDirectory::own_name(const fs::path& place) const {
+  const fs::path inside = root_.empty() ? "" : place.lexically_relative(root_);
+  return inside.empty() || *inside.begin() == ".." ? "" : inside.string();
+}
+
+void RunDirectory::note_loaded(std::string_view file, const std::string& text) {
+  const std::string digest = content_digest(text);
+  // By its content: names may lead out of any folder, and a file may change while the run goes on.
+  const std::string copy = std::string(run_names::loaded) + "/" +
+                           safe_file_name(fs::path(std::string(file)).stem().string()) + "-" +
+                           digest.substr(0, 12) + ".lua";
+  const bool recorded = kind_ == Kind::directory && !later_;
+  std::error_code missing;
+  if (recorded && !scratch_ && fs::file_size(root_ / copy, missing) != text.size()) {
+    make_folders(root_ / run_names::loaded);
+    write_atomically(root_ / copy, text);
+  }
+  note_input(file, static_cast<std::int64_t>(text.size()), digest, recorded ? copy : "");
+}
+
+bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::string_view digest,
+                              const std::string& copy) {
   const std::lock_guard lock(mutex_);
-  inputs_.insert({std::string(file), bytes, std::string(digest)});
+  const bool is_new = inputs_.insert({std::string(file), bytes, std::string(digest), copy}).second;
   // Thousands of files are told of in eighths of what there are, or each would write all of them again.
-  const bool due = inputs_.size() > inputs_on_disk_ + inputs_on_disk_ / 8;
+  const bool due = (is_new && !copy.empty()) || inputs_.size() > inputs_on_disk_ + inputs_on_disk_ / 8;
   if (due && kind_ == Kind::directory && !later_ && !scratch_ && !finished_) {
     try {
       inputs_on_disk_ = inputs_.size();

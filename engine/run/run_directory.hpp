@@ -118,6 +118,12 @@ class RunDirectory {
   // made. The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 
+  // Notes which of these files are there by now: one of them that is missing at the end was removed by
+  // others.
+  void see_outputs();
+  // The script itself removed or renamed a file; `place` is what path_for() returned.
+  void forget_output(const std::filesystem::path& place);
+
   // Where a file that the script is about to read lies: the one that the run itself wrote under that name,
   // else as named, from the working directory.
   std::filesystem::path place_to_read(std::string_view file) const;
@@ -151,7 +157,13 @@ class RunDirectory {
   // A file that was read, under the name the script gave, with the digest of its content. The
   // manifest tells of it while the run goes on (of many files in eighths of what there are), so that a run
   // that is resumed knows it. Returns whether that one had read other content.
-  bool note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
+  bool note_input(std::string_view file, std::int64_t bytes, std::string_view digest,
+                  const std::string& copy = {});
+  // The same of a script file that was loaded. Its text is copied into the folder `script_files`, from which
+  // a replay, and a run that is resumed, load it again.
+  void note_loaded(std::string_view file, const std::string& text);
+  // The name in the directory of a place there; "" of any other place.
+  std::string own_name(const std::filesystem::path& place) const;
 
   // Ends the run: brings notebooks up to date, closes the journal with an event "end", and writes the
   // manifest with the status, outputs and verdicts. The first call counts; returns false for later
@@ -159,15 +171,14 @@ class RunDirectory {
   // for each file, then leaves that one as it is on disk, which is whole. `reason` says why a run
   // did not end as done. What is done or failed is on the disk before the manifest says so, and the lock is
   // given back. Throws Error{bad_file} after having tried everything, in which case nothing is done: the
-  // manifest says failed; the same where the journal was removed meanwhile, and where a run that was resumed
-  // to mend it did not make its outputs as they were.
+  // manifest says failed; the same where others removed an output, or removed or altered script or journal,
+  // and where a run that was resumed to mend it did not make its outputs as they were. Nothing is written
+  // where the directory was moved.
   bool finish(RunStatus status, std::string_view reason = {},
               std::chrono::milliseconds patience = std::chrono::seconds(2));
 
  private:
   enum class Kind { directory, loose, dry };
-  // Of the manifest, until the run ends: what it has read so far.
-  static constexpr std::string_view reading_member = "inputs_so_far";
   // Of the manifest, until a run is mended: what its outputs are to be again.
   static constexpr std::string_view mending_member = "recorded_outputs";
   void make(const RunSetup& setup);
@@ -177,6 +188,9 @@ class RunDirectory {
   Json inputs() const;
   void wait_for_outputs(const Json& outputs) const;
   std::string unlike_recorded(const Json& outputs) const;
+  void require_place() const;
+  void require_own_files() const;
+  std::string removed_by_others() const;
   void note_end(RunStatus status, std::string_view reason, Json files);
   Json outputs(bool with_digests) const;
   void keep_inside(const std::filesystem::path& relative, std::string_view file) const;
@@ -186,6 +200,8 @@ class RunDirectory {
   std::filesystem::path root_;
   std::shared_ptr<RunLock> lock_;
   bool scratch_ = false;
+  std::string script_text_;
+  std::pair<std::uint64_t, std::uint64_t> place_;  // device and number of the directory
   std::vector<std::filesystem::path> holding_;  // folders in which one was made on the way to the directory
   std::vector<std::pair<std::string, std::string>> recorded_inputs_;  // of a resumed run: files, digests
   Json recorded_outputs_;  // of a finished run that is mended; else null
@@ -201,11 +217,13 @@ class RunDirectory {
   mutable std::mutex mutex_;  // of everything below
   Json manifest_ = Json::object();
   Json unhashed_ = Json::object();
-  std::set<std::string> outputs_;
+  std::set<std::string> outputs_, unseen_;  // given to the script; of them, not yet met on the disk
+  std::atomic<bool> some_unseen_{false};
   struct Input {
     std::string file;
     std::int64_t bytes;
     std::string digest;
+    std::string copy;  // of a script file; else empty
     auto operator<=>(const Input&) const = default;
   };
   std::set<Input> inputs_;

@@ -19,11 +19,15 @@ namespace asperity {
 
 namespace fs = std::filesystem;
 
-// Their content, and their names in every folder up to the run's own.
+// Their content, that of loaded files, and their names in every folder up to the run's own.
 void RunDirectory::wait_for_outputs(const Json& outputs) const {
   std::set<fs::path> folders = {root_};
-  for (const Json& entry : outputs.list()) {
-    const fs::path place = (root_ / entry.find("file")->string()).lexically_normal();
+  std::set<std::string> files;
+  for (const Json& entry : outputs.list()) files.insert(entry.find("file")->string());
+  for (const Input& input : inputs_)
+    if (!input.copy.empty()) files.insert(input.copy);
+  for (const std::string& file : files) {
+    const fs::path place = (root_ / file).lexically_normal();
     std::error_code gone;
     if (!fs::is_regular_file(place, gone)) continue;
     wait_for_disk(place);
@@ -49,6 +53,39 @@ std::string RunDirectory::unlike_recorded(const Json& outputs) const {
   }
   if (unlike.empty()) return {};
   return joined(unlike, " and ") + " could not be made again as recorded";
+}
+
+// The script is put back, for without it the run could not be resumed.
+void RunDirectory::require_own_files() const {
+  const fs::path script = root_ / run_names::script;
+  std::error_code missing;
+  if (!text_ && (!fs::is_regular_file(script, missing) || text_of_run_file(script) != script_text_)) {
+    write_atomically(script, script_text_, Durable::yes);
+    throw Error(
+        ErrorCode::bad_file,
+        quoted(script.string()) + " was altered or taken away while the run went on, and is written again",
+        "take the run up with --resume");
+  }
+  if (journal_->is_altered())
+    throw Error(ErrorCode::bad_file,
+                quoted(journal_->path().string()) + " was altered by others while the run wrote it",
+                "its results are kept: take the run up with --resume");
+}
+
+// As a sentence; "" where every file is there. A script that was trusted may remove files by itself.
+std::string RunDirectory::removed_by_others() const {
+  std::vector<std::string> gone;
+  std::error_code missing;
+  const auto look = [&](const std::string& file) {
+    if (!fs::exists(root_ / file, missing)) gone.push_back(quoted(file));
+  };
+  for (const std::string& file : outputs_)
+    if (!trusted_ && !unseen_.contains(file)) look(file);
+  for (const Input& input : inputs_)
+    if (!input.copy.empty() && !scratch_) look(input.copy);
+  return gone.empty() ? ""
+                      : joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") +
+                            " taken away while the run went on";
 }
 
 Json RunDirectory::outputs(bool with_digests) const {
@@ -109,7 +146,8 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
     }
   };
   const std::unique_lock lock = lock_within(mutex_, patience);
-  const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock();
+  attempt([&] { require_place(); });
+  const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock() && !first;
   // Without the lock the list of notebooks and the manifest may be half changed: what is on disk
   // already then stays as it is.
   if (lock.owns_lock())
@@ -123,6 +161,8 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
       if (const std::string unlike = unlike_recorded(files); !unlike.empty())
         throw Error(ErrorCode::bad_state, unlike,
                     "the script does not do the same again, or what it reads has changed");
+      if (const std::string gone = removed_by_others(); !gone.empty())
+        throw Error(ErrorCode::bad_file, gone, "take the run up with --resume, which writes it again");
       if (journal_->is_lost())
         throw Error(ErrorCode::bad_file,
                     quoted(journal_->path().string()) + " was taken away while the run wrote it",
@@ -134,6 +174,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
     journal_->close("end", fields, patience);
   });
   if (records) {
+    if (status == RunStatus::done && !scratch_) attempt([&] { require_own_files(); });
     // What comes to its own end is compared later by what the manifest says, and so is on the disk before it.
     const auto durable = [&] {
       return !scratch_ && (ends_well() || status == RunStatus::failed) ? Durable::yes : Durable::no;

@@ -57,7 +57,7 @@ fs::path RunDirectory::path_for(std::string_view file) {
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
-  for (const std::string_view folder : {run_names::store, run_names::views}) {
+  for (const std::string_view folder : {run_names::store, run_names::views, run_names::loaded}) {
     const fs::path own = root_ / folder;
     if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
       throw Error(
@@ -69,10 +69,27 @@ fs::path RunDirectory::path_for(std::string_view file) {
   std::error_code ignored;
   if (fs::is_directory(place, ignored))
     throw Error(ErrorCode::bad_value, quoted(file) + " is a folder", "give the name of a file");
+  require_place();
   make_folders(place.parent_path());
   const std::lock_guard lock(mutex_);
-  outputs_.insert(given.string());
+  if (outputs_.insert(given.string()).second) unseen_.insert(given.string());
+  some_unseen_ = !unseen_.empty();
   return place;
+}
+
+void RunDirectory::see_outputs() {
+  if (!some_unseen_) return;
+  const std::lock_guard lock(mutex_);
+  std::error_code missing;
+  std::erase_if(unseen_, [&](const std::string& file) { return fs::exists(root_ / file, missing); });
+  some_unseen_ = !unseen_.empty();
+}
+
+void RunDirectory::forget_output(const fs::path& place) {
+  const std::lock_guard lock(mutex_);
+  const std::string own = own_name(place);
+  outputs_.erase(own.empty() ? place.string() : own);
+  unseen_.erase(own.empty() ? place.string() : own);
 }
 
 fs::path RunDirectory::place_to_read(std::string_view file) const {
@@ -112,7 +129,9 @@ void RunDirectory::put_back(Findings findings) {
   }
   for (const auto& notebook : made) {
     std::error_code gone;
-    if (!notebook->csv().empty()) fs::remove(notebook->csv(), gone);
+    if (notebook->csv().empty()) continue;
+    fs::remove(notebook->csv(), gone);
+    forget_output(notebook->csv());
   }
   for (const auto& notebook : notebooks_) notebook->write_again();
 }

@@ -2,8 +2,8 @@
 #include "engine/run/run_facts.hpp"
 
 #include <sys/utsname.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -14,6 +14,7 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
 
@@ -50,9 +51,7 @@ Json facts_of_this_machine() {
       facts.set("vector_instructions", vector_instructions(line.substr(colon + 2)));
   }
   facts.set("processors", std::thread::hardware_concurrency());
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long page = ::sysconf(_SC_PAGESIZE);
-  if (pages > 0 && page > 0) facts.set("memory", static_cast<std::int64_t>(pages) * page);
+  facts.set("memory", memory::of_machine());
   utsname system{};
   if (::uname(&system) == 0)
     facts.set("system", std::string(system.sysname) + " " + system.release + " " + system.machine);
@@ -86,12 +85,24 @@ std::vector<std::string> differing_machines(const Json& then, const Json& now) {
   return lines;
 }
 
+namespace {
+constexpr std::size_t digested_piece = std::size_t{1} << 20;
+}
+
+std::string content_digest(std::string_view content) {
+  Digester digester;
+  digester.add("file");
+  for (; !content.empty(); content.remove_prefix(std::min(content.size(), digested_piece)))
+    digester.add(content.substr(0, digested_piece));
+  return digester.hex();
+}
+
 std::string file_digest(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw_file_error("read", path, errno);
   Digester digester;
   digester.add("file");
-  std::string piece(std::size_t{1} << 20, '\0');
+  std::string piece(digested_piece, '\0');
   while (file) {
     file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     const auto taken = static_cast<std::size_t>(file.gcount());

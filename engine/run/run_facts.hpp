@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/files/json.hpp"
@@ -25,5 +26,7 @@ std::vector<std::string> differing_machines(const Json& then, const Json& now);
 
 // Digest of a file's content, read in pieces of 1 MiB. Throws Error{bad_file}.
 std::string file_digest(const std::filesystem::path& path);
+// The same of content that was read already.
+std::string content_digest(std::string_view content);
 
 }  // namespace asperity

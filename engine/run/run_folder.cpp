@@ -11,6 +11,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -108,6 +109,15 @@ void wait_for_names_in(const fs::path& folder) {
   if (::access(folder.c_str(), R_OK) == 0) wait_for_disk(folder);
 }
 
+std::string text_of_run_file(const fs::path& path) {
+  std::error_code missing;
+  // A pipe that stands in its place would keep whoever opens it.
+  if (!fs::is_regular_file(path, missing) || ::access(path.c_str(), R_OK) != 0)
+    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
+                "give the directory of a run, such as runs/quick_start-1");
+  return text_of_file(path.string());
+}
+
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code reason;
@@ -166,7 +176,7 @@ void finish_moving_aside(const fs::path& folder) {
 
 void refuse_links(const fs::path& folder) {
   for (const std::string_view own :
-       {run_names::script, run_names::manifest, run_names::journal, run_names::store}) {
+       {run_names::script, run_names::manifest, run_names::journal, run_names::store, run_names::loaded}) {
     std::error_code missing;
     if (fs::is_symlink(fs::symlink_status(folder / own, missing)))
       throw Error(ErrorCode::bad_file, quoted((folder / own).string()) + " is a link",

@@ -22,6 +22,10 @@ inline constexpr std::string_view journal = "journal.jsonl";
 inline constexpr std::string_view store = "store";  // a folder: results of heavy calls (result_files.hpp)
 inline constexpr std::string_view views =
     ".views";  // one: what the page draws of a run (bindings/web/api/views.hpp)
+// A folder: copies of the files that `require`, `dofile` and `loadfile` read.
+inline constexpr std::string_view loaded = "script_files";
+// Of the manifest of a run that goes on: what it has read so far.
+inline constexpr std::string_view inputs_so_far = "inputs_so_far";
 inline constexpr std::array<std::string_view, 4> files = {script, manifest, journal, RunLock::file_name};
 }  // namespace run_names
 
@@ -42,6 +46,10 @@ std::filesystem::path given_directory(const std::filesystem::path& out, std::sha
 
 // Until the disk has the names in a folder; one that may be entered but not read cannot be waited for.
 void wait_for_names_in(const std::filesystem::path& folder);
+
+// The content of a file that a run wrote by itself. Throws Error{bad_file} where there is none, or it cannot
+// be read to its end.
+std::string text_of_run_file(const std::filesystem::path& path);
 
 // What a folder holds, by name. Throws Error{bad_file}.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);

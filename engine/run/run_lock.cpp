@@ -164,6 +164,10 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
     if (descriptor < 0 && errno == ELOOP)
       throw Error(ErrorCode::bad_file, asperity::quoted(file.string()) + " is a link",
                   "a run writes its own files where they are; take the link away");
+    if (descriptor < 0 && errno == EISDIR)
+      throw Error(ErrorCode::bad_file,
+                  asperity::quoted(file.string()) + " is a folder, where a run keeps the name of its writer",
+                  "rename the folder, or take it away");
     if (descriptor < 0) throw_file_error("lock", file, errno);
     const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
     const int reason = lock->ask_patiently(ask);

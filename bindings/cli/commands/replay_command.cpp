@@ -266,6 +266,7 @@ int replay(const ReplayCommand& command) {
   RunCommand run = command.run;
   run.script = recorded->script_path;
   run.text = recorded->script_text;
+  load_as_recorded(run, *recorded, true);
   run.arguments = recorded->arguments;
   run.knobs = recorded->knobs;
   run.seed = static_cast<std::uint64_t>(recorded->seed);

@@ -2,6 +2,8 @@
 #include "bindings/cli/commands/run_command.hpp"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -10,8 +12,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
@@ -27,6 +27,7 @@
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
@@ -47,6 +48,28 @@ void limit_address_space(std::int64_t bytes) {
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
   setrlimit(RLIMIT_DATA, &limit);
+}
+
+// Fonts of pictures need more. No warning of the run: elsewhere it would not be given.
+void tell_of_few_handles() {
+  constexpr rlim_t enough = 32;
+  rlimit handles{};
+  if (::getrlimit(RLIMIT_NOFILE, &handles) == 0 && handles.rlim_cur < enough)
+    std::fprintf(stderr,
+                 "asperity: only %d files may be open at once, so pictures by gnuplot may lack their fonts; "
+                 "allow more with `ulimit -n`\n",
+                 static_cast<int>(handles.rlim_cur));
+}
+
+// Why what the script printed is not all on standard output; "" where it is, or a reader went away.
+std::string output_fault() {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  struct ::stat facts {};
+  if (!lost || ::fstat(STDOUT_FILENO, &facts) != 0 || S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode))
+    return {};
+  return "standard output could not be written to its end, so what the script printed is not all there; "
+         "check "
+         "the disk";
 }
 
 std::string reason_text(StopReason reason, const RunCommand& command) {
@@ -202,11 +225,9 @@ std::string read_script(const std::string& path) {
   std::error_code problem;
   if (std::filesystem::is_directory(path, problem))
     throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  if (::access(path.c_str(), R_OK) != 0)
+    throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
+  return text_of_file(path);
 }
 
 int execute(lua_State* L, const RunCommand& command, const std::string& text, int results) {
@@ -217,9 +238,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
     lua_pushcfunction(state, lua::traceback_handler);
     const std::string& name = command.script;
     lua_pushfstring(state, "@%s", name.c_str());
-    std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
-    // A first line "#!..." is for the shell.
-    if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
+    const std::size_t skip = lua::begin_of_script(text);
     if (skip < text.size() && text[skip] == LUA_SIGNATURE[0]) {
       lua_pushfstring(state, "%s: attempt to load a binary chunk: a script is text, and this is compiled Lua",
                       name.c_str());
@@ -288,6 +307,8 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
     if (!command.store) kept.folder = run->store();
+    // A folder in a run directory that was moved meanwhile would not be made again.
+    if (command.store) make_folders(*command.store);
     kept.needed = run->needed_to_resume();
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
@@ -300,6 +321,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     std::fprintf(stderr, "asperity: %s; the run is made again from its script and its store\n",
                  damage.c_str());
 
+  if (command.observer == nullptr) tell_of_few_handles();
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
   monitor.count_alike();
@@ -395,7 +417,11 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     why = reason_text(stopped, command) + met_at;
   }
   monitor.clear();
-  std::fflush(stdout);
+  if (const std::string fault = output_fault(); status == done && !fault.empty()) {
+    status = failed;
+    ended = RunStatus::failed;
+    why = fault;
+  }
   if (!why.empty() && observer == nullptr) std::fprintf(stderr, "asperity: %s\n", why.c_str());
   if (command.ranks != nullptr) command.ranks->note_failure(why);
   try {
@@ -427,6 +453,7 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   lua::Session session(context.monitor);
   session.run = context.run;
   session.variation = context.command.variation;
+  session.loaded = context.command.loaded;
   Digester script;
   script.add(context.text);
   for (const std::string& argument : context.command.arguments) script.add(argument);
@@ -465,7 +492,8 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
                                            : bad_usage);
   };
   session.exit_hook = [&](int code) {
-    const std::string unmade = code == 0 ? unmade_knobs(session) : "";
+    std::string unmade = code == 0 ? unmade_knobs(session) : "";
+    if (code == 0 && unmade.empty()) unmade = output_fault();
     if (!unmade.empty() && context.command.observer == nullptr)
       std::fprintf(stderr, "asperity: %s\n", unmade.c_str());
     if (!unmade.empty() || (code == 0 && context.run->expectations().failed() > 0)) code = failed;

@@ -39,15 +39,16 @@ struct RunCommand {
   bool trust = false;
   std::vector<std::string> arguments;
   GivenKnobs knobs;
-  std::optional<std::string> text;     // of the script, where it is not read from its file
-  std::optional<std::string> resume;   // directory of a run that was cut off
-  bool anew = false;                   // of another script: its files are moved aside, its results stay
-  bool journal_lost = false;           // of the run that is resumed: its journal is begun again
-  std::vector<std::string> damages;    // of the run that is resumed, a sentence each
-  std::shared_ptr<RunLock> lock;       // of the directory, where it was taken already
-  std::vector<std::string> reuse;      // runs, or folders of results, to take results from
-  std::optional<std::string> store;    // folder of results that several runs share, instead of its own
-  std::optional<Shard> shard;          // of the cases of ensembles; needs `store`
+  std::optional<std::string> text;    // of the script, where it is not read from its file
+  std::optional<std::string> resume;  // directory of a run that was cut off
+  bool anew = false;                  // of another script: its files are moved aside, its results stay
+  bool journal_lost = false;          // of the run that is resumed: its journal is begun again
+  std::vector<std::string> damages;   // of the run that is resumed, a sentence each
+  std::shared_ptr<const LoadedFiles> loaded;  // by the run that is resumed or replayed
+  std::shared_ptr<RunLock> lock;              // of the directory, where it was taken already
+  std::vector<std::string> reuse;             // runs, or folders of results, to take results from
+  std::optional<std::string> store;           // folder of results that several runs share, instead of its own
+  std::optional<Shard> shard;                 // of the cases of ensembles; needs `store`
   std::optional<CaseNumber> one_case;  // computes this case alone; needs `store`, and leaves no directory
   bool merge_only = false;             // computes no case; needs `store`
   std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none

@@ -156,11 +156,7 @@ class ScriptedBatch final : public CallBatch {
       session_.knobs->make(knob);  // a call that was kept has not
       if (session_.notes != nullptr) session_.notes->knobs.push_back(knob);
     }
-    for (const CaseInput& input : result.inputs)
-      if (session_.notes != nullptr)
-        session_.notes->inputs.push_back(input);
-      else if (session_.run != nullptr && !input.digest.empty())
-        session_.run->note_input(input.file, input.bytes, input.digest);
+    note_inputs_of_case(session_, result.inputs);
   }
 
   lua_State* L;

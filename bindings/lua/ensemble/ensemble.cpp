@@ -290,12 +290,7 @@ void note_inputs(const Session& session, const std::vector<CaseResult>& results)
       if (session.notes != nullptr) session.notes->knobs.push_back(knob);
     }
   note_knobs(session);
-  for (const CaseResult& result : results)
-    for (const CaseInput& input : result.inputs)
-      if (session.notes != nullptr)
-        session.notes->inputs.push_back(input);
-      else if (session.run != nullptr && !input.digest.empty())
-        session.run->note_input(input.file, input.bytes, input.digest);
+  for (const CaseResult& result : results) note_inputs_of_case(session, result.inputs);
 }
 
 // The plain cells of the rows there are, in a notebook of the run, so that an error loses nothing.

@@ -308,6 +308,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
     session.script = setup.script;
+    session.loaded = setup.loaded;
     session.script_digest = setup.script_digest;
     CaseNotes notes;
     session.notes = &notes;

@@ -42,11 +42,12 @@ struct CaseSetup {
   std::shared_ptr<Variation> variation;
   std::shared_ptr<RunKnobs> knobs;
   std::shared_ptr<Ledger> ledger;
-  ResultStore* results = nullptr;  // of the run; may be null
-  ScriptSpelling script;           // how the script is named
-  std::string script_digest;       // of the text of the script and its arguments
-  int ensemble = 0;                // of the run, which the case is part of; counted from 1
-  bool watched = false;            // look at the stop flag every few thousand instructions
+  ResultStore* results = nullptr;             // of the run; may be null
+  ScriptSpelling script;                      // how the script is named
+  std::shared_ptr<const LoadedFiles> loaded;  // of the run, where it is replayed or resumed; may be null
+  std::string script_digest;                  // of the text of the script and its arguments
+  int ensemble = 0;                           // of the run, which the case is part of; counted from 1
+  bool watched = false;                       // look at the stop flag every few thousand instructions
 };
 
 struct CaseResult : FinishedCase {

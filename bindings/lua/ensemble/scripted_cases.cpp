@@ -26,6 +26,7 @@ CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const Pac
   common.results = results_for_cases(session);
   common.watched = lua_gethook(L) != nullptr;
   common.script = session.script;
+  common.loaded = session.loaded;
   common.script_digest = session.script_digest;
   common.ensemble = ++session.ensembles;
   if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's

@@ -19,7 +19,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr std::string_view case_form = "asperity case 3";
+constexpr std::string_view case_form = "asperity case 4";
 constexpr std::size_t most_bytes_of_many = 16384;
 // Whether a case drew random numbers, and asked for knobs.
 constexpr std::array<std::pair<bool, bool>, 4> ways = {
@@ -81,6 +81,7 @@ std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& g
     out.number(input.bytes);
     out.text(input.digest);
     out.text(input.beside_script);
+    out.number(input.loaded);
   }
   out.number(static_cast<std::uint64_t>(result.knobs.size()));
   for (const RunKnob& knob : result.knobs) {
@@ -110,6 +111,7 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
     input.bytes = in.number<std::int64_t>();
     input.digest = in.text();
     input.beside_script = in.text();
+    input.loaded = in.truth();
     result.inputs.push_back(std::move(input));
   }
   for (std::size_t left = in.count(); left > 0; --left) {
@@ -188,8 +190,10 @@ std::optional<CaseResult> StoredCases::find_under(const std::string& key, const 
     if (found->text("names lines") == "yes" && found->text("lines") != content_.lines) return {};
     for (CaseInput& input : result.inputs)
       if (!input.beside_script.empty()) input.file = folder_ + "/" + input.beside_script;
-    const bool same = std::ranges::all_of(
-        result.inputs, [](const CaseInput& input) { return present_digest(input.file) == input.digest; });
+    const bool same = std::ranges::all_of(result.inputs, [&](const CaseInput& input) {
+      const LoadedFile* copy = input.loaded ? recorded_copy(setup.loaded, input.file) : nullptr;
+      return (copy != nullptr ? copy->digest : present_digest(input.file)) == input.digest;
+    });
     if (same) return result;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file && error.code() != ErrorCode::internal) throw;

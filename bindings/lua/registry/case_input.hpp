@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/run/recorded_run.hpp"
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity::lua {
@@ -19,10 +21,17 @@ struct CaseInput {
   std::int64_t bytes = 0;
   std::string digest;
   std::string beside_script = {};  // "helper.lua"; else empty
+  bool loaded = false;             // by `require`, `dofile` or `loadfile`
 };
 CaseInput input_of_case(const std::string& file);
 // Of a file as it is now; empty where there is none.
 std::string present_digest(const std::string& file);
+// What a run that is replayed or resumed loaded under that name; null where there is none.
+const LoadedFile* recorded_copy(const std::shared_ptr<const LoadedFiles>& loaded, const std::string& file);
+
+class Session;
+// What a case read is of the run, or of the case that its ensemble stands in.
+void note_inputs_of_case(const Session& session, const std::vector<CaseInput>& inputs);
 
 struct CaseNotes {
   std::vector<CaseInput> inputs;

@@ -179,6 +179,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
   if (function.heavy) ++call.session().heavy_calls;
   Values results = function.body(call);
+  if (call.session().run != nullptr) call.session().run->see_outputs();
   check_results(function, results);
   if (function.heavy) {
     enter_into_ledger(call.session(), results);

@@ -20,6 +20,7 @@
 #include "engine/core/monitor.hpp"
 #include "engine/run/case_scheduler.hpp"
 #include "engine/run/ledger.hpp"
+#include "engine/run/recorded_run.hpp"
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity {
@@ -103,7 +104,9 @@ class Session {
   std::shared_ptr<RunKnobs> knobs = std::make_shared<RunKnobs>();
   // What lab.knob.set does with a value that the knob takes; empty where nothing is run again.
   std::function<void(const std::string& name, const std::string& value)> move_knob;
-  ScriptSpelling script;         // as it was named; empty where there is none
+  ScriptSpelling script;  // as it was named; empty where there is none
+  // Of a run that is replayed or resumed: the script files it loaded, which are loaded again; may be null.
+  std::shared_ptr<const LoadedFiles> loaded;
   std::string script_digest;     // of the text of the script and its arguments; may be empty
   int ensembles = 0;             // that the script has begun
   std::int64_t heavy_calls = 0;  // that this state has made; computed or found in the store, they count alike

@@ -44,11 +44,8 @@ void note_input(const Call& call, const std::string& path) {
   if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
   // A file that the run wrote itself has the same name in every run.
-  const std::filesystem::path& root = session.run->path();
-  const std::filesystem::path inside =
-      root.empty() ? "" : std::filesystem::path(path).lexically_relative(root);
-  const bool own = !inside.empty() && *inside.begin() != "..";
-  if (session.run->note_input(own ? inside.string() : path, bytes, file_digest(path)) && !own)
+  const std::string own = session.run->own_name(path);
+  if (session.run->note_input(own.empty() ? path : own, bytes, file_digest(path)) && own.empty())
     session.monitor().inform("\"" + plain_text(path) +
                              "\" is not what it was when the run that is taken up had read it");
 }

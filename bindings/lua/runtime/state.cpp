@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/runtime/state.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "bindings/lua/registry/case_input.hpp"
@@ -13,8 +18,10 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {
 
@@ -34,49 +41,94 @@ void refuse_pipe(const std::string& name, const std::string& place) {
                 "write what it gives into a file first");
 }
 
-// host.output_path(name) and host.input_path(name, is_module) -> path, or nil and why not.
-int path_body(lua_State* L, bool to_write) {
-  std::string result;
-  bool good = true;
-  try {
-    const Session& session = Session::of(L);
-    const std::string name(Argument(L, 1).text());
-    if (!to_write) {
-      result = session.run == nullptr ? name : session.run->place_to_read(name).string();
-      refuse_pipe(name, result);
-      if (session.notes != nullptr) {
-        CaseInput input = input_of_case(result);
-        const std::string folder = session.script.folder + "/";
-        if (lua_toboolean(L, 2) != 0 && folder.size() > 1 && result.starts_with(folder))
-          input.beside_script = result.substr(folder.size());
-        session.notes->inputs.push_back(std::move(input));
-      }
-    } else {
-      if (session.is_case)
-        throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
-                    "return what it found, and write after the loop");
-      result = session.run == nullptr ? name : session.run->path_for(name).string();
-    }
-  } catch (const std::exception& error) {
-    result = error.what();
-    good = false;
-  }
-  auto action = [&](lua_State* state) {
-    if (!good) lua_pushnil(state);
-    lua_pushlstring(state, result.data(), result.size());
-    return good ? 1 : 2;
-  };
-  const int results = good ? 1 : 2;
-  return protect(L, 0, results, action) == LUA_OK ? results : -1;
+// The text of a script file, for `require`, `dofile` and `loadfile`; none where Lua itself says what is wrong
+// with it. A module that a case finds in the folder of the script is known by its name there.
+std::optional<std::string> loaded_text(const Session& session, const std::string& name, bool is_module) {
+  const std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
+  const std::string own = session.run == nullptr ? "" : session.run->own_name(place);
+  const LoadedFile* const copy = own.empty() ? recorded_copy(session.loaded, name) : nullptr;
+  if (copy == nullptr) refuse_pipe(name, place);
+  std::error_code none;
+  if (copy == nullptr &&
+      (!std::filesystem::is_regular_file(place, none) || ::access(place.c_str(), R_OK) != 0))
+    return {};
+  const std::string text = copy != nullptr ? copy->text : text_of_file(place);
+  const auto bytes = static_cast<std::int64_t>(text.size());
+  const std::string folder = session.script.folder + "/";
+  if (session.notes != nullptr)
+    session.notes->inputs.push_back(
+        {name, bytes, content_digest(text),
+         is_module && folder.size() > 1 && name.starts_with(folder) ? name.substr(folder.size()) : "", true});
+  else if (session.run != nullptr && !own.empty())
+    session.run->note_input(own, bytes, content_digest(text));
+  else if (session.run != nullptr)
+    session.run->note_loaded(name, text);
+  return text.substr(begin_of_script(text));
 }
 
-int output_path(lua_State* L) {
-  const int results = path_body(L, true);
+// Leaves what `find` returns: a text, or nothing; where it throws, nil and why.
+template <class Find>
+int give_text(lua_State* L, const Find& find) {
+  std::optional<std::string> text;
+  std::string problem;
+  try {
+    text = find(Session::of(L), std::string(Argument(L, 1).text()));
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  const std::string& shown = text ? *text : problem;
+  auto action = [&](lua_State* state) {
+    if (!text) lua_pushnil(state);
+    lua_pushlstring(state, shown.data(), shown.size());
+    return text ? 1 : 2;
+  };
+  if (!text && problem.empty()) return 0;
+  return protect(L, 0, text ? 1 : 2, action) == LUA_OK ? (text ? 1 : 2) : -1;
+}
+
+// host.script_text(name, is_module) -> text; nothing where Lua's own functions are to open it; nil and why
+// not
+int script_text(lua_State* L) {
+  const int results = give_text(L, [L](const Session& session, const std::string& name) {
+    return loaded_text(session, name, lua_toboolean(L, 2) != 0);
+  });
   return results < 0 ? lua_error(L) : results;
 }
 
+// host.was_loaded(name) -> whether the run that is replayed or resumed loaded a file of that name
+int was_loaded(lua_State* L) {
+  lua_pushboolean(
+      L, lua_isstring(L, 1) != 0 && recorded_copy(Session::of(L).loaded, lua_tostring(L, 1)) != nullptr);
+  return 1;
+}
+
+// host.output_path(name) -> path, or nil and why not
+int output_path(lua_State* L) {
+  const int results = give_text(L, [](const Session& session, const std::string& name) {
+    if (session.is_case)
+      throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
+                  "return what it found, and write after the loop");
+    return session.run == nullptr ? name : session.run->path_for(name).string();
+  });
+  return results < 0 ? lua_error(L) : results;
+}
+
+// host.settled(removed): the script wrote files, or removed the one that output_path() gave it.
+int settled(lua_State* L) {
+  const auto& run = Session::of(L).run;
+  if (run != nullptr && lua_isstring(L, 1) != 0) run->forget_output(lua_tostring(L, 1));
+  if (run != nullptr) run->see_outputs();
+  return 0;
+}
+
+// host.input_path(name) -> path, or nil and why not
 int input_path(lua_State* L) {
-  const int results = path_body(L, false);
+  const int results = give_text(L, [](const Session& session, const std::string& name) {
+    std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
+    refuse_pipe(name, place);
+    if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(place));
+    return place;
+  });
   return results < 0 ? lua_error(L) : results;
 }
 
@@ -186,19 +238,19 @@ int set_up(lua_State* L) {
 
   const std::string_view sandbox = embedded_script("sandbox");
   load_embedded_text(L, sandbox, "=sandbox");
-  lua_createtable(L, 0, 4);
+  static constexpr std::array<luaL_Reg, 9> host = {{{"exit", exit_run},
+                                                    {"output_path", output_path},
+                                                    {"input_path", input_path},
+                                                    {"settled", settled},
+                                                    {"script_text", script_text},
+                                                    {"was_loaded", was_loaded},
+                                                    {"unknown_global", unknown_global},
+                                                    {"mistaken", mistaken},
+                                                    {nullptr, nullptr}}};
+  lua_createtable(L, 0, static_cast<int>(host.size()));
+  luaL_setfuncs(L, host.data(), 0);
   lua_pushboolean(L, session.dry_run ? 1 : 0);
   lua_setfield(L, -2, "dry");
-  lua_pushcfunction(L, exit_run);
-  lua_setfield(L, -2, "exit");
-  lua_pushcfunction(L, output_path);
-  lua_setfield(L, -2, "output_path");
-  lua_pushcfunction(L, input_path);
-  lua_setfield(L, -2, "input_path");
-  lua_pushcfunction(L, unknown_global);
-  lua_setfield(L, -2, "unknown_global");
-  lua_pushcfunction(L, mistaken);
-  lua_setfield(L, -2, "mistaken");
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   lua_gc(L, LUA_GCRESTART);
@@ -212,6 +264,11 @@ int set_up(lua_State* L) {
 void StateCloser::operator()(lua_State* L) const {
   const std::unique_ptr<StateHeap> heap(StateHeap::of(L));
   lua_close(L);
+}
+
+std::size_t begin_of_script(std::string_view text) {
+  const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  return begin < text.size() && text[begin] == '#' ? std::min(text.find('\n'), text.size()) : begin;
 }
 
 std::string search_path(const std::string& script_folder) {

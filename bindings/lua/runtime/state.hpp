@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "bindings/lua/registry/lua_api.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -17,6 +18,10 @@ struct StateCloser {
   void operator()(lua_State* L) const;
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
+
+// Where the text of a script begins: behind a byte-order mark, and behind a first line "#!...", which is for
+// the shell.
+std::size_t begin_of_script(std::string_view text);
 
 // The pattern by which `require` looks in a folder.
 std::string search_path(const std::string& script_folder);

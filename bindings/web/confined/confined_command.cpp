@@ -22,6 +22,7 @@
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
@@ -210,6 +211,8 @@ class Undertaking {
   int carry_through() {
     check_options();
     if (replay_ != nullptr) take_record(replay_->recorded, "replay");
+    // Before anything is done there: a run that is refused stays as it is.
+    if (run_.resume) refuse_links(*run_.resume);
     if (run_.resume) take_record(*run_.resume, "go on with");
     if (!run_.script.empty()) read_script();
     for (const std::string& folder : run_.read) {
@@ -378,7 +381,8 @@ class Undertaking {
     bounds.files = most_files;
     run_.limit_time = bounds.seconds;
     run_.limit_disk = bounds.directory_bytes;
-    run_.limit_memory = run_.limit_memory.value_or(std::max(machine_memory() / 2, std::int64_t{256} << 20));
+    run_.limit_memory =
+        run_.limit_memory.value_or(std::max(memory::of_machine() / 2, std::int64_t{256} << 20));
     // Results kept in the run directory are of its files.
     if (!run_.store)
       run_.store_limit =

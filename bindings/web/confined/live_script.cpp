@@ -220,7 +220,7 @@ class LiveScript {
     set_thread_count(request.threads);
     cli::limit_memory(request.confinement.memory_bytes);
     draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
-      return GnuplotResult{"not drawn while a knob moves", "", 0};
+      return GnuplotResult{"not drawn while a knob moves", ""};
     });
   }
 

@@ -270,7 +270,7 @@ void ResultLog::wait_for_disk() {
 // A name that was never there before: others may have gone through a file that is gone.
 void ResultLog::begin_file() {
   std::error_code problem;
-  fs::create_directories(folder_, problem);
+  fs::create_directory(folder_, problem);
   if (problem) throw_file_error("make the folder", folder_, problem.value());
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof random, 0) != static_cast<ssize_t>(sizeof random))

@@ -17,7 +17,51 @@
 namespace asperity {
 
 namespace {
+
 constexpr std::size_t piece = std::size_t{1} << 20;
+
+// Size fields of file systems may be wrong: they are a first guess at how much memory it takes.
+template <class Bytes, class Advance>
+void read_to_end(std::ifstream& stream, const std::string& path, std::size_t expected, Bytes& bytes,
+                 const Advance& advance) {
+  require_room_for(path, expected);
+  bytes.reserve(expected);
+  while (stream) {
+    const std::size_t held = bytes.size();
+    const std::size_t wanted = std::max<std::size_t>(1, std::min(piece, expected - std::min(expected, held)));
+    bytes.resize(held + wanted);
+    stream.read(bytes.data() + held, static_cast<std::streamsize>(wanted));
+    bytes.resize(held + static_cast<std::size_t>(stream.gcount()));
+    advance(stream.gcount());
+  }
+  if (stream.bad()) throw Error(ErrorCode::bad_file, file_name(path) + " cannot be read to its end");
+}
+
+}  // namespace
+
+void require_room_for(const std::string& path, std::uintmax_t bytes) {
+  const std::int64_t limit = memory::limit();
+  const std::int64_t most =
+      limit > 0 ? std::max<std::int64_t>(0, limit - memory::held()) : memory::of_machine() / 4;
+  if (bytes <= static_cast<std::uintmax_t>(most)) return;
+  const std::string found = file_name(path) + " has " + format_bytes(static_cast<std::int64_t>(bytes));
+  if (limit > 0)
+    throw Error(ErrorCode::out_of_memory, found + ", and the limit of memory leaves " + format_bytes(most),
+                "read a smaller file, or raise the limit");
+  throw Error(ErrorCode::out_of_memory,
+              found + ", which is more than a quarter of this machine's memory (" + format_bytes(most) + ")",
+              "read a smaller file, or allow more with `--limit-memory`");
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be opened", "check that it may be read");
+  std::error_code unknown;
+  const std::uintmax_t expected = std::filesystem::file_size(path, unknown);
+  std::string text;
+  read_to_end(stream, path, unknown ? 0 : static_cast<std::size_t>(expected), text, [](std::streamsize) {});
+  return text;
 }
 
 std::string file_extension(const std::string& path) {
@@ -52,27 +96,9 @@ SourceFile::SourceFile(std::string path, Monitor& monitor)
     throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be opened", "check that it may be read");
   const std::uintmax_t expected = fs::file_size(path_, failure);
   if (failure) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read");
-  if (const std::int64_t limit = memory::limit(); limit > 0) {
-    const std::int64_t left = std::max<std::int64_t>(0, limit - memory::held());
-    if (expected > static_cast<std::uintmax_t>(left))
-      throw Error(ErrorCode::out_of_memory,
-                  file_name(path_) + " has " + format_bytes(static_cast<std::int64_t>(expected)) +
-                      ", and the limit of memory leaves " + format_bytes(left),
-                  "read a smaller file, or raise the limit");
-  }
-  bytes_.reserve(static_cast<std::size_t>(expected));
   Task task(monitor, "reading", static_cast<std::int64_t>(expected));
-  while (stream) {
-    const std::size_t held = bytes_.size();
-    const std::size_t wanted =
-        std::max<std::size_t>(1, std::min(piece, static_cast<std::size_t>(expected) -
-                                                     std::min(static_cast<std::size_t>(expected), held)));
-    bytes_.resize(held + wanted);
-    stream.read(bytes_.data() + held, static_cast<std::streamsize>(wanted));
-    bytes_.resize(held + static_cast<std::size_t>(stream.gcount()));
-    task.advance(stream.gcount());
-  }
-  if (stream.bad()) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read to its end");
+  read_to_end(stream, path_, static_cast<std::size_t>(expected), bytes_,
+              [&](std::streamsize read) { task.advance(read); });
   refuse_empty();
 }
 

@@ -4,6 +4,7 @@
 // disk. Not for files larger than memory.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -39,6 +40,13 @@ class SourceFile {
   std::string extension_;
   Array<char> bytes_;
 };
+
+// The content of a file that may be empty, a pipe or a device: a script, or a file of a run. Throws
+// Error{bad_file} where it cannot be opened or read to its end, Error{out_of_memory} as above.
+std::string text_of_file(const std::string& path);
+// Throws Error{out_of_memory} where a file of so many bytes exceeds the limit of memory, or, without a limit,
+// a quarter of the machine's memory.
+void require_room_for(const std::string& path, std::uintmax_t bytes);
 
 // Lower-case ending of a path without the dot.
 std::string file_extension(const std::string& path);

@@ -202,7 +202,8 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
        overview >> program >> command && program == "asperity" && std::getline(overview, rest);)
     told += command + " ";
   EXPECT_EQ(told,
-            "run run replay press-log check explain cases status accuracy repl serve lesson help materials version ");
+            "run run replay press-log check explain cases status accuracy repl serve lesson help materials "
+            "version ");
   // What each does begins in one column.
   std::istringstream lines(call({"help"}).output);
   std::set<std::size_t> columns;
