@@ -61,8 +61,7 @@ Json read_manifest(const std::filesystem::path& root);
 // was cut off may be torn; it is left out.
 RecordedRun read_run(const std::filesystem::path& root, bool journal_may_be_damaged = false);
 
-// What the files of a run no longer are: a sentence each for an output, or the copy of a loaded file, that is
-// missing or whose content is not that of the manifest.
+// A sentence for each output, or copy of a loaded file, that is missing or differs from the manifest.
 std::vector<std::string> altered_outputs(const RecordedRun& run);
 
 // The same of the files that it read, as they are found from the working folder; none of a run that did not

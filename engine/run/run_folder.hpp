@@ -24,7 +24,7 @@ inline constexpr std::string_view views =
     ".views";  // one: what the page draws of a run (bindings/web/api/views.hpp)
 // A folder: copies of the files that `require`, `dofile` and `loadfile` read.
 inline constexpr std::string_view loaded = "script_files";
-// Of the manifest of a run that goes on: what it has read so far.
+// A member of the manifest while the run goes on: its inputs so far.
 inline constexpr std::string_view inputs_so_far = "inputs_so_far";
 inline constexpr std::array<std::string_view, 4> files = {script, manifest, journal, RunLock::file_name};
 }  // namespace run_names

@@ -26,11 +26,11 @@ struct CaseInput {
 CaseInput input_of_case(const std::string& file);
 // Of a file as it is now; empty where there is none.
 std::string present_digest(const std::string& file);
-// What a run that is replayed or resumed loaded under that name; null where there is none.
+// The copy of a file that a replayed or resumed run loaded under that name; null without one.
 const LoadedFile* recorded_copy(const std::shared_ptr<const LoadedFiles>& loaded, const std::string& file);
 
 class Session;
-// What a case read is of the run, or of the case that its ensemble stands in.
+// Adds the files of a case to the inputs of the run, or of the outer case.
 void note_inputs_of_case(const Session& session, const std::vector<CaseInput>& inputs);
 
 struct CaseNotes {

@@ -105,7 +105,7 @@ class Session {
   // What lab.knob.set does with a value that the knob takes; empty where nothing is run again.
   std::function<void(const std::string& name, const std::string& value)> move_knob;
   ScriptSpelling script;  // as it was named; empty where there is none
-  // Of a run that is replayed or resumed: the script files it loaded, which are loaded again; may be null.
+  // The script files of a replayed or resumed run, which are loaded again; may be null.
   std::shared_ptr<const LoadedFiles> loaded;
   std::string script_digest;     // of the text of the script and its arguments; may be empty
   int ensembles = 0;             // that the script has begun

@@ -19,8 +19,7 @@ struct StateCloser {
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
 
-// Where the text of a script begins: behind a byte-order mark, and behind a first line "#!...", which is for
-// the shell.
+// The first byte of a script after a byte-order mark or a first line "#!...", which is for the shell.
 std::size_t begin_of_script(std::string_view text);
 
 // The pattern by which `require` looks in a folder.
