@@ -112,9 +112,6 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }
-    if (list.is_table() && length == 0)
-      problems.push_back(quoted(path) +
-                         " is an empty list, which leaves no case; give it at least one value");
     for (std::int64_t k = 1; k <= length; ++k)
       list.element(k, [&](const Argument& item) {
         values.push_back(read_value(name, item, path + "[" + std::to_string(k) + "]"));
@@ -383,7 +380,9 @@ Values ensemble(Call& call) {
       return dry_rows(call, keys, run);
     }
     if (keys.count() == 0)
-      session.monitor().warn(where(call.L) + "lab.ensemble: `cases` is empty, so `run` is never called");
+      session.monitor().warn(
+          where(call.L) + "lab.ensemble: " + (keys.cases ? "`cases` is empty" : "a list in `over` is empty") +
+          ", so there is no case and `run` is never called");
     const Stream seeds(session.seed, "ensemble");
     const auto setup = [&](std::size_t k) {
       CaseSetup one = common;
