@@ -45,7 +45,7 @@ LineKind kind_of(std::string_view line) {
       begins = begins || k == 0;
     } else {
       ++words;
-      units += unit_in_cell(utf8_or_latin1(cells[k])) ? 1 : 0;
+      units += unit_in_cell(utf8_or_cp1252(cells[k])) ? 1 : 0;
     }
   }
   using Kind = LineKind::Kind;
