@@ -4,16 +4,19 @@ _asperity() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]} options=
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "run replay accuracy serve check explain repl lesson help materials version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "run replay press-log accuracy serve check explain cases status repl lesson help materials version" -- "$word")
     return
   fi
   case $command in
-    run) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --resume --reuse --store-limit --store --shard --confined --read --without-barriers --limit-disk" ;;
+    run) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --resume --reuse --store-limit --store --shard --case --merge-only --confined --read --without-barriers --limit-disk" ;;
     replay) options="--help --from --set --out --threads --limit-memory --trust --confined --read --without-barriers --limit-disk --limit-time" ;;
+    press-log) options="--help --area --skip --columns --turn-step --specimen --seed --limit-time --out --threads --limit-memory" ;;
     accuracy) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --at-most --repeats --truth" ;;
     serve) options="--help --port --open --out --runs --limit-time --limit-memory --classroom --students --names" ;;
     check) options="--help --seed --limit-time --knob" ;;
     explain) options="--help --seed --limit-time --knob --json" ;;
+    cases) options="--help --seed --limit-time --knob --list" ;;
+    status) options="--help" ;;
     repl) options="--help --out --threads --limit-memory --seed --limit-time --no-history --trust" ;;
     lesson) options="--help --copy --run --out --threads --limit-memory" ;;
     help) options="--help --reference --types --manual --completion" ;;
@@ -25,12 +28,12 @@ _asperity() {
     return
   fi
   case $command:$before in
-    *:--out | *:--resume | *:--reuse | *:--store | replay:replay)
+    *:--out | *:--resume | *:--reuse | *:--store | replay:replay | status:status)
       mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     serve:--names) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
-    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--knob|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
+    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--case|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|press-log:--area|press-log:--skip|press-log:--columns|press-log:--turn-step|press-log:--specimen|press-log:--seed|press-log:--limit-time|press-log:--out|press-log:--threads|press-log:--limit-memory|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--knob|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|cases:--seed|cases:--limit-time|cases:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
     lesson:*) mapfile -t COMPREPLY < <(compgen -W "roughness fractal_dimension boxes_and_half_space real_area turning tilt accuracy press_log same_numbers" -- "$word") ;;
-    run:* | check:* | explain:* | accuracy:*)
+    run:* | check:* | explain:* | cases:* | accuracy:*)
       mapfile -t COMPREPLY < <(compgen -f -X '!*.lua' -- "$word"; compgen -d -- "$word") ;;
   esac
 }

@@ -296,7 +296,7 @@
 ---@class asperity.LedgerLine
 ---@field call string the function, as "contact:press"
 ---@field in_case boolean whether cases of an ensemble called it
----@field times integer how often it was called
+---@field times integer how often it was called; of functions that are not heavy, calls of 50 us and longer
 ---@field seconds number of all calls (s)
 ---@field transforms number Fourier transforms of all calls
 ---@field bytes integer greatest memory of one call
@@ -575,7 +575,7 @@ local Material = {}
 ---@field y? number|string way along y (a length, default 0)
 
 ---@class asperity.options.surface.cropped
----@field size? number|string|table size of the part; or give cells (a length|{a length, a length} above 0)
+---@field size? number|string|table size of the part, taken to whole cells; or give cells (a length|{a length, a length} above 0)
 ---@field cells? integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536)
 ---@field x? number|string lower left corner of the part, taken to the nearest node (a length at least 0, default 0)
 ---@field y? number|string lower left corner of the part, taken to the nearest node (a length at least 0, default 0)
@@ -1348,7 +1348,7 @@ function Stylus:closed(surface) end
 ---@field digest string equal protocols have equal digests
 local Protocol = {}
 
----Does one event after another to a contact, one a turn of a for loop, which is given the event and the state of a press, nil after any other. An event that fails raises an error, and leaves the contact as it was before that event; a loop that is broken off leaves the rest undone.
+---Does one event after another to a contact, one a turn of a for loop, which is given the event and the state of a press, nil after any other. A turn or a load that the contact cannot take is an error before the first event. An event that fails raises an error, and leaves the contact as it was before that event; a loop that is broken off leaves the rest undone.
 ---@param contact asperity.Contact what it is done to
 ---@return fun(): asperity.ProtocolEvent, asperity.State|nil
 function Protocol:on(contact) end
@@ -1933,8 +1933,8 @@ function SpreadState:write(name, path) end
 ---The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.
 ---@class asperity.lab
 ---@field rigid asperity.Material a body that does not deform
----@field materials asperity.Material[] the materials known by name
----@field sorted function lab.sorted(t) goes through a table in the order of its keys, for a for loop
+---@field materials asperity.Material[] the materials known by name, a list; lab.materials.steel is one of them
+---@field sorted function lab.sorted(t) goes through a table in the order of its keys, for a for loop, as `pairs` does in a script (numbers, strings by their bytes, booleans); other keys than numbers and strings are refused
 ---@field version string the version of the program
 local lab = {}
 
@@ -2170,7 +2170,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension, as it is or packed with gzip. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
+---A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension, as it is or packed with gzip. Points that it marks as not measured stay missing. y runs upwards: j = 0 is the lowest line, whichever a format stores first. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -2405,6 +2405,7 @@ function lab.spread.contact(options) end
 ---@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
 ---@field text? string|string[] columns that hold texts, whatever their cells look like (string|string[])
 ---@field stamps? "first"|"1970" what dates and times of day are counted from, in seconds: the first one of their column, or the beginning of 1970 ("first"|"1970", default "first")
+---@field steps_back? "midnight"|"winter time" what it means that times step back: a day is added where times of day fall by more than half a day, or an hour where dates without a zone fall by about one ("midnight"|"winter time", default nothing)
 
 ---@class asperity.options.lab.table.from
 ---@field columns? string[] the names of columns in the order in which they stand (string[], default in the order of their names, as rows bring them)
@@ -2413,7 +2414,7 @@ function lab.spread.contact(options) end
 ---@class asperity.lab.table
 lab.table = {}
 
----A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Latin-1): a line of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two ways is an error that names the key that decides.
+---A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two ways is an error that names the key that decides.
 ---@param path string the file
 ---@param options? asperity.options.lab.table.read
 ---@return asperity.Table
