@@ -92,7 +92,8 @@ TEST_F(RunDirectoryTest, OutMayBeMissingOrEmptyOnly) {
   s.out = folder / "a" / "b";
   EXPECT_EQ(RunDirectory(s).path(), folder / "a" / "b");
   EXPECT_EQ(error_of([&] { RunDirectory again(s); }),
-            "bad_value: `--out` names `" + s.out->string() + "`, which is not empty; give a new directory");
+            "bad_value: `--out` names `" + s.out->string() +
+                "`, which is not empty; give a new directory, or --resume to go on with the run there");
   s.out = folder / "empty";
   fs::create_directory(*s.out);
   EXPECT_EQ(RunDirectory(s).path(), *s.out);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // t:mean and t:histogram: means of a column with their intervals, as a table, and how often its values fall
 // into bins.
+#include <algorithm>
+
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
