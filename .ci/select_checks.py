@@ -59,7 +59,7 @@ GROUPS = {
     "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
     "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
     "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
-    "command_line": ("command line: ?(CommandLine|replay|knobs|prompt|completion|shard|resume|run directory|power cut|processors)", PROGRAM + ("bindings/web/serve_command",), ("tests/scripts/runner",)),
+    "command_line": ("command line: ?(CommandLine|replay|knobs|prompt|completion|shard|resume|run directory|whole record|fixed order|power cut|processors)", PROGRAM + ("bindings/web/serve_command",), ("tests/scripts/runner",)),
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
     "reproductions": ("(reproductions|known to fail): ", WEB + ("docs", "examples/paper", "README.md"),
                       ("tests/reproductions", "tests/known_to_fail")),
