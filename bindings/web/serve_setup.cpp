@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 
