@@ -12,7 +12,8 @@ begin()
 head = ("fileformat = bcrf_unicode\nheadersize = 2048\nxpixels = 3\nypixels = 2\nxlength = 3000\nylength = 2000\n"
         "intelmode = 1\n")
 write("a.bcrf", head.ljust(2048, "%").encode("utf-16-le") + struct.pack("<6f", 1, 2, 3, 4, 5, 6))
-assert printed('print(lab.surface.read("a.bcrf"):height(2, 1) / 1e-9)').startswith("6.0")
+# The file stores its top line first; the lowest line has j = 0.
+assert printed('print(lab.surface.read("a.bcrf"):height(2, 0) / 1e-9)').startswith("6.0")
 
 heights = [1e-6, 2e-6, math.inf, 4e-6, 5e-6, 6e-6]
 write_zip("alicona.x3p", x3p(struct.pack("<6d", *heights)))
