@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plain English, counted: rates in comments and documents, per room and per file of at least 300 words. No rate may exceed its
-target and its recorded rate in tests/checks/english.txt. Commit subjects are imperative and have at most 72 characters.
+"""Plain English, counted: rates in comments and documents, per room and per file of at least 300 words. A rate fails if it
+exceeds both its target and its recorded rate in tests/checks/english.txt. Commit subjects are imperative and have at most 72 characters.
 
 usage: english.py [FOLDER]           compare; a file that became worse is printed with its sentences to look at
        english.py --write [FOLDER]   lower the recorded rates to the measured ones, add new files, drop files that are gone
