@@ -259,6 +259,11 @@ void ResultFiles::ready_folder() {
   needed_on_disk_ = true;
 }
 
+bool ResultFiles::takes(std::int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  return make_room(bytes);
+}
+
 bool ResultFiles::has_room(std::int64_t bytes) {
   if (make_room(bytes)) return true;
   const bool shared = setup_.most_added - added_ < bytes;

@@ -51,6 +51,8 @@ class ResultFiles final : public ResultStore {
     double seconds_saved = 0;  // what the found ones had cost
   };
   Counts counts() const;
+  // Whether another file of so many bytes may be added to the folder. They are then counted.
+  bool takes(std::int64_t bytes);
   // Until the disk has everything that was kept. What cannot be brought there is noticed.
   void bring_to_disk();
   // What went wrong, a sentence each: results that were damaged, or could not be kept.

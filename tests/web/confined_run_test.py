@@ -412,7 +412,7 @@ def test_stores_and_shards():
         # Every case result is copied, for a later resume. The shared store has the list of its cases besides, for `status`.
         taken, shared = set(os.listdir(top + "/home/work/U/store")), set(os.listdir(top + "/home/data/store"))
         assert "4 results" in reused.stderr and taken < shared and len(shared - taken) == 1, (reused, shared - taken)
-        # S2: it adds no more to a folder of others than it may take on the disk.
+        # It adds no more to a folder of others than it may take on the disk, the list of cases included.
         put(top, script.replace("4 }", ", ".join(map(str, range(4, 250))) + " }"))
         little = asperity(top, "run", "--confined", "--store", "../data/little", "--shard", "1/1", "--limit-disk", "60K", "s.lua")
         assert little.returncode == 1 and "60 KiB that it may add to its store" in little.stderr, little

@@ -392,7 +392,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   int status = done;
   std::string why;
-  RunContext context{command, text, run, monitor, watchdog, summary};
+  RunContext context{command, text, run, monitor, watchdog, results, summary};
   try {
     why = work(context);
     if (!why.empty()) status = failed;
@@ -465,6 +465,7 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
               context.command.shard,
               context.command.one_case,
               context.command.merge_only,
+              [&results = context.results](std::int64_t bytes) { return results.takes(bytes); },
               {},
               {}};
     session.shared = &shared;

@@ -17,6 +17,7 @@
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity {
+class ResultFiles;
 class RunDirectory;
 class RunLock;
 }  // namespace asperity
@@ -95,6 +96,7 @@ struct RunContext {
   std::shared_ptr<RunDirectory> run;
   TerminalMonitor& monitor;
   Watchdog& watchdog;
+  ResultFiles& results;
   std::function<void()> summary;  // says on standard error how the run ended, and where its results are
 };
 

@@ -47,7 +47,8 @@ CaseRoster roster_from(const Json& json) {
 }  // namespace
 
 void note_roster(const fs::path& store, const std::string& script_digest, CaseRoster roster,
-                 std::size_t cases, const std::function<RosterEntry(std::size_t)>& entry) {
+                 std::size_t cases, const std::function<RosterEntry(std::size_t)>& entry,
+                 const std::function<bool(std::int64_t bytes)>& fits) {
   const std::string name = Digester()
                                .add(script_digest)
                                .add(roster.build)
@@ -62,15 +63,17 @@ void note_roster(const fs::path& store, const std::string& script_digest, CaseRo
     const RosterEntry one = entry(k);
     list.push_back(Json::object({{"name", one.name}, {"keys", Json::strings(one.keys)}}));
   }
-  const Json json = Json::object({{"script", roster.script},
-                                  {"place", roster.place},
-                                  {"build", roster.build},
-                                  {"ensemble", roster.ensemble},
-                                  {"shards", roster.shards},
-                                  {"cases", std::move(list)}});
+  const std::string text = Json::object({{"script", roster.script},
+                                         {"place", roster.place},
+                                         {"build", roster.build},
+                                         {"ensemble", roster.ensemble},
+                                         {"shards", roster.shards},
+                                         {"cases", std::move(list)}})
+                               .text();
+  if (!fits(static_cast<std::int64_t>(text.size()) + 1)) return;
   try {
     fs::create_directories(file.parent_path(), problem);
-    write_atomically(file, json.text() + "\n");
+    write_atomically(file, text + "\n");
   } catch (const Error&) {
     // The store says itself what it cannot write.
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -28,9 +29,11 @@ struct CaseRoster {
   std::vector<RosterEntry> cases;
 };
 
-// Writes the list unless it is there. A list that cannot be written is left out: no result depends on it.
+// Writes the list unless it is there. A list that cannot be written or does not fit is left out: no result
+// depends on it.
 void note_roster(const std::filesystem::path& store, const std::string& script_digest, CaseRoster roster,
-                 std::size_t cases, const std::function<RosterEntry(std::size_t)>& entry);
+                 std::size_t cases, const std::function<RosterEntry(std::size_t)>& entry,
+                 const std::function<bool(std::int64_t bytes)>& fits);
 
 // The lists of a store, by script and ensemble. Damaged ones are left out.
 std::vector<CaseRoster> rosters_in(const std::filesystem::path& store);

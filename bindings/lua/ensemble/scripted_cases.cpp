@@ -91,9 +91,8 @@ class SharedEnsemble {
     roster_.ensemble = session.numbered_ensembles;
     roster_.shards = shared_.shard ? shared_.shard->count : 0;
     roster_.build = build_identity();
-    note_roster(shared_.folder, session.script_digest, roster_, cases.count(), [&](std::size_t k) {
-      return RosterEntry{cases_.name(k), kept_.keys(setup_(k))};
-    });
+    const auto entry = [&](std::size_t k) { return RosterEntry{cases_.name(k), kept_.keys(setup_(k))}; };
+    note_roster(shared_.folder, session.script_digest, roster_, cases.count(), entry, shared_.takes);
   }
 
   void put_into(CaseSchedule& schedule) {
