@@ -47,7 +47,8 @@ struct SharedStore {
   std::optional<Shard> shard;     // it computes this share of the cases
   std::optional<CaseNumber> one;  // or this case
   bool merge_only = false;        // or no case; else all that are missing
-  std::function<bool(std::int64_t bytes)> takes;  // whether a file of so many bytes fits the folder's limit
+  // Whether a file of so many bytes fits the limit of the folder.
+  std::function<bool(std::int64_t bytes)> takes;
   // Says a sentence on standard error, outside the record.
   std::function<void(const std::string& sentence)> tell;
   // Ends the process.
