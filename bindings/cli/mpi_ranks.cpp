@@ -92,10 +92,7 @@ MpiRanks::MpiRanks(int started) {
                     " of them",
                 "start them by srun --mpi=pmix or by the mpirun of Open MPI");
   if (leads()) return;
-  std::string pattern = (std::filesystem::temp_directory_path() / "asperity-rank-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr)
-    throw Error(ErrorCode::bad_file, "no temporary folder can be made for rank " + std::to_string(rank_));
-  scratch_ = pattern;
+  scratch_.emplace("rank");
   // Rank 0 speaks for all.
   std::fflush(nullptr);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -121,11 +118,6 @@ std::optional<std::pair<int, std::string>> MpiRanks::receive_bytes() {
   return std::pair(from, std::string(bytes, static_cast<std::size_t>(length)));
 }
 
-void MpiRanks::remove_scratch() const {
-  std::error_code ignored;
-  if (!scratch_.empty()) std::filesystem::remove_all(scratch_, ignored);
-}
-
 int MpiRanks::leave(int status) {
   std::fflush(nullptr);
   const bool stopped = stop_flag().reason() != StopReason::none;
@@ -148,7 +140,7 @@ void MpiRanks::leave_stopped(int status) {
     const std::optional<Message> message = receive();
     if (message && message->kind == Kind::end) break;
     if (Clock::now() - begun > patience_failed) {
-      remove_scratch();
+      scratch_.reset();
       mpi_->abort(status);
     }
     if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -156,7 +148,7 @@ void MpiRanks::leave_stopped(int status) {
   ByteWriter out;
   out.text("");
   send(0, Kind::end, out.take());
-  remove_scratch();
+  scratch_.reset();
   mpi_->close();
 }
 
@@ -204,7 +196,7 @@ void MpiRanks::leave_following(int status) {
     if (message && message->kind == Kind::end) break;
     if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  remove_scratch();
+  scratch_.reset();
   mpi_->close();
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bindings/cli/shard.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 #include "engine/run/ranks.hpp"
 
 struct AsperityMpi;
@@ -36,7 +37,7 @@ class MpiRanks final : public Ranks {
   Team& team() override;
 
   // Where another rank than 0 keeps what its script writes, of which nothing remains.
-  std::string scratch_folder() const { return scratch_ + "/run"; }
+  std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 
   // The end of the run in this process: waits for the others, and returns the exit status. Where they do not
@@ -49,11 +50,11 @@ class MpiRanks final : public Ranks {
   int leave_leading(int status);
   void leave_following(int status);
   void leave_stopped(int status);
-  void remove_scratch() const;
 
   const AsperityMpi* mpi_ = nullptr;
-  std::unique_ptr<Team> team_;  // made when it is first needed
-  std::string scratch_, why_;
+  std::unique_ptr<Team> team_;              // made when it is first needed
+  std::optional<TemporaryFolder> scratch_;  // of every rank but 0
+  std::string why_;
 };
 
 }  // namespace asperity::cli

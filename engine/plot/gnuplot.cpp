@@ -23,6 +23,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
@@ -49,29 +50,6 @@ std::size_t character_length(std::string_view text, std::size_t k) {
     if ((byte(k + i) & 0xC0) != 0x80) return 0;
   return length;
 }
-
-// A directory that is gone, with all in it, when the run of gnuplot is over.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::error_code ignored;
-    fs::path base = fs::temp_directory_path(ignored);
-    if (base.empty()) base = "/tmp";
-    std::string pattern = (base / "asperity-picture-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", base, errno);
-    path_ = pattern;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -256,7 +234,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
     drawn.picture = without_date(std::move(drawn.picture));
     return drawn;
   }
-  const TemporaryDirectory folder;
+  const TemporaryFolder folder("picture");
   write_atomically(folder.path() / "script", script_for_file(script));
   for (const GnuplotData& item : data) write_atomically(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));

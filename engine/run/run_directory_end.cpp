@@ -121,6 +121,11 @@ void RunDirectory::note_end(RunStatus status, std::string_view reason, Json file
   manifest_.set("expectations", std::move(verdicts));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started_;
   unhashed_.set("finished", utc_now()).set("seconds", seconds.count());
+  // A confined run may start no program.
+  const bool draws = std::ranges::any_of(
+      outputs_, [](const std::string& file) { return file.ends_with(".png") || file.ends_with(".pdf"); });
+  if (draws && status == RunStatus::done && unhashed_.find("barriers") == nullptr)
+    unhashed_.set("machine", machine_facts_of_pictures());
   if (recorded_outputs_.is_null() || (status != RunStatus::done && status != RunStatus::failed)) return;
   Json::Members kept;
   for (const Json::Member& member : unhashed_.members())

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fstream>
+#include <memory>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -68,6 +71,19 @@ Json machine_facts() {
   return facts;
 }
 
+Json machine_facts_of_pictures() {
+  Json facts = machine_facts();
+  const auto ask = [&facts](const char* name, const char* command) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> answer(::popen(command, "r"), ::pclose);
+    std::array<char, 256> line{};
+    if (answer == nullptr || std::fgets(line.data(), line.size(), answer.get()) == nullptr) return;
+    facts.set(name, std::string(line.data(), std::strcspn(line.data(), "\n")));
+  };
+  ask("gnuplot", "gnuplot --version 2> /dev/null");
+  ask("picture_font", "fc-match -f '%{fullname[0]} %{fontversion}' 'DejaVu Sans' 2> /dev/null");
+  return facts;
+}
+
 std::vector<std::string> differing_machines(const Json& then, const Json& now) {
   std::vector<std::string> lines;
   const auto compare = [&](const char* name, const std::string& what, bool with_values) {
@@ -81,6 +97,8 @@ std::vector<std::string> differing_machines(const Json& then, const Json& now) {
   compare("c_library", "C library", true);
   compare("c_library_functions", "rounding of the C library's functions, which it chooses by the processor",
           false);
+  compare("gnuplot", "gnuplot", true);
+  compare("picture_font", "font in pictures", true);
   compare("build", "build of the program: identity", true);
   return lines;
 }

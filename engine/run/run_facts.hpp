@@ -24,6 +24,9 @@ Json machine_facts();
 // here Y". Empty where nothing does, or where the first is of a version that noted none of it.
 std::vector<std::string> differing_machines(const Json& then, const Json& now);
 
+// The same with the gnuplot and the font that draw pictures here, as far as programs name them.
+Json machine_facts_of_pictures();
+
 // Digest of a file's content, read in pieces of 1 MiB. Throws Error{bad_file}.
 std::string file_digest(const std::filesystem::path& path);
 // The same of content that was read already.

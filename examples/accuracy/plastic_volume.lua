@@ -2,7 +2,7 @@
 -- What does the plastic volume of eight events cost?
 --
 --   asperity run examples/accuracy/plastic_volume.lua
---   asperity run examples/accuracy/plastic_volume.lua -- budget=300 finest=512
+--   asperity run examples/accuracy/plastic_volume.lua -- budget=1200 finest=512
 --   asperity run examples/accuracy/plastic_volume.lua -- events=1
 --
 -- Two rough bodies are put down afresh and pressed eight times; how much is flattened for good in all? The
@@ -12,7 +12,7 @@ local lab = require "asperity"
 local accuracy = require "asperity.accuracy"
 local arguments = require "asperity.arguments"
 
-local options = arguments({ budget = 30, finest = 256, events = 8 }, ...)
+local options = arguments({ budget = 300, finest = 256, events = 8 }, ...)
 local metal = lab.material{ young = 1, poisson = 0, hardness = 0.03 }
 
 local function body(cells, seed)

@@ -56,11 +56,13 @@ RosterEntry entry(std::size_t k) {
   return {"case k = " + number, {"case plain " + number, "case drawn " + number}};
 }
 
+bool has_room(std::int64_t) { return true; }
+
 TEST(CaseRoster, IsReadAsItWasWritten) {
   const Store store;
-  note_roster(store.folder, "script", roster_of("aa"), 4, entry);
-  note_roster(store.folder, "script", roster_of("aa"), 4, entry);
-  note_roster(store.folder, "script", roster_of("bb"), 4, entry);
+  note_roster(store.folder, "script", roster_of("aa"), 4, entry, has_room);
+  note_roster(store.folder, "script", roster_of("aa"), 4, entry, has_room);
+  note_roster(store.folder, "script", roster_of("bb"), 4, entry, has_room);
   std::ofstream(store.folder / "ensembles" / "torn.json") << "{\"script\":";
   const std::vector<CaseRoster> rosters = rosters_in(store.folder);
   ASSERT_EQ(rosters.size(), 2U);
@@ -83,12 +85,25 @@ TEST(CaseRoster, CountsAResultWhateverFailedBeforeOrAfterIt) {
   store.keep("case plain 4", "aa");
   store.keep("failed case plain 4", "aa", "too late");
   store.keep("case plain 1", "bb");
-  note_roster(store.folder, "script", roster_of("aa"), 4, entry);
+  note_roster(store.folder, "script", roster_of("aa"), 4, entry, has_room);
   const StoreReport report = look_up(store.folder, rosters_in(store.folder).at(0));
   EXPECT_EQ(report.missing, std::vector<std::size_t>{0});
   ASSERT_EQ(report.failed.size(), 1U);
   EXPECT_EQ(report.failed[0].first, 1U);
   EXPECT_EQ(report.failed[0].second, "out of memory");
+}
+
+TEST(CaseRoster, IsLeftOutIfTheStoreHasNoRoomForIt) {
+  const Store store;
+  std::int64_t bytes = 0;
+  note_roster(store.folder, "script", roster_of("aa"), 4, entry, [&](std::int64_t asked) {
+    bytes = asked;
+    return false;
+  });
+  EXPECT_TRUE(rosters_in(store.folder).empty());
+  note_roster(store.folder, "script", roster_of("aa"), 4, entry, has_room);
+  const std::filesystem::directory_iterator written(store.folder / "ensembles");
+  EXPECT_EQ(static_cast<std::int64_t>(written->file_size()), bytes);
 }
 
 TEST(CaseRoster, NamesWholeShardsAndElseCases) {

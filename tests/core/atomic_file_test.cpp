@@ -3,6 +3,7 @@
 // one, each is known for what it is, and what a killed writer left is told from what somebody is writing.
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -160,7 +162,7 @@ TEST_F(PartFile, IsKnownByItsName) {
     EXPECT_FALSE(is_part(name)) << name;
 }
 
-TEST_F(PartFile, F10IsAbandonedWhenItsWriterHasEndedOrIsSilentForADay) {
+TEST_F(PartFile, IsAbandonedWhenItsWriterHasEndedOrIsSilentForADay) {
   const fs::path own = make(part_beside(folder / "a.csv")), dead = left_by_the_dead(folder / "a.csv"),
                  elsewhere = make(folder / ".a.00000000-1-0123456789abcdef.part.csv");
   EXPECT_FALSE(is_abandoned(own));
@@ -171,7 +173,7 @@ TEST_F(PartFile, F10IsAbandonedWhenItsWriterHasEndedOrIsSilentForADay) {
   EXPECT_TRUE(is_abandoned(elsewhere));
 }
 
-TEST_F(PartFile, F10IsSweptAsAsked) {
+TEST_F(PartFile, IsSweptAsAsked) {
   const fs::path inner = folder / "maps";
   fs::create_directory(inner);
   const fs::path own = make(part_beside(folder / "a.csv")), kept = make(folder / "a.csv"),
@@ -187,6 +189,27 @@ TEST_F(PartFile, F10IsSweptAsAsked) {
   EXPECT_FALSE(fs::exists(deep));
   EXPECT_TRUE(fs::exists(kept));
   EXPECT_EQ(sweep_parts(folder / "missing", Parts::all), 0);
+}
+
+TEST_F(PartFile, FoldersOfAKilledProcessAreRemovedByTheNextOne) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const TemporaryFolder left("picture", folder);
+    write_atomically(left.path() / "script", "plot x");
+    ::_exit(fs::exists(left.path()) ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(status, 0);
+  const auto folders = [&] { return std::distance(fs::directory_iterator(folder), {}); };
+  ASSERT_EQ(folders(), 1);
+  {
+    const TemporaryFolder own("rank", folder), other("rank", folder);
+    EXPECT_NE(own.path(), other.path());
+    EXPECT_EQ(fs::status(own.path()).permissions(), fs::perms::owner_all);
+    EXPECT_EQ(folders(), 2);
+  }
+  EXPECT_EQ(folders(), 0);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -44,27 +45,6 @@ constexpr const char* study_name = "accuracy";
 constexpr const char* wanted =
     "`asperity accuracy` studies a script that returns one number: end it with one, as in `return "
     "st.area_fraction`";
-
-// Where a repeated run writes; gone, with all in it, afterwards.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "asperity-accuracy-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw Error(ErrorCode::bad_file, "no temporary folder can be made for the repeated runs");
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // The script in a state of its own, ready to run.
 class ScriptRun {
@@ -114,7 +94,7 @@ class ScriptWork final : public StudyWork {
 
   void prepare(const Knobs& knobs) override {
     ready_.reset();
-    scratch_.emplace();
+    scratch_.emplace("accuracy");
     RunSetup setup;
     setup.script_name = context_.command.script;
     setup.script_text = context_.text;
@@ -136,7 +116,7 @@ class ScriptWork final : public StudyWork {
 
  private:
   RunContext& context_;
-  std::optional<ScratchFolder> scratch_;
+  std::optional<TemporaryFolder> scratch_;  // of a repeated run
   std::optional<ScriptRun> ready_;
 };
 

@@ -28,6 +28,7 @@
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/files/source_file.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
@@ -186,16 +187,8 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
 }
 
 // A run of one case writes into a folder among the temporary files, and leaves its case in the store alone.
-std::string make_case_folder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "asperity-case-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr)
-    throw Error(ErrorCode::bad_file, "no temporary folder can be made for a case");
-  return pattern + "/run";
-}
 void remove_case_folder(const RunCommand& command) {
-  std::error_code ignored;
-  if (command.one_case && command.out)
-    std::filesystem::remove_all(std::filesystem::path(*command.out).parent_path(), ignored);
+  if (command.case_folder) command.case_folder->remove();
 }
 
 }  // namespace
@@ -519,7 +512,10 @@ int run(const RunCommand& asked) {
   std::optional<LaunchedRank> launched;
   try {
     launched = launched_rank(shares);
-    if (asked.one_case && !launched) command.out = make_case_folder();
+    if (asked.one_case && !launched) {
+      command.case_folder = std::make_shared<const TemporaryFolder>("case");
+      command.out = (command.case_folder->path() / "run").string();
+    }
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;

@@ -20,6 +20,7 @@ namespace asperity {
 class ResultFiles;
 class RunDirectory;
 class RunLock;
+class TemporaryFolder;
 }  // namespace asperity
 
 namespace asperity::cli {
@@ -58,6 +59,8 @@ struct RunCommand {
   std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
   RunObserver* observer = nullptr;            // hears what is otherwise said on standard error; may be null
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
+
+  std::shared_ptr<const TemporaryFolder> case_folder;  // of `one_case`: removed at the end
 
   // Behind the barriers of the page's runs (bindings/web/confined/confined_command.hpp).
   bool confined = false;

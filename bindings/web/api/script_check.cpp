@@ -8,7 +8,7 @@
 #include "bindings/web/api/answers.hpp"
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/disk.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 
 namespace asperity::web {
 
@@ -33,15 +33,7 @@ Json mark(const char* severity, const std::string& message, const Json* line) {
 
 Json check_script(const std::string& script, const std::filesystem::path& scratch,
                   const std::vector<std::string>& barriers) {
-  std::string folder = (scratch / "check-XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr) throw_file_error("make a folder in", scratch, errno);
-  struct Gone {
-    std::string folder;
-    ~Gone() {
-      std::error_code ignored;
-      std::filesystem::remove_all(folder, ignored);
-    }
-  } const gone{folder};
+  const TemporaryFolder folder("check", scratch);
 
   ConfinedRequest request{.work = Work::check, .confinement = {}};
   request.confinement.memory_bytes = std::int64_t{512} << 20;
@@ -52,8 +44,8 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
   request.seconds = seconds;
   request.barriers = barriers;
   const Finished done =
-      run_confined(request, folder, std::chrono::milliseconds(static_cast<int>(1000 * seconds) + 3000),
-                   std::size_t{1} << 20);
+      run_confined(request, folder.path().string(),
+                   std::chrono::milliseconds(static_cast<int>(1000 * seconds) + 3000), std::size_t{1} << 20);
 
   Json::List marks;
   Json answer = Json::object();

@@ -22,6 +22,7 @@
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
@@ -151,23 +152,6 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   return parts;
 }
 
-// Gone with all in it.
-class TrialFolder {
- public:
-  TrialFolder() {
-    std::string pattern = (fs::temp_directory_path() / "asperity-barriers-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", pattern, errno);
-    path = pattern;
-  }
-  ~TrialFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TrialFolder(const TrialFolder&) = delete;
-  TrialFolder& operator=(const TrialFolder&) = delete;
-  fs::path path;
-};
-
 // What may stay open of what stays open. Throws Error{not_permitted} naming the rest, and Error{bad_value}.
 std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
   const std::vector<std::string> allowed = split_at_commas(without),
@@ -224,8 +208,8 @@ class Undertaking {
 
     BarrierReport report;
     {
-      const TrialFolder trial;
-      report = try_out_barriers(trial.path.string());
+      const TemporaryFolder trial("barriers");
+      report = try_out_barriers(trial.path().string());
     }
     const std::vector<std::string> open = open_ways(report, run_.without_barriers);
     if (!open.empty())
@@ -240,7 +224,9 @@ class Undertaking {
     keep_on_record(before);
     // To a script other files are not there, which its own messages cannot explain.
     if (status == cli::failed)
-      std::fprintf(stderr, "asperity: a confined script finds no files but those in %s; --read names more\n",
+      std::fprintf(stderr,
+                   "asperity: a confined script finds no files but those in %s; --read FOLDER adds others, also "
+                   "its own\n",
                    joined(places_.folders(), " and ").c_str());
     return status;
   }
@@ -273,58 +259,22 @@ class Undertaking {
     if (manifest.is_null()) return;
     purpose_ = purpose;
     const Json* const rest = found_in(manifest, "unhashed");
-    const Json* const path = rest == nullptr ? nullptr : found_in(*rest, "script_path");
     const Json* const barriers = rest == nullptr ? nullptr : found_in(*rest, "barriers");
     const Json* const read = barriers == nullptr ? nullptr : found_in(*barriers, "read");
     if (read != nullptr)
       for (const Json& place : read->list()) recorded_.push_back(place.string());
     if (replay_ != nullptr) places_.add(folder, canonical(folder, "replay"), false);
-    if (run_.script.empty() && path != nullptr) read_folder_of_record(folder, path->string());
-  }
-
-  // Where its script still lies as it was, that script's own folder.
-  void read_folder_of_record(const std::string& record, const std::string& script) {
-    const fs::path own = fs::path(script).parent_path();
-    const auto text = read_plain_file(record, "script.lua", most_script_bytes);
-    const auto there =
-        read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), most_script_bytes);
-    std::error_code problem;
-    const fs::path real = fs::canonical(own.empty() ? "." : own, problem);
-    if (!text || !there || *text != *there || problem || holds_the_home(real)) {
-      std::fprintf(
-          stderr,
-          "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
-          own.empty() ? "." : own.c_str(), script.c_str());
-      return;
-    }
-    places_.add(own.string(), real, false);
   }
 
   // The run keeps a copy of it, which is then published with the results.
   void read_script() {
+    const fs::path given(run_.script);
     run_.text = cli::read_script(run_.script);
-    const fs::path folder = read_own_folder(fs::path(run_.script).parent_path().string());
-    const fs::path real = fs::canonical(run_.script);
-    if (!is_at_or_above(folder, real))
+    const fs::path real = fs::canonical(given);
+    if (!is_at_or_above(canonical(given.parent_path().string(), "script"), real))
       throw Error(ErrorCode::not_permitted,
-                  "a confined script lies in its own folder, and " + asperity::quoted(run_.script) +
-                      " is a link to " + real.string(),
+                  "the confined script " + asperity::quoted(run_.script) + " is a link to " + real.string(),
                   "name the file itself");
-  }
-
-  fs::path read_own_folder(const std::string& folder) {
-    const fs::path real = canonical(folder, "script");
-    if (holds_the_home(real) && std::ranges::none_of(run_.read, [&](const std::string& named) {
-          std::error_code problem;
-          return fs::canonical(named, problem) == real;
-        }))
-      throw Error(ErrorCode::not_permitted,
-                  "a confined script reads its own folder, and that of " + asperity::quoted(run_.script) +
-                      " holds your home folder: " + real.string(),
-                  "put the script into a folder of its own, or add `--read " + real.string() +
-                      "` if it may read all of that");
-    places_.add(folder, real, false);
-    return real;
   }
 
   void check_recorded_folders() const {

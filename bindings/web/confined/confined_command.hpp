@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity run --confined`: a script of somebody else's behind the barriers of the page's runs. This program
-// is started again as a confined process (confined.hpp) that carries out the command: it reads the script's
-// own folder and those given by --read, writes the run directory and the store given, and reaches no other
+// is started again as a confined process (confined.hpp) that carries out the command: it reads the
+// script and the folders given by --read, writes the run directory and the store given, and reaches no other
 // file, process or network. Its output, its exit status and the signals that are meant for it pass through
 // here, its charts are drawn from here, and time and disk are watched from here. A run that was recorded so
 // is resumed and replayed so.

@@ -17,7 +17,7 @@
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/disk.hpp"
+#include "engine/core/files/temporary_folder.hpp"
 
 namespace asperity::web {
 
@@ -47,31 +47,14 @@ GnuplotResult ask(int socket, std::string_view script, std::span<const GnuplotDa
   return {(*answer)[1], (*answer)[2]};
 }
 
-// Gone with all in it.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "asperity-picture-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", pattern, errno);
-    path = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
-
 GnuplotResult draw(const std::vector<std::string>& request, const std::vector<std::string>& barriers,
                    const std::atomic<bool>& given_up) {
-  const Folder folder;
-  write_atomically(folder.path / "script", script_for_file(request[0]));
+  const TemporaryFolder folder("picture");
+  write_atomically(folder.path() / "script", script_for_file(request[0]));
   for (std::size_t k = 1; k + 1 < request.size(); k += 2) {
     if (!is_plain_name(request[k]))
       throw Error(ErrorCode::not_permitted, "data of a picture have a name that is none");
-    write_atomically(folder.path / request[k], request[k + 1]);
+    write_atomically(folder.path() / request[k], request[k + 1]);
   }
   ConfinedRequest work{.work = Work::draw, .confinement = {}};
   work.confinement.as = Confined::drawing;
@@ -82,8 +65,8 @@ GnuplotResult draw(const std::vector<std::string>& request, const std::vector<st
       barriers, [](const std::string& barrier) { return barrier.starts_with("Landlock"); });
   for (const std::string& barrier : barriers)
     if (!landlock || barrier != own_root_barrier) work.barriers.push_back(barrier);
-  const Finished done = run_confined(work, folder.path.string(), patience, std::size_t{1} << 16, &given_up);
-  std::string picture = read_plain_file(folder.path, "picture", most_bytes).value_or("");
+  const Finished done = run_confined(work, folder.path().string(), patience, std::size_t{1} << 16, &given_up);
+  std::string picture = read_plain_file(folder.path(), "picture", most_bytes).value_or("");
   if (done.status != 0 || picture.empty())
     throw Error(ErrorCode::bad_state,
                 done.status == 127

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes X3P (ISO 25178-72): incremental x and y, absolute z in double precision, MD5 of the data.
 // No date but a fixed one, so that the same surface gives the same bytes.
-// The archive is built by libzip from the heights where they lie; nothing is copied but the packed
-// bytes. A point that was not measured is NaN, as the standard has it for floating-point heights; its mask of
-// valid points is for integers, which have no such number.
+// libzip builds the archive in memory from the heights; only the packed bytes are copied. A point that was
+// not measured is NaN, as the standard has it for floating-point heights; its mask of valid points is for
+// integers, which have no such number.
 #include <zip.h>
 
 #include <array>
@@ -92,20 +92,19 @@ void write_x3p(const Surface& surface, const std::string& path) {
   const std::string checksum = md5_of(xml) + " *main.xml\n";
 
   AtomicFile file(path, FileWords::data);
-  int code = 0;
-  zip_t* zip = zip_open(file.temporary().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+  // libzip would write a file of its own next to the part, and a killed writer would leave it.
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* archive = zip_source_buffer_create(nullptr, 0, 0, &error);
+  zip_t* zip = archive == nullptr ? nullptr : zip_open_from_source(archive, ZIP_TRUNCATE, &error);
   const auto refuse = [&](const std::string& reason) {
     if (zip != nullptr) zip_discard(zip);
+    if (archive != nullptr) zip_source_free(archive);
     throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written: " + reason,
                 "check permission and space on the disk");
   };
-  if (zip == nullptr) {
-    zip_error_t error;
-    zip_error_init_with_code(&error, code);
-    const std::string reason = zip_error_strerror(&error);
-    zip_error_fini(&error);
-    refuse(reason);
-  }
+  if (zip == nullptr) refuse(zip_error_strerror(&error));
+  zip_source_keep(archive);
   const auto add = [&](const char* name, std::span<const char> bytes) {
     zip_source_t* source = zip_source_buffer(zip, bytes.data(), bytes.size(), 0);
     const zip_int64_t index = source == nullptr ? -1 : zip_file_add(zip, name, source, ZIP_FL_ENC_UTF_8);
@@ -121,6 +120,16 @@ void write_x3p(const Surface& surface, const std::string& path) {
   add("bindata/data.bin", data);
   add("md5checksum.hex", checksum);
   if (zip_close(zip) != 0) refuse(zip_strerror(zip));
+  zip = nullptr;
+  zip_stat_t facts;
+  if (zip_source_stat(archive, &facts) != 0 || zip_source_open(archive) != 0)
+    refuse(zip_error_strerror(zip_source_error(archive)));
+  std::string bytes(facts.size, '\0');
+  const zip_int64_t taken = zip_source_read(archive, bytes.data(), bytes.size());
+  zip_source_close(archive);
+  if (taken != static_cast<zip_int64_t>(bytes.size())) refuse("the archive cannot be read back");
+  zip_source_free(archive);
+  file.write(bytes);
   file.commit();
 }
 

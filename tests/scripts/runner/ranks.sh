@@ -100,10 +100,10 @@ lab.ensemble{ over = { k = { 1, 2, 3, 4 } }, run = function(case)
   return { k = case.k }
 end }
 LUA
-both_began() { [ -f $how/journal.jsonl ] && [ "$(ls -d asperity-rank-*/run 2> /dev/null | wc -l)" -ge 1 ]; }
+both_began() { [ -f $how/journal.jsonl ] && [ "$(ls -d .asperity-rank.*/run 2> /dev/null | wc -l)" -ge 1 ]; }
 for how in interrupt kill; do
   ends_soon $how both_began
-  rm -rf asperity-rank-*
+  rm -rf .asperity-rank.*
 done
 grep -q '"status": *"interrupted"' interrupt/manifest.json || { cat interrupt.txt; fail "interrupt: no record"; }
 

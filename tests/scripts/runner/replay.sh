@@ -169,3 +169,19 @@ rm damaged/worn.npy
 ends 2 "which may not make the same bytes again" "$program" run --resume damaged
 ends 0 "nothing to resume" "$program" run --resume earlier
 echo "replay: all as it should be"
+
+# A picture drawn with another font: the record names both fonts.
+cat > picture.lua <<'LUA'
+local lab = require "asperity"
+lab.surface.self_affine{ cells = 32, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.2, seed = 4 }:picture "p.png"
+LUA
+if command -v fc-match > /dev/null; then
+  font=$(fc-match -f '%{file}' 'DejaVu Sans:bold')
+  mkdir other_font
+  cp "$font" other_font/
+  printf '<?xml version="1.0"?><fontconfig><dir>%s/other_font</dir></fontconfig>\n' "$PWD" > fonts.conf
+  "$program" run picture.lua --out drawn 2> /dev/null
+  grep -q '"gnuplot": "gnuplot 5' drawn/manifest.json || fail "the manifest does not name gnuplot"
+  ends 0 "the same again" "$program" replay drawn --out drawn-again
+  ends 1 "recorded on another font in pictures: DejaVu Sans" env FONTCONFIG_FILE="$PWD/fonts.conf" "$program" replay drawn --out drawn-otherwise
+fi
