@@ -57,7 +57,8 @@ void add_trust(CLI::App& options, bool& trust) {
 void add_confinement(CLI::App& options, RunCommand& run, std::string& limit_disk) {
   options.add_flag(
       "--confined", run.confined,
-      "for a script of somebody else's: it reads no file but those of --read, writes the run directory and reaches no "
+      "for a script of somebody else's: it reads no file but those of --read, writes the run directory and "
+      "reaches no "
       "other file, process or network, by barriers of the operating system; 10 min, half the machine's "
       "memory and 1 GiB on the disk unless told otherwise");
   options

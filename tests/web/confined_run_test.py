@@ -91,7 +91,7 @@ def test_status_of_what_fails_passes_through():
         put(top, "error 'on purpose'")
         failed = asperity(top, "run", "--confined", "s.lua", "--out", "R")
         assert failed.returncode == 1 and "s.lua:1: on purpose" in failed.stderr, failed
-        assert f"no files but those in {top}/home/work/R; --read FOLDER adds others" in failed.stderr, failed
+        assert f"no files but those in {top}/home/work/R; --read FOLDER adds more" in failed.stderr, failed
         put(top, "os.exit(7)")
         assert asperity(top, "run", "--confined", "s.lua").returncode == 7
         assert asperity(top, "run", "--confined", "nothing.lua").returncode == 2
@@ -164,8 +164,8 @@ def test_one_process_works_in_a_run_directory():
                                cwd=top + "/home/work", text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env={**os.environ, "HOME": top + "/home"})
         assert run.stdout.readline() == "begun\n"
         there = {name: os.stat(f"{top}/home/work/R/{name}").st_mtime_ns for name in os.listdir(top + "/home/work/R")}
-        for arguments in (["run", "--confined", "s.lua", "--out", "R"], ["run", "s.lua", "--out", "R"], ["run", "--resume", "R"],
-                          ["run", "--confined", "s.lua", "--resume", "R", "--reuse", "R"], ["replay", "R", "--out", "R"]):
+        for arguments in (["run", "--confined", "s.lua", "--out", "R"], ["run", "s.lua", "--out", "R"], ["run", "--resume", "R", "--read", "../data"],
+                          ["run", "--confined", "--read", "../data", "s.lua", "--resume", "R", "--reuse", "R"], ["replay", "R", "--out", "R"]):
             second = asperity(top, *arguments)
             named = f"is being written by process {run.pid} on {os.uname().nodename}"
             assert second.returncode == 2 and named in second.stderr, (arguments, second)

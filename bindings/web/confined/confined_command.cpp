@@ -225,8 +225,7 @@ class Undertaking {
     // To a script other files are not there, which its own messages cannot explain.
     if (status == cli::failed)
       std::fprintf(stderr,
-                   "asperity: a confined script finds no files but those in %s; --read FOLDER adds others, also "
-                   "its own\n",
+                   "asperity: a confined script finds no files but those in %s; --read FOLDER adds more\n",
                    joined(places_.folders(), " and ").c_str());
     return status;
   }
