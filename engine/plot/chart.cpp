@@ -52,7 +52,7 @@ std::string count_sentence(std::size_t lost, std::size_t all, std::string_view w
          " not drawn: " + std::string(why);
 }
 
-// What is left out, and why, over all series.
+// Rows left out of all series, with the reasons.
 struct Losses {
   std::size_t all = 0, not_finite = 0, too_large = 0, not_positive_x = 0, not_positive_y = 0;
 
@@ -319,7 +319,7 @@ std::string title_of(const std::string& name) {
   return name.empty() ? " notitle" : " title " + gnuplot_text(name);
 }
 
-// What one series puts before and behind the others.
+// Layers of one series, in front of the others and behind.
 struct Layers {
   std::vector<std::string> behind, front;
 };

@@ -81,7 +81,7 @@ pid_t start(const fs::path& folder) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "messages", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  // A group of its own: Ctrl-C is for the run, which decides what becomes of its picture.
+  // In another process group: Ctrl-C goes to the run, which decides about the picture.
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);

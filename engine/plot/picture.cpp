@@ -99,7 +99,7 @@ std::string range_command(std::string_view axis, const AxisLayout& layout) {
          gnuplot_number(layout.high) + "]\n";
 }
 
-// Where a map stands on its canvas, all in pixels from the lower left corner.
+// Place of a map on its canvas, in pixels from the lower left corner.
 struct Canvas {
   double width, height, font;
   double left, bottom, map_width, map_height;

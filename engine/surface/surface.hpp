@@ -2,7 +2,7 @@
 // A rough surface: heights in metres on a regular grid, z pointing up out of the body. An immutable
 // value, cheap to copy: copies share the heights. What a generator or a file knows beyond the
 // heights (material, periodicity, variance past Nyquist) travels with it. A generated surface also knows
-// how to be made again on other cells: it is one continuous surface, of which the heights are samples.
+// how to be made again on other cells: it is one continuous surface, and the heights are samples.
 // A measured map may have holes, points that were not measured: nothing fills them unless asked. Whoever
 // needs every point asks for heights(), which refuses a map with holes; whoever knows what to do with
 // holes asks for measured_heights(), where they are NaN.
@@ -35,9 +35,9 @@ class Surface {
   // Throws Error{bad_value} naming the first node whose height is not finite, or when the field does
   // not fit the grid.
   Surface(const Grid& grid, Field heights, SurfaceTraits traits = {});
-  // The same of a map of which points may be missing: NaN is a point that was not measured. Without any it is
-  // the surface that the constructor makes, to the digest. Throws Error{bad_value} for infinite heights and
-  // where nothing was measured.
+  // A map with missing points: NaN is a point without a measurement. A map without NaN equals the surface that
+  // the constructor makes, also in its digest. Throws Error{bad_value} for infinite heights and if every point
+  // is missing.
   static Surface with_holes(const Grid& grid, Field heights, SurfaceTraits traits = {});
 
   const Grid& grid() const;
@@ -59,8 +59,8 @@ class Surface {
   Surface with_material(Material material) const;
 
   // The same surface, which `recipe` makes again on other cells: nodes that two grids share agree to rounding
-  // or as the generator documents. Neither digest nor equality know of it. A surface made anew from heights
-  // has none, so whatever changes heights drops it unless it says otherwise.
+  // or as the generator documents. The recipe is no part of digest or equality. A surface made anew from
+  // heights has no recipe, so a change of heights drops the recipe unless its comment says otherwise.
   Surface made_by(SurfaceRecipe recipe) const;
   const std::shared_ptr<const SurfaceRecipe>& recipe() const { return recipe_; }  // null: none
   // Made again by its recipe, with this material; none without a recipe, or where these cells cannot carry

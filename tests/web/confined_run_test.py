@@ -165,7 +165,7 @@ def test_one_process_works_in_a_run_directory():
         assert run.stdout.readline() == "begun\n"
         there = {name: os.stat(f"{top}/home/work/R/{name}").st_mtime_ns for name in os.listdir(top + "/home/work/R")}
         for arguments in (["run", "--confined", "s.lua", "--out", "R"], ["run", "s.lua", "--out", "R"], ["run", "--resume", "R", "--read", "../data"],
-                          ["run", "--confined", "--read", "../data", "s.lua", "--resume", "R", "--reuse", "R"], ["replay", "R", "--out", "R"]):
+                          ["run", "--confined", "--read", "../data", "s.lua", "--resume", "R", "--reuse", "R"], ["replay", "R", "--read", "../data", "--out", "R"]):
             second = asperity(top, *arguments)
             named = f"is being written by process {run.pid} on {os.uname().nodename}"
             assert second.returncode == 2 and named in second.stderr, (arguments, second)

@@ -81,7 +81,7 @@ pid_t start(const std::vector<int>& descriptors, const std::string& folder) {
     posix_spawn_file_actions_adddup2(&actions, descriptors[k], static_cast<int>(k));
   posix_spawn_file_actions_addclosefrom_np(&actions, static_cast<int>(descriptors.size()));
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  // A session of its own: Ctrl-C is for the server, which decides what becomes of its runs.
+  // In another session: Ctrl-C goes to the server, which decides about its runs.
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);

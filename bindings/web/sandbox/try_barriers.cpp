@@ -40,7 +40,7 @@ Barrier files() {
 }
 
 Barrier processes() {
-  // A call of its own, so that nothing of the library runs in a child there should not be.
+  // The bare system call: no code of the library may run in a child that should not exist.
   const long child = ::syscall(SYS_clone, SIGCHLD, nullptr, nullptr, nullptr, nullptr);
   if (child == 0) ::_exit(0);
   if (child > 0) ::waitpid(static_cast<pid_t>(child), nullptr, 0);
