@@ -35,9 +35,9 @@ class Surface {
   // Throws Error{bad_value} naming the first node whose height is not finite, or when the field does
   // not fit the grid.
   Surface(const Grid& grid, Field heights, SurfaceTraits traits = {});
-  // A map with missing points: NaN is a point without a measurement. A map without NaN equals the surface that
-  // the constructor makes, also in its digest. Throws Error{bad_value} for infinite heights and if every point
-  // is missing.
+  // A map with missing points: NaN is a point without a measurement. A map without NaN equals the surface
+  // that the constructor makes, also in its digest. Throws Error{bad_value} for infinite heights and if every
+  // point is missing.
   static Surface with_holes(const Grid& grid, Field heights, SurfaceTraits traits = {});
 
   const Grid& grid() const;
