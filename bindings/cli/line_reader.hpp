@@ -66,7 +66,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// The candidates as lines for a terminal so wide: with what is known of them while they are few.
+// The candidates as lines for a terminal of this width; a few candidates get their descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

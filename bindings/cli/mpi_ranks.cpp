@@ -40,8 +40,8 @@ std::optional<int> whole(const std::optional<std::string>& text) {
   return std::stoi(*text);
 }
 
-// Of `srun -n 3`. A batch script has SLURM_NTASKS too, and is one process: only srun sets the number of tasks
-// of the step, and PMIx the rank.
+// For `srun -n 3`. SLURM_NTASKS is not enough: a batch script has this variable and is one process. Only srun
+// sets the number of tasks of the step, and only PMIx sets the rank.
 std::optional<LaunchedRank> started_by_srun(bool share) {
   const auto rank = whole(environment_variable("PMIX_RANK"));
   const auto tasks = whole(environment_variable(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS"));
@@ -122,7 +122,7 @@ int MpiRanks::leave(int status) {
   std::fflush(nullptr);
   const bool stopped = stop_flag().reason() != StopReason::none;
   if (leads()) {
-    // A stop that came when the run was done changes nothing of it.
+    // A stop after the end of the run changes nothing.
     if (stopped && status != 0) mpi_->abort(status);
     return leave_leading(status);
   }

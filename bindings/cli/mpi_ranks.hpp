@@ -15,8 +15,8 @@ struct AsperityMpi;
 
 namespace asperity::cli {
 
-// What the launcher says of this process before MPI is started; none where it is alone. Tasks of Slurm's srun
-// that `share` a store by themselves are alone too. Throws Error{bad_value} for tasks that srun started
+// The rank that the launcher gave to this process, before MPI starts; none for a single process. Tasks of
+// srun are single processes if they `share` a store. Throws Error{bad_value} for tasks that srun started
 // without MPI.
 struct LaunchedRank {
   int rank = 0, size = 1;
@@ -36,12 +36,12 @@ class MpiRanks final : public Ranks {
 
   Team& team() override;
 
-  // Where another rank than 0 keeps what its script writes, of which nothing remains.
+  // Temporary folder for files of a rank other than 0.
   std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 
   // The end of the run in this process: waits for the others, and returns the exit status. Where they do not
-  // come to their end, ends all of them.
+  // come to their end, ends every process.
   int leave(int status);
 
  private:

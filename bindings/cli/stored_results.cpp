@@ -84,8 +84,8 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   return changed;
 }
 
-// A share of the cases stays what it was, in the same store. A confined run takes no folder from a record,
-// which may come from elsewhere.
+// A resumed run keeps its share and its store. A confined run takes no folder from a record, because a record
+// may come from elsewhere.
 void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (recorded.store.empty()) return;
   if (!command.barriers.is_null() && !command.store)
@@ -203,7 +203,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     if (command.damages.empty()) return {};
     command.journal_lost = !recorded.journal_fault.empty();
   } else if (!recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty())) {
-    // Cases that failed then may be mended: the journal is made again from the script and the store.
+    // Failed cases may succeed now, so the journal is made again from the script and the store.
     command.journal_lost = true;
   } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};

@@ -29,8 +29,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 // with".
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
-// Takes the script files that the recorded run loaded from its copies, and tells which originals are others
-// now.
+// Loads script files from the copies in the recorded run, and names originals with other content.
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell);
 
 // How results of a run are kept, and where else they are looked for; the folder is left open. Throws

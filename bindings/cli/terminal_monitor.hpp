@@ -37,8 +37,8 @@ class TerminalMonitor final : public Monitor {
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
   ResultStore* results() override { return results_; }
-  // From here on warnings that differ in numbers alone are shown once; tell_alike() counts the others. The
-  // journal has all.
+  // From now on, warnings with equal text except for numbers are shown once; tell_alike() counts the others.
+  // The journal holds all of them.
   void count_alike() { count_alike_ = true; }
   void tell_alike();
   // Takes the progress line away.

@@ -29,7 +29,7 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // Whether SIGTERM or SIGHUP was met, which mean all of it and not the work of the moment.
+  // Whether SIGTERM or SIGHUP came: it ends the whole program, not only the current work.
   bool terminated() const { return terminated_.load(); }
 
   // While it lives, stops reach this Lua state; it must go before the state is closed.

@@ -31,7 +31,7 @@ class StraySearch {
     for (std::size_t k = 0; k < y_.size(); ++k) suspect_[k] = std::abs(y_[k] - medians[k]) > tolerance_;
   }
 
-  // Nothing can be told where hardly any load is longer than a short press.
+  // If hardly any load lasts longer than a short press, presses and stray readings look alike.
   bool tells() const { return range_ > tolerance_; }
 
   Array<std::uint32_t> mend() {
@@ -61,8 +61,8 @@ class StraySearch {
     return *middle;
   }
 
-  // The nearest samples on one side that are no suspects, as a line: through four of them, or through two
-  // where a corner lies among the four.
+  // A line through the nearest four unsuspected samples on one side; through two, if a corner is among the
+  // four.
   struct Side {
     double nearest = 0, time = 0;
     LineMoments line{};
@@ -88,8 +88,8 @@ class StraySearch {
     return side;
   }
 
-  // Clears the suspects that lie between their neighbours or on the line that those before them go along:
-  // a load that rises may shoot over, and in the last round by as much as it steps off the line.
+  // Clears suspects between their neighbours, or on the line of the samples before them: a rising load may
+  // overshoot. The last round allows an overshoot as large as the step off that line.
   void acquit(bool last) {
     std::vector<bool> still = suspect_;
     for (std::size_t k = 0; k < y_.size(); ++k) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stray readings of a recording: up to three in a row that leave the lines through their neighbours, on ramps
-// and holds alike, while the readings after them go on as those before. A running median over nine readings
-// names the suspects (Hampel's filter). A suspect is stray if it also lies outside what the lines before it,
-// after it and across it allow; so corners, steps and overshoots are kept.
+// Stray readings of a recording: up to three in a row off the lines through their neighbours, on ramps and
+// holds. A running median over nine readings finds suspects (Hampel's filter). A suspect is stray if it is
+// also off the lines before, after and across it. So corners, steps and overshoots stay.
 //
-// Where the load elsewhere rises and falls within a sample or two, two or three high readings may be a short
-// press. They are kept, and so is a short rest between two different loads. One reading alone never is a
-// press, and readings of less load within a hold are no release.
+// If the load rises and falls within one or two samples elsewhere, two or three high readings may be a short
+// press. Such readings stay, and so does a short rest between two different loads. A single reading is never
+// a press, and lower readings within a hold are no release.
 #pragma once
 
 #include <cstdint>

@@ -192,7 +192,7 @@ class CaseScheduler {
     return out.take();
   }
 
-  // Whether to report on a store that other processes fill, before anything is computed.
+  // Whether to report on the shared store before the first case.
   bool looks_first() const { return schedule_.report && !schedule_.own && !follows(); }
 
   // Looks up all cases before any is computed or handed out.

@@ -4,7 +4,7 @@
 // warned of in the order of the cases, and carries a stop to the cases that run. A case that ends while its
 // process is being stopped has no result. Stored cases are taken from the store; a shard takes those of
 // others there as well. With more than one thread the engine's own loops stay on the thread of their case;
-// results are the same bits for any number. What a case is and how it is computed is the caller's.
+// results are the same bits for any number. The caller defines and computes the cases.
 #pragma once
 
 #include <cstddef>
@@ -73,7 +73,7 @@ class EnsembleCases {
   virtual Finished from_bytes(std::size_t k, std::string_view bytes) const = 0;
 };
 
-// What the store of several processes lacks, for the ensemble that one of them has come to.
+// Missing and failed cases of an ensemble in the shared store.
 struct StoreReport {
   std::vector<std::size_t> missing;                         // cases
   std::vector<std::pair<std::size_t, std::string>> failed;  // own cases, and why
@@ -88,8 +88,8 @@ struct CaseSchedule {
   bool needs_others = true;  // with `own`: whether the script goes on, and so needs the other rows
   // What cases printed, in their order.
   std::function<void(std::string_view)> print{};
-  // Called with what the store lacks: after the own cases of `own`, or else before any case is computed. It
-  // may end the process. Empty: the store is of this run alone.
+  // Called with the missing and failed cases: after the cases of `own`, or else before the first case. It may
+  // end the process. Empty: no other run uses the store.
   std::function<void(const StoreReport& report)> report{};
 };
 

@@ -54,7 +54,7 @@ std::optional<std::string> named(const Json& entry) {
   return file != nullptr ? std::optional(file->string()) : std::nullopt;
 }
 
-// A record from elsewhere names no other file than one of its own folder of copies.
+// A record may come from elsewhere, so it may name only files in its folder of copies.
 void read_loaded(RecordedRun& run) {
   for (const Json& entry : run.inputs.list()) {
     const Json *copy = entry.find("copy"), *digest = entry.find("digest");

@@ -18,7 +18,7 @@ namespace asperity {
 
 struct DifferingMember;
 
-// A script file that a run loaded by `require`, `dofile` or `loadfile`, as its directory keeps it.
+// The recorded copy of a script file loaded by `require`, `dofile` or `loadfile`.
 struct LoadedFile {
   std::string text, digest;
 };
@@ -68,8 +68,8 @@ std::vector<std::string> altered_outputs(const RecordedRun& run);
 // come to its end. O(their bytes).
 std::vector<std::string> altered_inputs(const RecordedRun& run);
 
-// A sentence for each loaded file that, found from the working folder, is another one now: a run that is
-// replayed or resumed takes its copy.
+// A sentence for each loaded file with other content now, as seen from the working folder. Replay and resume
+// load the copies.
 std::vector<std::string> altered_originals(const RecordedRun& run);
 
 struct Difference {

@@ -118,8 +118,7 @@ class RunDirectory {
   // made. The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 
-  // Notes which of these files are there by now: one of them that is missing at the end was removed by
-  // others.
+  // Notes the outputs on the disk. If one of them is missing at the end, another program removed it.
   void see_outputs();
   // The script itself removed or renamed a file; `place` is what path_for() returned.
   void forget_output(const std::filesystem::path& place);

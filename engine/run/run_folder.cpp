@@ -111,7 +111,7 @@ void wait_for_names_in(const fs::path& folder) {
 
 std::string text_of_run_file(const fs::path& path) {
   std::error_code missing;
-  // A pipe that stands in its place would keep whoever opens it.
+  // Opening a pipe would block.
   if (!fs::is_regular_file(path, missing) || ::access(path.c_str(), R_OK) != 0)
     throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
                 "give the directory of a run, such as runs/quick_start-1");

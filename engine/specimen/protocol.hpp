@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A loading protocol: what is done to a specimen pair, in order. A press, a release, a fresh placement, a
-// turn or a shift of the upper body, each perhaps with the time at which a log recorded it. An immutable
-// value, cheap to copy; it knows no contact, and does nothing itself (protocol_run.hpp does). Whether a
-// contact can turn by an angle, or carry a load, is for the contact to say (SpecimenPair::check_ahead).
+// A loading protocol: the events of a specimen pair in order. An event is a press, a release, a fresh
+// placement, a turn or a shift of the upper body; it may have the time of a log. A protocol is an immutable
+// value, cheap to copy, and knows no contact: protocol_run.hpp carries it out, and SpecimenPair::check_ahead
+// checks its turns and loads.
 #pragma once
 
 #include <cstdint>

@@ -18,8 +18,8 @@ namespace asperity {
 // Several runs may share a protocol, and take turns on one pair.
 class ProtocolRun {
  public:
-  // Throws for the first event that the pair can refuse before any is done (SpecimenPair::check_ahead); the
-  // sentence names the event.
+  // Throws for the first event with an error that is known in advance (SpecimenPair::check_ahead) and names
+  // the event.
   ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair);
 
   const Protocol& protocol() const { return protocol_; }
@@ -36,7 +36,7 @@ class ProtocolRun {
 
  private:
   std::string title(std::size_t k) const;
-  // Calls it; what it throws gets the title of event k.
+  // Calls `step`; an error gets the title of event k.
   template <class Work>
   void with_title(std::size_t k, const Work& work) const;
 

@@ -32,7 +32,7 @@ LatticeIsometry draw_placement(const Grid& grid, Boundary boundary, std::uint64_
 
 class SpecimenPair {
  public:
-  // What was done to the pair, and what a press of it measured.
+  // History of the pair and the measured values of its presses.
   struct Done {
     struct Measured {
       double load, pressure, approach, area_fraction, peak_pressure;
@@ -54,7 +54,7 @@ class SpecimenPair {
   // puts the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held to the
   // error there.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
-  // Frees the memory of every state pressed here that is still held; what was read of one stays
+  // Frees the memory of every state pressed here that is still held; values read before stay
   // (State::close).
   void close();
   // Whether close() was called; a copy of a closed pair is open.
@@ -82,8 +82,8 @@ class SpecimenPair {
   // Shifts the upper specimen by (x, y) m, whole cells (to 1e-9 of a cell), on a periodic boundary only.
   void shift(double x, double y);
 
-  // Throws what can be told of a step before it is done to a body that lies so: a turn or a shift that does
-  // not fit, and a mean pressure that all nodes together cannot carry. `lying` is then how it lies after it.
+  // Throws the errors of a step that are known in advance: a turn or shift that does not fit, and a mean
+  // pressure above the capacity of all nodes. `lying` is the placement before the step, and then after it.
   void check_ahead(const Protocol::Step& step, Pose& lying) const;
 
   // All that was done since the pair was made, in order; a copy goes on from that of its original.

@@ -54,12 +54,12 @@ struct TiltResult {
   std::vector<SlipAngle> trials;  // in the order they were made
   // 1/Pa, on a half-space only: mean over trials, of what was solved under the weight or else of the probes.
   std::optional<double> area_per_load;
-  std::vector<TiltProbe> probes;     // of all trials that solved anew
+  std::vector<TiltProbe> probes;     // in trials that solved anew
   std::vector<TiltProbe> at_weight;  // level, one a trial; empty unless the weight itself was solved
   // How far mu at one probe is from the mean of a trial's, relative, at most: what extrapolating down to the
-  // weight may be wrong by. None where the weight was solved, of one probe, and of boxes.
+  // weight may be wrong by. None for a solved weight, a single probe and boxes.
   std::optional<double> probe_spread;
-  std::string note;  // what a reader must know of them, one sentence
+  std::string note;  // condition of the result, one sentence
 };
 
 // Works on a copy: the pair stays as it is. Junctions that interlock may push down the slope: friction is

@@ -29,13 +29,13 @@ class StampColumn {
   struct Reading {
     std::optional<double> seconds;
     std::string complaint{};  // where there are none
-    std::string warning{};    // of the first step back that no key explains, to be put after the cell
+    std::string warning{};    // for the first unexplained step back; follows the name of the cell
   };
   // A cell that is not empty. The first one that is read is the beginning unless they count since 1970.
   Reading read(std::string_view cell);
 
  private:
-  // Adds the days or hours that passed unseen.
+  // Adds days at midnight or hours at a change of local time.
   void step(Reading& reading);
 
   DateOrder order_;

@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// What it means that times step back: a day is over, or local time changed by an hour.
+// Meaning of times that step back: a new day, or a change of local time by an hour.
 enum class StepsBack { unsaid, midnight, winter_time };
 
 struct TableForm {

@@ -32,8 +32,8 @@ class TableLines {
   bool read_heads();
   const std::vector<TableCell>& heads() const { return heads_; }
   const std::vector<TableCell>& below() const { return below_; }  // the next line that is no comment
-  // Whether that line is of units and nothing else. A unit that is not known is one where others are, or all
-  // are in brackets, and where a number follows below it.
+  // Whether a line holds only units. An unknown unit counts if a number follows below it and if other cells
+  // are known units or all cells are in brackets.
   bool units_stand_below() const;
   std::string_view head_line() const { return head_line_; }
   bool heads_are_given() const { return !form_.heads.empty(); }

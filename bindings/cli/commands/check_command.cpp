@@ -28,8 +28,7 @@ namespace asperity::cli {
 
 namespace {
 
-// The line of the script itself that an error with its traceback came from, whose own place may be in a
-// module.
+// The line of the script in an error with its traceback. The error itself may come from a module.
 std::string line_in_script(const std::string& message, const std::string& script) {
   // As Lua shortens the name of a chunk.
   const std::string name =
@@ -161,7 +160,7 @@ int cases(const RunCommand& command, bool list) {
 
 enum class Follows { check, explain, cases };
 
-// What is given to each of these commands.
+// Options of these commands.
 struct FollowedScript {
   RunCommand run;
   std::string time;

@@ -22,10 +22,10 @@ using CommandWork = std::function<int()>;
 // another; the program then says so, and its exit status is bad_usage.
 using CommandReader = std::function<CommandWork()>;
 
-// What a command writes to standard output, which decides what reaches a terminal of it (plain_streams.hpp).
+// The writer of standard output: it decides what a terminal may receive (plain_streams.hpp).
 enum class Prints {
   text,       // of the program, with what scripts and files hold: a terminal obeys none of that
-  of_script,  // what a script prints: a terminal obeys its colours alone, a program or a file gets all of it
+  of_script,  // prints of a script: a terminal gets text and colours, a program or a file gets every byte
   by_editor,  // lines that libedit edits, which writes to the terminal by itself
 };
 

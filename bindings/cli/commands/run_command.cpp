@@ -51,7 +51,8 @@ void limit_address_space(std::int64_t bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-// Fonts of pictures need more. No warning of the run: elsewhere it would not be given.
+// Pictures need more handles for their fonts. This is no warning of the run, because another machine would
+// not give it.
 void tell_of_few_handles() {
   constexpr rlim_t enough = 32;
   rlimit handles{};
@@ -62,7 +63,7 @@ void tell_of_few_handles() {
                  static_cast<int>(handles.rlim_cur));
 }
 
-// Why what the script printed is not all on standard output; "" where it is, or a reader went away.
+// The reason for lost standard output; "" if nothing was lost or if the reader went away.
 std::string output_fault() {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   struct ::stat facts {};
@@ -186,7 +187,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
   };
 }
 
-// A run of one case writes into a folder among the temporary files, and leaves its case in the store alone.
+// A run of one case writes into a temporary folder; only the store keeps its result.
 void remove_case_folder(const RunCommand& command) {
   if (command.case_folder) command.case_folder->remove();
 }

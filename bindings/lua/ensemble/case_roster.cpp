@@ -75,7 +75,7 @@ void note_roster(const fs::path& store, const std::string& script_digest, CaseRo
     fs::create_directories(file.parent_path(), problem);
     write_atomically(file, text + "\n");
   } catch (const Error&) {
-    // The store says itself what it cannot write.
+    // The store reports its own write errors.
   }
 }
 
@@ -92,7 +92,7 @@ std::vector<CaseRoster> rosters_in(const fs::path& store) {
     try {
       rosters.push_back(roster_from(Json::parse(text.str(), quoted(entry->path().string()))));
     } catch (const Error&) {
-      // The next process that comes to the ensemble finds its cases by their keys all the same.
+      // Results are found by their keys without this list.
     }
   }
   std::ranges::sort(rosters, {}, [](const CaseRoster& roster) {

@@ -38,7 +38,7 @@ void note_roster(const std::filesystem::path& store, const std::string& script_d
 // The lists of a store, by script and ensemble. Damaged ones are left out.
 std::vector<CaseRoster> rosters_in(const std::filesystem::path& store);
 
-// Which of the cases are missing, and which failed.
+// Missing and failed cases of a list.
 StoreReport look_up(const std::filesystem::path& store, const CaseRoster& roster);
 
 // "cases 2, 3 and 5 to 9", of `count`; "shards 2/3 and 3/3" where they are exactly those of whole shards.

@@ -180,7 +180,7 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
-// Pushes what a function has in its upvalues, of a list the length. Returns how many there are.
+// Pushes the upvalues of a function; for a list, its length. Returns their number.
 int push_upvalues(lua_State* L, int function) {
   if (lua_checkstack(L, 300) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
   int count = 0;

@@ -69,7 +69,7 @@ EnsembleCases::Finished ScriptedCases::from_bytes(std::size_t k, std::string_vie
 
 namespace {
 
-// Which cases this process computes, and its words on the others.
+// Decides which cases this process computes, and reports the others.
 class SharedEnsemble {
  public:
   SharedEnsemble(const ScriptedCases& cases, const std::function<CaseSetup(std::size_t)>& setup,
@@ -173,7 +173,7 @@ class SharedEnsemble {
   const StoredCases& kept_;
   const std::string& place_;
   const bool reports_failures_;
-  const bool here_;  // the case that this process is to compute is of this ensemble
+  const bool here_;  // this ensemble holds the case given by --case
   CaseRoster roster_;
 };
 

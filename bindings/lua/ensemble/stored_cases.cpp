@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view case_form = "asperity case 4";
 constexpr std::size_t most_bytes_of_many = 16384;
-// Whether a case drew random numbers, and asked for knobs.
+// Whether a case used random numbers, and knobs.
 constexpr std::array<std::pair<bool, bool>, 4> ways = {
     {{false, false}, {true, false}, {false, true}, {true, true}}};
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly

@@ -28,7 +28,7 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
 // Where cases, which run on other threads, take heavy calls from and keep them; null where nothing is kept.
 ResultStore* results_for_cases(const Session& session);
 
-// A failure has a key of its own, so that a result which another process finds later is not hidden by it.
+// A failure has a separate key, so it never hides a later result of another process.
 inline constexpr std::string_view failed_case = "failed ";
 
 // Of one ensemble. Thread-safe.
@@ -39,8 +39,8 @@ class StoredCases {
   // None where it is not kept or no longer holds. A failure counts only `with_failures`.
   std::optional<CaseResult> find(const CaseSetup& setup, bool with_failures) const;
   bool keeps() const { return store_ != nullptr; }
-  // Under which the case may be stored: it depends on the case whether it draws random numbers or asks for
-  // knobs. `failed_case` before a key is that of a failure.
+  // Possible keys of a case, with and without random numbers and knobs. The key of a failure begins with
+  // `failed_case`.
   std::vector<std::string> keys(const CaseSetup& setup) const;
   // Failures are kept only where `always`, and cases that cost next to nothing as well. Never fails.
   void keep(const CaseSetup& setup, const CaseResult& result, bool always) const;

@@ -26,7 +26,7 @@ struct CaseInput {
 CaseInput input_of_case(const std::string& file);
 // Of a file as it is now; empty where there is none.
 std::string present_digest(const std::string& file);
-// The copy of a file that a replayed or resumed run loaded under that name; null without one.
+// The recorded copy of a loaded file, for replay and resume; null without one.
 const LoadedFile* recorded_copy(const std::shared_ptr<const LoadedFiles>& loaded, const std::string& file);
 
 class Session;

@@ -105,7 +105,7 @@ Walk* push_walk(lua_State* L, int table) {
   return walk;
 }
 
-// Pushes the next key of a walk that its table still has, and the value; at the end nil.
+// Pushes the next key still in the table, and its value; nil at the end.
 int push_next(lua_State* L, int table, Walk& walk, int list) {
   for (; walk.next < walk.count; lua_pop(L, 2)) {
     lua_rawgeti(L, list, walk.keys()[walk.next++].place);

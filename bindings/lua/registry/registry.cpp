@@ -167,8 +167,8 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  // To explain a contact its bodies and protocols are needed, but for those in files that the script itself
-  // writes; to check a script they are not.
+  // `explain` needs bodies and protocols of a contact, except those in files written by the script; `check`
+  // needs none.
   const bool left_out =
       function.unknown_when_dry ||
       (function.heavy && (call.session().explanation == nullptr || !is_planned_with(function) ||

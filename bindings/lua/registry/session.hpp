@@ -37,11 +37,10 @@ struct CaseNotes;
 struct Refinement;
 class Variation;
 
-// How a process that shares its cases with others ends at an ensemble.
+// End of a process that shares its cases with others.
 enum class SharedEnd { stored, failed, missing, no_such_case };
 
-// The folder in which several processes store the cases of one script (--store), and the part of this
-// process.
+// The shared folder of results (--store), and the part of this process.
 struct SharedStore {
   std::string folder;             // as given
   std::optional<Shard> shard;     // it computes this share of the cases
@@ -114,7 +113,7 @@ class Session {
   std::int64_t heavy_calls = 0;  // that this state has made; computed or found in the store, they count alike
   int numbered_ensembles = 0;    // calls of lab.ensemble by the script itself, as --case counts them
   const SharedStore* shared = nullptr;  // null: no other process computes cases of this run
-  // Of a dry run: called for each ensemble of the script, with its place, its cases and their names; may be
+  // A dry run calls this for each ensemble, with its place, the number of cases and their names; may be
   // empty.
   std::function<void(const std::string& place, std::size_t cases,
                      const std::function<std::string(std::size_t)>& name)>

@@ -49,14 +49,14 @@ Values open_notebook(Call& call) {
 
 // --- rows
 
-// The columns that a dry run has seen in rows of the notebook; null in a run.
+// Columns of the rows written in a dry run; null in a run.
 std::set<std::string>* columns_seen(const Call& call) {
   Mistakes* const mistakes = call.session().mistakes.get();
   const auto* book = call.argument(0).as<Notebook>();
   return mistakes == nullptr || book == nullptr ? nullptr : &mistakes->columns[book->name()];
 }
 
-// A name that is not in the text of the script was computed; other turns of a loop may write others.
+// A name outside the text of the script was computed; another turn of its loop may write another name.
 void note_columns(const Call& call) {
   std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr) return;
@@ -70,7 +70,7 @@ void note_columns(const Call& call) {
     });
 }
 
-// Refuses a column that no row has, where all names of columns are known.
+// Refuses a column without rows, if all names of columns are known.
 void look_at_columns(const Call& call) {
   const std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr || columns->empty() || columns->contains("")) return;

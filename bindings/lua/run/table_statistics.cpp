@@ -67,7 +67,7 @@ std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, c
   return columns;
 }
 
-// One warning of each kind, with the first group that it is of and their number.
+// One warning of each kind, with its first group and the number of groups.
 void warn_of_groups(Call& call, const std::string& column, const MeanKeys& keys,
                     const std::vector<GroupMean>& groups) {
   struct Told {

@@ -119,6 +119,7 @@ std::uint64_t Archive::claimed_size(std::int64_t index) const {
                 "has " + entry_text(index) + " of " + std::to_string(stat.size) + " bytes packed in " +
                     std::to_string(stat.comp_size) + ", which cannot be",
                 "the file is cut short or damaged");
+  require_room_for(file_.path(), stat.size);
   return stat.size;
 }
 

@@ -51,7 +51,7 @@ struct ReadProfileOptions {
   std::string format, channel;
 };
 
-// Maps have y upwards: j = 0 is the lowest line, whichever the file stores first (Format::lines). A trace
+// In maps y points up: j = 0 is the lowest line, for each order of lines in the file (Format::lines). A trace
 // (stylus CSV, one-dimensional array) becomes one row, ny = 1, whose size_y is one cell unless given. Points
 // that the file marks as missing, each format in its own way, are holes of the surface unless `fill` says
 // otherwise. Traits: the material, nothing else. Errors: bad_file, also where no point was measured;
