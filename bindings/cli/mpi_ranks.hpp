@@ -23,7 +23,7 @@ struct LaunchedRank {
   int on_this_machine = 1;
 };
 std::optional<LaunchedRank> launched_rank(bool share);
-// Threads of each rank where none are asked for: the processors it may use, shared by the ranks of a machine.
+// Default threads of each rank: its processors, divided among the ranks of a machine.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {

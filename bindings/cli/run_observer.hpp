@@ -17,13 +17,13 @@ class RunObserver {
   virtual ~RunObserver() = default;
   // `done` in [0, 1]; `seconds_left` is negative where it is not known.
   virtual void progress(std::string_view task, double done, double seconds_left) = 0;
-  // A line of the journal, when it has been kept.
+  // A line of the journal, once it is written.
   virtual void recorded(std::string_view event, const Json& fields) = 0;
   // What a heavy call found, at journal line `line`.
   virtual void found(const std::string& call, std::int64_t line, const lua::Values& results) = 0;
   // Whether found() is to be called.
   virtual bool looks_at_results() const { return false; }
-  // A mistake that a check has gone past; the last that it found is the reason of its end.
+  // A mistake that does not end a check; the last mistake is the reason of its end.
   virtual void mistake(const std::string&) {}
   // What a check that came to its end knows of the script's knobs, as RunKnobs::json() says it.
   virtual void made_knobs(const Json&) {}

@@ -86,7 +86,7 @@ class SpecimenPair {
   // pressure above the capacity of all nodes. `lying` is the placement before the step, and then after it.
   void check_ahead(const Protocol::Step& step, Pose& lying) const;
 
-  // All that was done since the pair was made, in order; a copy goes on from that of its original.
+  // The events since the pair was made, in order; a copy begins with the events of its original.
   const std::vector<Done>& history() const { return history_; }
   // Gives a time to every entry of that list from number `first` on.
   void date(std::size_t first, std::optional<double> time);
@@ -100,7 +100,7 @@ class SpecimenPair {
   const Pose& pose() const { return geometry_->pose(); }
   // The part of the pose that is on the lattice.
   const LatticeIsometry& placement() const { return pose().lattice(); }
-  // What events have left on the bodies beside their shapes.
+  // Traces of events on the bodies, apart from their shapes.
   const BodyMemory& memory() const { return geometry_->memory(); }
   // What a press will compute, and at what cost; plan().text() prints it. Before an accuracy is chosen, of
   // the cells given.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one Lua state works for: its monitor, seed and limits, and the run that keeps its results.
+// The surroundings of a Lua state: its monitor, seed and limits, and the run with its results.
 // Every state has exactly one, held in the registry; the states of an ensemble's cases have one
 // each, with no run of their own.
 #pragma once
@@ -60,7 +60,7 @@ class Session {
 
   Monitor& monitor() const { return *monitor_; }
 
-  // Another monitor while it lives, which is that of a part of longer work.
+  // Reports to another monitor during a part of longer work.
   class Reporting {
    public:
     Reporting(Session& session, Monitor& monitor) : session_(session), outer_(session.monitor_) {
@@ -85,7 +85,7 @@ class Session {
   // `asperity explain`, a dry run that makes surfaces and plans contacts, collects here what the script will
   // compute; null in every other run.
   std::shared_ptr<Explanation> explanation;
-  // The paths that the calls which it left out were given: files that the script may have written by then.
+  // Paths in the calls that a dry run leaves out: the script may have written these files.
   std::set<std::string, std::less<>> paths_left_out;
   // Called for each heavy call that a dry run leaves out; may be empty.
   std::function<void(const Call& call, const Function& function)> on_call_left_out;
@@ -103,7 +103,7 @@ class Session {
   std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
   // The numbers that the script asks whoever runs it for; the states of cases share those of their ensemble.
   std::shared_ptr<RunKnobs> knobs = std::make_shared<RunKnobs>();
-  // What lab.knob.set does with a value that the knob takes; empty where nothing is run again.
+  // Called by lab.knob.set with an accepted value; empty if nothing runs again.
   std::function<void(const std::string& name, const std::string& value)> move_knob;
   ScriptSpelling script;  // as it was named; empty where there is none
   // The script files of a replayed or resumed run, which are loaded again; may be null.
@@ -121,7 +121,7 @@ class Session {
   // Called with the results of each heavy call; may be empty.
   std::function<void(const std::string& call, const Values& results)> onlooker;
   Ranks* ranks = nullptr;  // the processes that share the cases; may be null
-  // What a case of an ensemble depends on beside its arguments; null outside a case.
+  // Inputs of a case besides its arguments; null outside a case.
   CaseNotes* notes = nullptr;
   // The script's globals that could not be copied into the state of a case, and why; null outside a case.
   const std::map<std::string, std::string>* left_behind = nullptr;
