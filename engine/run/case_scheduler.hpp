@@ -54,7 +54,7 @@ class EnsembleCases {
   virtual ~EnsembleCases() = default;
   virtual std::size_t count() const = 0;
   virtual std::string name(std::size_t k) const = 0;  // "case D = 2.5, seed = 3"
-  // What goes wrong in a case is its failure.
+  // An error in a case is its failure.
   virtual Finished compute(std::size_t k) = 0;
   // Makes the cases that run fail as soon as they can.
   virtual void interrupt() = 0;
@@ -62,7 +62,7 @@ class EnsembleCases {
   virtual Finished failed(const std::string& why) const = 0;
   virtual void fail(FinishedCase& found, const std::string& why) const = 0;
 
-  // From the store; null where it is not kept or no longer holds. A failure counts only `with_failures`.
+  // From the store; null where it is missing or no longer holds. A failure counts only `with_failures`.
   virtual Finished find_kept(std::size_t k, bool with_failures) const = 0;
   // Failures are kept only where `always`. Throws Error where `always` and it cannot be kept.
   virtual void keep(std::size_t k, const FinishedCase& found, bool always) const = 0;
@@ -93,7 +93,7 @@ struct CaseSchedule {
   std::function<void(const StoreReport& report)> report{};
 };
 
-// The results of all cases, in their order. A case that fails is told as a warning and the others run on, so
+// The results of all cases, in their order. A failed case gives a warning and the others run on, so
 // that which ones fail does not depend on timing. Throws Error when the run is to stop, after every case has
 // ended, and Error{bad_state} where another rank comes to another ensemble.
 std::vector<std::unique_ptr<FinishedCase>> run_cases(EnsembleCases& cases, const CaseSchedule& schedule);

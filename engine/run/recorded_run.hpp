@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run read back from its directory: what it takes to run it again, what it found, and where another run of
+// A run read back from its directory: its script and inputs, its results, and where another run of
 // the same script found something else. Members named "unhashed" (dates, seconds, machine, threads) are left
 // out: all the rest of two equal runs is equal to the byte. Reads JSON and digests files; runs nothing.
 #pragma once
@@ -39,7 +39,7 @@ struct RecordedRun {
   Json versions;
   Json machine = Json::object();  // machine_facts() of where it ran; empty where they were not noted
   std::vector<Json> journal;      // a line each
-  std::string journal_fault;      // what is wrong with it: a sentence, and what serves in its place; else ""
+  std::string journal_fault;      // a sentence with its fault and its replacement; else ""
   std::string journal_hint;
   Json manifest;
   Json inputs = Json::List();             // as far as the run had come

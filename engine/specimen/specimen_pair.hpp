@@ -42,7 +42,7 @@ class SpecimenPair {
     std::optional<Measured> measured{};
   };
 
-  // Turned over and laid down without turn or shift. Throws what check(Scene) and make_plan throw; O(n)
+  // Turned over and laid down without turn or shift. Throws the errors of check(Scene) and make_plan; O(n)
   // for two rough bodies, no solve.
   explicit SpecimenPair(const Scene& scene);
 
@@ -102,11 +102,11 @@ class SpecimenPair {
   const LatticeIsometry& placement() const { return pose().lattice(); }
   // Traces of events on the bodies, apart from their shapes.
   const BodyMemory& memory() const { return geometry_->memory(); }
-  // What a press will compute, and at what cost; plan().text() prints it. Before an accuracy is chosen, of
+  // Work and cost of a press in advance; plan().text() prints them. Before an accuracy is chosen, of
   // the cells given.
   const Plan& plan() const { return plan_; }
   // The same with the transforms and the time of this very press, which is tried on fewer cells
-  // (expected_transforms.hpp); nothing of the pair changes. Throws what a press throws for such a request.
+  // (expected_transforms.hpp); nothing of the pair changes. Throws the errors of such a press.
   Plan plan_of(const PressRequest& request) const;
   // The pair made ready to be pressed as it lies now; worked out once per placement.
   std::shared_ptr<const Solver> solver();
@@ -119,7 +119,7 @@ class SpecimenPair {
   void unload();
   void warn(const PressRequest& request, Monitor& monitor);
   State choose_and_press(const PressRequest& request, Monitor& monitor);
-  // What `state` leaves on the bodies, by the effects of the scene; what it cost.
+  // Permanent traces of `state` on the bodies, by the effects of the scene, with their cost.
   StateCost leave_on_bodies(const State& state, Monitor& monitor);
   void warn_of_an_overhang(Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);

@@ -260,7 +260,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     SlipAngle slip = slip_angle(friction, options.stage);
     if (weight) {
       // Again, with what presses when it slips solved for itself, until it slips there. Area is counted in
-      // nodes: where one lets go between two pressures, the rounds may end with both sides of it solved.
+      // nodes: if a node lets go between two pressures, the rounds may end with a solve on each side.
       constexpr int most_rounds = 12;
       double before = weight_pressure;
       for (int round = 0; round < most_rounds; ++round) {

@@ -24,8 +24,8 @@ namespace asperity {
 struct TiltTrialOptions {
   TiltOptions stage;
   std::optional<double> specimen_area;  // m², > 0; the area of the tile by default
-  // Pa, each > 0: where a half-space contact is solved; each is doubled until fifty nodes touch. The ratios
-  // of all are averaged.
+  // Pa, each > 0: pressures of the half-space solves; each is doubled until fifty nodes touch. The result is
+  // the mean of their ratios.
   std::vector<double> probe_pressures = {1e6, 3e6};
   double scatter = 0;  // relative standard deviation of the friction force from trial to trial, >= 0
   int repeats = 5;     // 1 … 100000
