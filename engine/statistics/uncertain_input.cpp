@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/uncertain_input.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -88,7 +91,34 @@ double UncertainInput::at(double coordinate) const {
 }
 
 double UncertainInput::coordinate(double p) const {
-  return shape == InputShape::uniform ? 2 * p - 1 : normal_quantile(p);
+  switch (shape) {
+    case InputShape::uniform:
+      return 2 * p - 1;
+    case InputShape::triangular:
+      return std::sqrt(6.0) * (p < 0.5 ? std::sqrt(2 * p) - 1 : 1 - std::sqrt(2 - 2 * p));
+    case InputShape::sample: {
+      // Straight between the middles of the steps.
+      const double last = static_cast<double>(sample.size() - 1);
+      const double place = std::clamp(p * static_cast<double>(sample.size()) - 0.5, 0.0, last);
+      const auto k = std::min(static_cast<std::size_t>(place), sample.size() - 2);
+      const double at = sample[k] + (place - static_cast<double>(k)) * (sample[k + 1] - sample[k]);
+      return (at - value) / uncertainty;
+    }
+    default:
+      return coordinate_of_score(normal_quantile(p));
+  }
+}
+
+double UncertainInput::coordinate_of_score(double z) const {
+  if (shape == InputShape::normal) return z;
+  if (shape != InputShape::lognormal) return coordinate((1 + elementary::erf(z / std::numbers::sqrt2)) / 2);
+  const double ratio = uncertainty / value, deviation = std::sqrt(elementary::log1p(ratio * ratio));
+  return elementary::expm1(deviation * (z - deviation / 2)) / ratio;
+}
+
+std::span<const std::string> input_shapes() {
+  static const std::vector<std::string> names = {"normal", "uniform", "lognormal", "triangular", "sample"};
+  return names;
 }
 
 void check_inputs(std::span<const UncertainInput> inputs) {
@@ -116,6 +146,15 @@ void check_inputs(std::span<const UncertainInput> inputs) {
       throw Error(ErrorCode::bad_value,
                   "the uncertainty of " + quoted(input.name) + " is " + format_exact(input.uncertainty),
                   "give one above 0, or leave the input out: what is exact has no share");
+    if (!(input.degrees >= 1) || (std::isfinite(input.degrees) && input.shape != InputShape::normal))
+      throw Error(
+          ErrorCode::bad_value,
+          "the input " + quoted(input.name) + " has " + format_short(input.degrees) + " degrees of freedom",
+          "give 1 or more, of a normal input: n - 1 of the mean of n readings");
+    if (input.shape == InputShape::lognormal && input.value <= 0)
+      throw Error(ErrorCode::bad_value,
+                  "the lognormal input " + quoted(input.name) + " has the value " + format_short(input.value),
+                  "give its mean, above 0");
   }
 }
 
