@@ -147,7 +147,7 @@ holds("4 specimens of 4 repeats, as much between as within", function()
     local of = normal()
     for k = 1, 4 do value[#value + 1], specimen[#value + 1], seed[#seed + 1] = of + normal(), s, k end
   end
-  return { ask = function(x) return value[4 * x.specimen - 4 + x.seed] end, specimen = "specimen",
+  return { ask = function(x) return value[4 * x.specimen - 4 + x.seed] end,
     replicate = { specimen = specimen, seed = seed } }, 0
 end)
 holds("6 faces, cells with a drift and chance", function()

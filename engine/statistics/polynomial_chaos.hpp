@@ -55,7 +55,7 @@ std::size_t chaos_runs(std::size_t inputs);
 
 // `points`: a run's standardised coordinates each. Of all degrees up to `highest` (1 to 12) and log2(runs),
 // for which there are 1.5 runs for each term and at most 300 terms, the one with the least leave-one-out
-// error: of one input, higher degrees leave the tails, which few runs reach, to chance. Throws
+// error. A higher degree in one input would follow chance in the tails, where runs are few. Throws
 // Error{bad_value} for inputs as check_inputs does, counts that differ, an answer that is not finite (named
 // with its inputs), too few runs for degree 1, and runs that do not tell the inputs apart.
 // O(runs × terms²) some ten times; the linear algebra is Eigen's (least_squares.hpp).

@@ -97,12 +97,8 @@ double UncertainInput::coordinate(double p) const {
     case InputShape::triangular:
       return std::sqrt(6.0) * (p < 0.5 ? std::sqrt(2 * p) - 1 : 1 - std::sqrt(2 - 2 * p));
     case InputShape::sample: {
-      // Straight between the middles of the steps.
-      const double last = static_cast<double>(sample.size() - 1);
-      const double place = std::clamp(p * static_cast<double>(sample.size()) - 0.5, 0.0, last);
-      const auto k = std::min(static_cast<std::size_t>(place), sample.size() - 2);
-      const double at = sample[k] + (place - static_cast<double>(k)) * (sample[k + 1] - sample[k]);
-      return (at - value) / uncertainty;
+      const auto k = static_cast<std::size_t>(p * static_cast<double>(sample.size()));
+      return (sample[std::min(k, sample.size() - 1)] - value) / uncertainty;
     }
     default:
       return coordinate_of_score(normal_quantile(p));
@@ -146,15 +142,14 @@ void check_inputs(std::span<const UncertainInput> inputs) {
       throw Error(ErrorCode::bad_value,
                   "the uncertainty of " + quoted(input.name) + " is " + format_exact(input.uncertainty),
                   "give one above 0, or leave the input out: what is exact has no share");
-    if (!(input.degrees >= 1) || (std::isfinite(input.degrees) && input.shape != InputShape::normal))
-      throw Error(
-          ErrorCode::bad_value,
-          "the input " + quoted(input.name) + " has " + format_short(input.degrees) + " degrees of freedom",
-          "give 1 or more, of a normal input: n - 1 of the mean of n readings");
-    if (input.shape == InputShape::lognormal && input.value <= 0)
+    const bool lognormal = input.shape == InputShape::lognormal && input.value <= 0;
+    if (lognormal || !(input.degrees >= 1) ||
+        (std::isfinite(input.degrees) && input.shape != InputShape::normal))
       throw Error(ErrorCode::bad_value,
-                  "the lognormal input " + quoted(input.name) + " has the value " + format_short(input.value),
-                  "give its mean, above 0");
+                  "the input " + quoted(input.name) +
+                      (lognormal ? " is lognormal and has the value " + format_short(input.value)
+                                 : " has " + format_short(input.degrees) + " degrees of freedom"),
+                  lognormal ? "give its mean, above 0" : "give 1 or more, of a normal input");
   }
 }
 

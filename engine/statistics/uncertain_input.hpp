@@ -3,7 +3,7 @@
 // the sequence of Sobol' (1967) with the direction numbers of Joe & Kuo (2008), scrambled as Owen (1995) has
 // it. A power of two of its points takes each of as many equal slices of every input once, and more points
 // may follow later.
-// Inputs are independent of each other. Coordinates are standardised: the distance from the value in
+// Inputs are independent here. Coordinates are standardised: the distance from the value in
 // uncertainties, of a uniform input from -1 to 1 between its ends.
 #pragma once
 
@@ -27,7 +27,7 @@ struct UncertainInput {
   double value = 0;
   double uncertainty = 0;  // standard deviation: uniform within sqrt(3) of them, triangular within sqrt(6)
   InputShape shape = InputShape::normal;
-  // Of freedom of a normal input's uncertainty: Student's t, scaled by it.
+  // Degrees of freedom of the uncertainty: a normal input is then Student's t, scaled by the uncertainty.
   double degrees = std::numeric_limits<double>::infinity();
   std::vector<double> sample{};  // ascending; value and uncertainty are its mean and deviation
   Dimension dimension{};         // for tables

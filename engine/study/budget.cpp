@@ -11,6 +11,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/distributions.hpp"
 #include "engine/statistics/least_squares.hpp"
 #include "engine/study/budget_draws.hpp"
 #include "engine/study/sensitivity.hpp"
@@ -81,8 +82,7 @@ class BudgetRuns {
       setting.number = ++count;
       setting.of = total_;
       setting.done_before = std::min(1.0, done_ / weight_);
-      done_ += weight_of(setting.cells);
-      setting.done_after = std::min(1.0, done_ / weight_);
+      setting.done_after = std::min(1.0, (done_ += weight_of(setting.cells)) / weight_);
     }
     const std::vector<BudgetAnswer> answers = ask_(settings);
     std::vector<double> values;
@@ -124,7 +124,7 @@ class BudgetRuns {
     }
     return answers;
   }
-  // One specimen on the grids between; empty where `ask` refuses one of them.
+  // The specimen on the grids between; empty if `ask` refuses one grid.
   std::vector<double> between() {
     std::vector<BudgetSetting> settings(cells_.size() - grids_, base("grids between"));
     for (std::size_t k = 0; k < settings.size(); ++k) settings[k].cells = grids_ + k;
@@ -145,7 +145,7 @@ class BudgetRuns {
   double sum = 0;
   std::vector<std::vector<double>> seconds;  // of runs at the values of the inputs, grid by grid
   double loose_seconds = 0;
-  std::optional<Error> lost;  // of the last answer that is not finite
+  std::optional<Error> lost;  // names the last answer without a finite number
 
  private:
   double weight_of(std::size_t c) const { return cells_.empty() ? 1 : cells_[c] * cells_[c]; }
@@ -199,7 +199,7 @@ void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
   if (request.replicates == 0) return;
   budget.replicates = repeats.size();
   if (repeats.size() < 2)
-    refuse_request("`specimen` names one specimen", "scatter between them takes two or more, better five");
+    refuse_request("`replicate` has one specimen", "scatter takes two or more, better five");
 }
 
 // A drift of this order through all grids, with chance in proportion to the width of their cells: by how much
@@ -233,10 +233,10 @@ std::vector<double> extrapolations(double change, double ratio, double low, doub
   return over_orders(low, high, [&](double order) { return change / (elementary::pow(ratio, order) - 1); });
 }
 
-// What the cells do to one specimen: `between` are its answers on the grids between.
+// The error that the cells make for one specimen; `between` holds the answers on the grids between.
 void look_at_chance(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
                     const std::vector<double>& between, BudgetTerm& term, Budget& budget) {
-  // Drifts of order 1 to 2 are this far above their errors, and rough faces hardly ever (docs/guide.md).
+  // Drifts of order 1 to 2 exceed their errors by this factor; the scatter of rough faces hardly ever does.
   constexpr double clear = 15;
   const std::vector<double> grids = budget_grids(request);
   const std::size_t last = answers.size() - 1;
@@ -308,15 +308,13 @@ void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>
   BudgetTerm& term = found.terms.emplace_back();
   term.name = "cells";
   if (request.replicates == 0) return look_at_chance(request, answers, runs.between(), term, budget);
-  // Of the mean change and its standard error: each replicate takes the mean of the orders with it.
-  const double factor = average_of(extrapolations(1, ratio, request.order_low, request.order_high));
+  // Each replicate is corrected by the mean over the orders; the mean change keeps its standard error.
+  term.list = extrapolations(1, ratio, request.order_low, request.order_high);
+  const double factor = average_of(term.list), count = static_cast<double>(steps.size());
+  term.degrees = count - 1;
+  term.scale = term.uncertainty() * deviation_of(steps, term.degrees) / std::sqrt(count);
   for (std::size_t r = 0; r < steps.size(); ++r) answers[last][r] += factor * steps[r];
-  term.list = extrapolations(change, ratio, request.order_low, request.order_high);
-  for (double& value : term.list) value -= factor * change;
-  term.degrees = static_cast<double>(steps.size() - 1);
-  if (change != 0)
-    term.scale = term.uncertainty() / std::abs(change) * deviation_of(steps, term.degrees) /
-                 std::sqrt(static_cast<double>(steps.size()));
+  for (double& value : term.list) value = change * (value - factor);
   budget.notes.push_back(
       "cells: the value is corrected by " + format_short(factor * change, 3) + " for an error of order " +
       format_short(request.order_low) +
@@ -409,7 +407,7 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const ChaosTrust trust = budget.chaos->trust();
   if (!(budget.chaos->variance > 0))
     budget.warnings.emplace_back("the answer does not hang on the inputs: does `ask` use them?");
-  // What is rough is said once, as a warning.
+  // A rough fit is reported once, as a warning.
   budget.notes.push_back(
       (request.correlations.empty() ? "inputs: taken as independent" : "inputs: correlated") +
       (trust == ChaosTrust::good ? "; " + budget.chaos->text() : std::string()));
@@ -427,7 +425,7 @@ BudgetPart& add_part(Budget& budget, std::string name, double uncertainty, doubl
   return part;
 }
 
-// One row an input, one for their correlations, and one for what the polynomial has besides and leaves open.
+// A row for each input, a row for the correlations, and a row for the rest of the variance.
 void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& budget) {
   constexpr double always = std::numeric_limits<double>::infinity();
   const PolynomialChaos& chaos = *budget.chaos;
@@ -483,9 +481,11 @@ void add_interval(const BudgetRequest& request, const InputDraws& inputs, const 
                   Budget& budget) {
   budget.value = found.centre;
   for (const BudgetTerm& term : found.terms) budget.value += average_of(term.list);
-  if (budget.sample && found.terms.size() == 1 && !budget.chaos) {
-    budget.low = *budget.sample->low;
-    budget.high = *budget.sample->high;
+  if (found.terms.size() == 1 && found.terms.front().list.empty() && !budget.chaos) {
+    const BudgetTerm& term = found.terms.front();
+    const double reach = term.scale * student_t_factor(request.confidence, term.degrees);
+    budget.low = budget.sample ? *budget.sample->low : budget.value - reach;
+    budget.high = budget.sample ? *budget.sample->high : budget.value + reach;
     return;
   }
   if (budget.chaos && budget.chaos->trust() != ChaosTrust::refused)
@@ -509,10 +509,6 @@ std::vector<double> budget_grids(const BudgetRequest& request) {
 
 void check_request(const BudgetRequest& request) {
   if (!request.inputs.empty()) check_inputs(request.inputs);
-  if (!request.specimens.empty() && request.specimens.size() != request.replicates)
-    refuse_request("`specimen` names " + std::to_string(request.specimens.size()) + " of " +
-                       std::to_string(request.replicates) + " replicates",
-                   "name the specimen of each");
   if (request.replicates == 1)
     refuse_request("`replicate` has one value", "scatter takes two or more, better five");
   check_ascent(request.cells, "cells", true);

@@ -7,17 +7,17 @@
 //   cells      y(h) = y + C h^p with p anywhere from order_low to order_high. Over replicates, the mean
 //   change
 //              to the finest grid gives C (Richardson 1911) with its standard error, and the value is
-//              corrected. One specimen has errors of either sign, and two of its grids may agree by chance:
-//              grids between are asked as well, and the differences of all from the finest give the scale of
+//              corrected. One specimen has errors of either sign, and two grids may agree by chance:
+//              `ask` gets grids between as well, and the differences of all from the finest give the scale of
 //              Student's t about it. The value is corrected only for a drift far above that scatter
 //   solver     an error in proportion to the tolerance: the change between the two tightest gives a bound
 //   tip        y(r) = y + C r^p with p from 1 to 2, of the radius of a stylus
 //   noise      scatter over draws of the noise of an instrument, with Student's t; a measurement has one draw
 //   inputs     polynomial chaos, on the coarsest grid with the first replicate: first-order shares, and a row
-//              for what inputs do together. Of correlated inputs sensitivity times uncertainty, and a row for
-//              their correlation
+//              for what inputs do together. Correlated inputs have sensitivity times uncertainty, and a
+//              row for their correlation
 //
-// The parts are independent of each other. How scatter and inputs depend on the grid is not examined.
+// The parts are independent. Scatter and inputs are examined on one grid only.
 #pragma once
 
 #include <cstddef>
@@ -52,18 +52,18 @@ struct BudgetRequest {
   std::size_t runs = 0;  // of the inputs; 0: chaos_runs, doubled up to three times while they are too few
   double confidence = 0.95;
   MeanInterval interval = MeanInterval::student;
-  std::optional<double> half_width;  // the interval that is asked for
+  std::optional<double> half_width;  // the requested interval
   bool of_answer = false;            // `half_width` is a share of the answer
-  std::optional<double> at_most;     // s: refused where the first runs say that all take longer
-  int at_a_time = 1;                 // runs that are computed side by side, for `at_most`
+  std::optional<double> at_most;     // s: refused if the first runs predict more
+  int at_a_time = 1;                 // runs computed side by side, for `at_most`
   std::uint64_t seed = 1;            // of the points of the inputs and the draws
   std::size_t draws = 20000;
 };
 
-// The cells of the request and, of one specimen on two grids or more, up to two between the finest two.
+// The cells of the request. For one specimen on two grids, up to two numbers of cells between follow.
 std::vector<double> budget_grids(const BudgetRequest& request);
 
-// One run of the model. Indices are into the lists of the request, that of the cells into budget_grids; 0
+// One run of the model. Indices are into the lists of the request, for the cells into budget_grids; 0
 // where a list is empty.
 struct BudgetSetting {
   std::vector<double> inputs;  // the values, in their order
@@ -75,7 +75,7 @@ struct BudgetSetting {
 };
 struct BudgetAnswer {
   double value = 0;
-  double seconds = 0;  // that it took
+  double seconds = 0;  // of computing
 };
 // Many runs, in their order, which may be computed side by side.
 using BudgetBatch = std::function<std::vector<BudgetAnswer>(std::span<const BudgetSetting>)>;
@@ -85,14 +85,15 @@ struct BudgetPart {
   std::string name;
   double uncertainty = 0;                                    // standard, in the unit of the answer
   double degrees = std::numeric_limits<double>::infinity();  // of freedom
-  double share = 0;        // of the variance; all sum to 1; that of a correlation may be below 0
-  double share_error = 0;  // standard error of an input's share; 0 of others
-  std::string halving;     // what halves it
+  double share = 0;                       // of the variance; all sum to 1; a correlation's may be below 0
+  double share_error = 0;                 // standard error of an input's share; 0 of others
+  std::string halving;                    // what halves it
   std::optional<double> halving_seconds;  // of computing; none where it takes a measurement
   double half_width_after = 0;            // of the whole interval, with this part halved
   std::optional<UncertainInput> input{};  // of an input
-  double sensitivity = 0, total = 0;  // of an input: derivative of the answer; variance with all that it does
-  double sign = 1;                    // of its variance
+  double sensitivity = 0,
+         total = 0;  // of an input: derivative of the answer; variance with its joint effects
+  double sign = 1;   // -1 if the variance is below 0
 
   double variance() const { return sign * uncertainty * uncertainty; }
 };
@@ -117,26 +118,26 @@ struct Budget {
   std::vector<double> seconds_of_cells;  // median time of a run on each grid
   std::size_t runs = 0;
   double seconds = 0;
-  std::optional<double> asked;     // the half-width that is asked for
+  std::optional<double> asked;     // the requested half-width
   std::optional<BudgetPlan> plan;  // the cheapest way to it; none where computing cannot reach it
   std::vector<std::string> notes, warnings;
 
   double half_width() const { return (high - low) / 2; }
-  // Of freedom of the whole, by Welch and Satterthwaite.
+  // Effective degrees of freedom, by Welch and Satterthwaite.
   double degrees() const;
   // A table of the shares, with what was assumed and what was not estimated.
   std::string text() const;
 };
 
-// Throws Error{bad_value} for a request that contradicts itself.
+// Throws Error{bad_value} for a contradictory request.
 void check_request(const BudgetRequest& request);
 // How many runs a request takes, at first.
 std::size_t budget_runs(const BudgetRequest& request);
 // Asks for every run once. The first batch is the first replicate on each grid, for `at_most`; the answers
 // decide nothing of what is asked but for how often the runs over the inputs are doubled. Replicates without
-// a finite answer are left out, up to a quarter. Throws Error{bad_value} for requests that contradict
-// themselves and other answers that are not finite, Error{infeasible} where `at_most` is too short, and
-// whatever `ask` throws; but a grid between that `ask` refuses is left out.
+// a finite answer are left out, up to a quarter. Throws Error{bad_value} for contradictory requests and
+// other answers without a finite number, Error{infeasible} where `at_most` is too short, and
+// whatever `ask` throws. Grids between are left out if `ask` refuses one.
 Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask);
 
 }  // namespace asperity

@@ -36,17 +36,15 @@ inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double deg
   }
 }
 
-// Draws of inputs, some of which may be correlated: each is that quantile of its distribution which a
-// standard normal number is of the normal one, and those numbers have the correlations. An input with degrees
-// of freedom is Student's t; correlated ones share one estimate of their scatter, as those of a calibration
-// do.
+// Draws of inputs. Standard normal numbers with the correlations select the quantiles of the inputs. An input
+// with degrees of freedom is Student's t; correlated inputs share an estimate of their scatter, as the
+// parameters of a calibration do.
 class InputDraws {
  public:
   InputDraws(const BudgetRequest& request) : inputs_(request.inputs) {
     const std::size_t n = inputs_.size();
     correlation_.assign(n, std::vector<double>(n));
     for (std::size_t j = 0; j < n; ++j) {
-      group_.push_back(j);
       correlation_[j][j] = 1;
       scores_.emplace_back(request.seed, "budget input " + std::to_string(j));
       scales_.emplace_back(request.seed, "budget degrees " + std::to_string(j));
@@ -59,7 +57,6 @@ class InputDraws {
       if (inputs_[one].degrees != inputs_[other].degrees)
         refuse(both + " have unlike `degrees`", "give both the same: their scatter is one estimate");
       correlation_[one][other] = correlation_[other][one] = of.value;
-      std::ranges::replace(group_, std::size_t{group_[other]}, std::size_t{group_[one]});
     }
     factor_ = correlation_;
     for (std::size_t j = 0; j < n; ++j)
@@ -82,8 +79,11 @@ class InputDraws {
       double z = 0;
       for (std::size_t i = 0; i <= j; ++i)
         if (factor_[j][i] != 0) z += factor_[j][i] * scores[i];
+      // The first that this one is correlated with has the scatter of both.
+      std::size_t group = 0;
+      while (correlation_[j][group] == 0) ++group;
       if (const double degrees = inputs_[j].degrees; std::isfinite(degrees))
-        z *= std::sqrt(degrees / chi_squared_draw(scales_[group_[j]], k, degrees));
+        z *= std::sqrt(degrees / chi_squared_draw(scales_[group], k, degrees));
       found.push_back(inputs_[j].coordinate_of_score(z));
     }
     return found;
@@ -102,7 +102,6 @@ class InputDraws {
 
   const std::vector<UncertainInput>& inputs_;
   std::vector<std::vector<double>> correlation_, factor_;  // and its Cholesky factor
-  std::vector<std::size_t> group_;                         // an input that is correlated with this one
   std::vector<Stream> scores_, scales_;
 };
 
@@ -120,7 +119,7 @@ inline double deviation_of(const std::vector<double>& values, double degrees) {
   return degrees > 0 ? std::sqrt(squares / degrees) : 0;
 }
 
-// What a part adds to the answer: one of a list, all alike, and Student's t times a scale.
+// A part adds a value from a list, each equally likely, and Student's t times a scale.
 struct BudgetTerm {
   std::string name;
   std::vector<double> list;

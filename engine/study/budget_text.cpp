@@ -17,7 +17,7 @@ std::string tidy(double value, double uncertainty, int digits) {
 }
 
 std::string degrees_text(double degrees) {
-  return std::isfinite(degrees) ? format_short(degrees, 3) : std::string("inf");
+  return std::isfinite(degrees) ? format_short(degrees, 3) : std::string("∞");
 }
 
 // The inputs as the Guide to the Expression of Uncertainty in Measurement lists them.

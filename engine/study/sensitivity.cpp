@@ -16,13 +16,9 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t most_doublings = 3;
-// Of many inputs, fewer runs come first: enough for degree 1, where that is exact but for this much.
-constexpr std::size_t few_inputs = 5;
-constexpr double exact_below = 1e-3;
-// Of the runs: once these are doubled twice, answers this far from a polynomial are given up.
-constexpr double hopeless_above = 0.5;
-// Inputs that narrow the answer alike, within this much of its deviation.
-constexpr double tie_within = 0.01;
+constexpr std::size_t few_inputs = 5;                       // more begin with runs for degree 1
+constexpr double exact_below = 1e-3, hopeless_above = 0.5;  // of leave-one-out errors
+constexpr double tie_within = 0.01;                         // of the deviation
 
 std::string with_error(double share, double error) {
   return format_short(std::round(1000 * share) / 10, 4) + " ± " +
@@ -83,8 +79,9 @@ Sensitivity sensitivity_of_batches(const ChaosRequest& request, const InputBatch
 }
 
 std::string Sensitivity::text() const {
-  std::string said = "sensitivity: " + format_short(chaos.mean, 5) + ", standard deviation over the inputs " +
-                     format_short(deviation, 3) + "\n";
+  std::string said =
+      "sensitivity: " + format_short(std::abs(chaos.mean) < 1e-12 * deviation ? 0 : chaos.mean, 5) +
+      ", standard deviation over the inputs " + format_short(deviation, 3) + "\n";
   std::vector<TextLine> lines = {{"input", "first order", "total", "halved"}};
   for (const std::size_t j : order) {
     const VarianceShare& share = chaos.shares[j];

@@ -129,9 +129,9 @@ Option<O> ask_option(std::string sentence) {
 }
 
 constexpr const char* knob_kinds = "a number, a string or a boolean";
-// Nothing for other kinds; a dry run may meet one that it cannot know.
+// Nothing for other kinds. Sets `unknown` for the placeholder of a dry run.
 std::optional<KnobValue> knob_value(const Argument& value, bool& unknown);
-// One value, or a list of them.
+// A value, or a list of values.
 void read_sweep(const std::string& name, const std::string& path, const Argument& value, bool& unknown,
                 std::vector<KnobSweep>& knobs, Problems& problems);
 

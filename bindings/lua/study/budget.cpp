@@ -16,8 +16,7 @@ namespace asperity::lua {
 namespace {
 
 struct BudgetKeys : InputKeys {
-  std::vector<KnobSweep> replicate;     // lists of equal length, which go along together
-  std::optional<std::string> specimen;  // the list of `replicate` that names it
+  std::vector<KnobSweep> replicate;  // lists of equal length, which go along together
   std::vector<double> cells, tolerances, tips;
   std::vector<KnobSweep> noise;  // one list of seeds
   double order_low = 1, order_high = 2;
@@ -29,20 +28,21 @@ struct BudgetKeys : InputKeys {
   std::uint64_t seed = 1;
 };
 
-// Replicates of which these lists are alike are one run made twice.
-void refuse_repeats(const std::string& path, std::span<const KnobSweep> lists, const std::string& cure,
-                    Problems& problems) {
-  for (std::size_t k = 0; k < lists.front().values.size(); ++k)
-    for (std::size_t j = 0; j < k; ++j)
-      if (std::ranges::all_of(lists, [&](const KnobSweep& of) {
-            return of.values.size() > k && of.values[j] == of.values[k];
-          })) {
-        problems.push_back(quoted(path + "[" + std::to_string(k + 1) + "]") + " is " +
-                           lua_source(lists.front().values[k]) + " for the second time; " + cure);
-        return;
-      }
+// Refuses two runs with the same values in all these lists.
+void refuse_repeats(const std::string& path, std::span<const KnobSweep> lists, Problems& problems) {
+  const std::vector<KnobValue>& values = lists.front().values;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto alike = [&](const KnobSweep& of) {
+        return of.values.size() > k && of.values[j] == of.values[k];
+      };
+      if (!std::ranges::all_of(lists, alike)) continue;
+      problems.push_back(quoted(path + "[" + std::to_string(k + 1) + "]") + " is " + lua_source(values[k]) +
+                         " for the second time; a run made twice says nothing of the scatter, and a list "
+                         "`specimen` says which runs are repeats of one");
+      return;
+    }
 }
-constexpr const char* made_twice = "a run made twice says nothing of the scatter";
 
 void read_replicate(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
   if (!value.is_table())
@@ -106,30 +106,21 @@ void read_correlation(const Argument& value, const OptionInfo& info, BudgetKeys&
                        " lists two inputs and a number each, such as { { \"a\", \"b\", -0.8 } }");
 }
 
-void check_replicates(const BudgetKeys& keys, Problems& problems) {
-  for (const KnobSweep& knob : keys.replicate) {
-    if (!keys.specimen)
-      refuse_repeats("replicate." + knob.name, std::span(&knob, 1),
-                     std::string(made_twice) + ", and a specimen with repeats is named by `specimen`",
-                     problems);
+bool names_specimens(const KnobSweep& list) { return list.name == "specimen"; }
+
+void check_budget(BudgetKeys& keys, Problems& problems) {
+  if (keys.unknown) return;
+  for (const KnobSweep& knob : keys.replicate)
     if (knob.values.size() != keys.replicate.front().values.size())
       problems.push_back(
           "the lists of `replicate` go along together, and " + quoted(keys.replicate.front().name) + " has " +
           std::to_string(keys.replicate.front().values.size()) + " values, " + quoted(knob.name) + " " +
           std::to_string(knob.values.size()) + "; give as many of each");
-  }
-  if (!keys.specimen) return;
-  if (std::ranges::find(keys.replicate, *keys.specimen, &KnobSweep::name) == keys.replicate.end())
-    problems.push_back("`specimen` is " + quoted(*keys.specimen) +
-                       "; give the name of the list in `replicate` that says which specimen a run is of");
-  else
-    refuse_repeats("replicate." + keys.replicate.front().name, keys.replicate, made_twice, problems);
-}
-
-void check_budget(BudgetKeys& keys, Problems& problems) {
-  if (keys.unknown) return;
-  check_replicates(keys, problems);
-  if (!keys.noise.empty()) refuse_repeats("noise", keys.noise, made_twice, problems);
+  const bool nested = std::ranges::any_of(keys.replicate, names_specimens);
+  for (std::size_t k = 0; k < (nested ? 1 : keys.replicate.size()); ++k)
+    refuse_repeats("replicate." + keys.replicate[k].name,
+                   std::span(keys.replicate).subspan(k, nested ? keys.replicate.size() : 1), problems);
+  if (!keys.noise.empty()) refuse_repeats("noise", keys.noise, problems);
   std::vector<std::string> names;
   for (const UncertainInput& input : keys.inputs) names.push_back(input.name);
   for (const KnobSweep& knob : keys.replicate) names.push_back(knob.name);
@@ -176,12 +167,10 @@ const Block<BudgetKeys>& budget_block() {
        custom<K>(
            "replicate", "table",
            "what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
-           "is the share of sampling; several lists go along together",
+           "is the share of sampling; several lists go along together. With a list `specimen`, runs of one "
+           "are "
+           "its repeats: the means of the specimens are the sample, and their number gives the degrees",
            read_replicate),
-       text("specimen", &K::specimen,
-            "the list in `replicate` that names the specimen, where each has several repeats: the means of "
-            "the "
-            "specimens are the sample, and their number decides the degrees of freedom"),
        custom<K>("cells", "integer|integer[]",
                  "cells a side, coarse to fine: the change between two grids shows the error of the cells, "
                  "three show "
@@ -232,11 +221,10 @@ BudgetRequest request_of(const BudgetKeys& keys) {
   request.inputs = keys.inputs;
   request.correlations = keys.correlations;
   request.replicates = keys.replicate.empty() ? 0 : keys.replicate.front().values.size();
-  for (const KnobSweep& knob : keys.replicate)
-    if (knob.name == keys.specimen)
-      for (const KnobValue& value : knob.values)
-        request.specimens.push_back(
-            static_cast<std::size_t>(std::ranges::find(knob.values, value) - knob.values.begin()));
+  for (const KnobSweep& list : keys.replicate)
+    for (std::size_t k = 0; names_specimens(list) && k < list.values.size(); ++k)
+      request.specimens.push_back(
+          static_cast<std::size_t>(std::ranges::find(list.values, list.values[k]) - list.values.begin()));
   request.cells = keys.cells;
   request.order_low = keys.order_low;
   request.order_high = keys.order_high;
