@@ -491,8 +491,10 @@ void add_interval(const BudgetRequest& request, const InputDraws& inputs, const 
   if (budget.chaos && budget.chaos->trust() != ChaosTrust::refused)
     budget.value += budget.chaos->mean - budget.chaos->at(std::vector<double>(request.inputs.size()));
   const std::vector<double> drawn = budget_draws(request, inputs, found, budget);
-  budget.low = draw_below(drawn, (1 - request.confidence) / 2);
-  budget.high = draw_below(drawn, (1 + request.confidence) / 2);
+  const auto tail =
+      static_cast<std::size_t>((1 - request.confidence) / 2 * static_cast<double>(drawn.size()));
+  budget.low = drawn[tail];
+  budget.high = drawn[drawn.size() - 1 - tail];
 }
 
 }  // namespace

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole error of a number: what is asked of a model is asked again with other seeds, on coarser grids, to
-// looser tolerances and over the range of uncertain inputs, and the parts are put together by drawing from
-// all of them (GUM, Supplement 1).
+// The whole error of a number. A model is run again with other seeds, on coarser grids, to looser tolerances
+// and over the range of uncertain inputs. Draws from all parts together give the interval (GUM, Supplement
+// 1).
 //
-//   sampling   scatter over replicates, or over the means of specimens: Student's t, or the log interval
-//   cells      y(h) = y + C h^p with p anywhere from order_low to order_high. Over replicates, the mean
-//   change
-//              to the finest grid gives C (Richardson 1911) with its standard error, and the value is
-//              corrected. One specimen has errors of either sign, and two grids may agree by chance:
-//              `ask` gets grids between as well, and the differences of all from the finest give the scale of
-//              Student's t about it. The value is corrected only for a drift far above that scatter
-//   solver     an error in proportion to the tolerance: the change between the two tightest gives a bound
-//   tip        y(r) = y + C r^p with p from 1 to 2, of the radius of a stylus
-//   noise      scatter over draws of the noise of an instrument, with Student's t; a measurement has one draw
-//   inputs     polynomial chaos, on the coarsest grid with the first replicate: first-order shares, and a row
-//              for what inputs do together. Correlated inputs have sensitivity times uncertainty, and a
-//              row for their correlation
+//   sampling  scatter over replicates, or over the means of specimens: Student's t, or the log interval
+//   cells     y(h) = y + C h^p with p from order_low to order_high. Over replicates, the mean change to the
+//             finest grid gives C (Richardson 1911) with its standard error; the value is corrected. A single
+//             specimen has errors of either sign, and two grids may agree by chance: `ask` gets grids between
+//             as well, and the differences from the finest give the scale of Student's t about it. The value
+//             is corrected only for a drift far above the scatter
+//   solver    an error in proportion to the tolerance: the change between the two tightest gives a bound
+//   tip       y(r) = y + C r^p with p from 1 to 2, for the radius of a stylus
+//   noise     scatter over draws of an instrument's noise, with Student's t; a measurement has one draw
+//   inputs    polynomial chaos, on the coarsest grid with the first replicate: first-order shares, and a row
+//             for joint effects. Correlated inputs have sensitivity times uncertainty, and their correlation
+//             has a row
 //
 // The parts are independent. Scatter and inputs are examined on one grid only.
 #pragma once
@@ -70,7 +69,7 @@ struct BudgetSetting {
   std::size_t replicate = 0, cells = 0, tolerance = 0, tip = 0;
   std::optional<std::size_t> noise;        // none: without it
   std::string part;                        // what the run is for
-  std::size_t number = 0, of = 0;          // 1, 2, … of all runs
+  std::size_t number = 0, of = 0;          // 1, 2, … in all runs
   double done_before = 0, done_after = 0;  // share of the whole, by the cells
 };
 struct BudgetAnswer {

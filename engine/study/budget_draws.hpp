@@ -170,13 +170,4 @@ inline std::vector<double> budget_draws(const BudgetRequest& request, const Inpu
   return drawn;
 }
 
-// The value below which lies the share p of sorted draws.
-inline double draw_below(const std::vector<double>& sorted, double p) {
-  const double place = p * static_cast<double>(sorted.size()) - 0.5;
-  const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(sorted.size() - 1));
-  const auto k = static_cast<std::size_t>(low);
-  const double part = std::clamp(place - low, 0.0, 1.0);
-  return k + 1 < sorted.size() ? sorted[k] + part * (sorted[k + 1] - sorted[k]) : sorted[k];
-}
-
 }  // namespace asperity

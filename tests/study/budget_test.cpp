@@ -535,7 +535,7 @@ TEST(Budget, AStepIsDrawnFromItsAnswers) {
   EXPECT_NEAR(b.value, .31, .03);
   EXPECT_EQ(b.low, 0);
   EXPECT_EQ(b.high, 1);
-  EXPECT_LE(b.runs, 1 + 4 * chaos_runs(1));  // given up before the last doubling
+  EXPECT_LE(b.runs, 1 + 4 * chaos_runs(1));  // stopped before the last doubling
 }
 
 TEST(Budget, ASheetListsInputsWithTheirSensitivities) {
