@@ -232,6 +232,7 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     return found;
   }
 
+  highest = std::min(highest, std::max(1, static_cast<int>(std::bit_width(runs)) - 1));
   const auto tables = tables_of(inputs, points, highest);
   std::vector<std::vector<int>> terms;
   TableColumns columns;
@@ -254,7 +255,6 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     for (std::size_t i = 0; i < runs; ++i) squares += left_out(fit, i) * left_out(fit, i);
     const double error = squares / scatter;
     if (!std::isfinite(error)) continue;
-    found.tried.push_back({degree, error});
     if (best && error >= found.leave_one_out) continue;
     best = std::move(fit);
     found.degree = degree;

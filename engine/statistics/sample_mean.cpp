@@ -70,11 +70,12 @@ void add_log_interval(SampleMean& of, std::span<const double> values) {
   }
   const auto n = static_cast<double>(logs.size());
   const Moments found = moments_of(logs, 1);
-  const double variance = found.second / (n - 1), centre = found.centre + variance / 2;
-  const double reach =
-      student_t_factor(of.confidence, n - 1) * std::sqrt(variance / n + variance * variance / (2 * (n - 1)));
-  of.low = elementary::exp(centre - reach);
-  of.high = elementary::exp(centre + reach);
+  const double variance = found.second / (n - 1);
+  of.log_centre = found.centre + variance / 2;
+  of.log_error = std::sqrt(variance / n + variance * variance / (2 * (n - 1)));
+  const double reach = student_t_factor(of.confidence, n - 1) * of.log_error;
+  of.low = elementary::exp(of.log_centre - reach);
+  of.high = elementary::exp(of.log_centre + reach);
   of.method = "log interval of Cox, " + degrees_text(of.count) + "; assumes that the logarithms are normal";
 }
 
@@ -127,8 +128,10 @@ SampleMean sample_mean(std::span<const double> values, MeanInterval interval, do
   of.standard_error = *of.deviation / std::sqrt(n);
   // Differences of the last digits are rounding, and have no shape.
   const double spread = std::sqrt(found.second / n);
-  if (of.count > 2 && spread > 8 * std::numeric_limits<double>::epsilon())
-    of.skewness = found.third / n / (spread * spread * spread);
+  if (of.count > 2 && spread > 8 * std::numeric_limits<double>::epsilon()) {
+    const double skewness = found.third / n / (spread * spread * spread);
+    of.skewness = std::abs(skewness) < 1e-9 ? 0 : skewness;
+  }
   if (interval == MeanInterval::student)
     add_student_interval(of);
   else

@@ -25,6 +25,7 @@ struct SampleMean {
   std::optional<double> standard_error;  // deviation / sqrt(n)
   std::optional<double> skewness;        // m3/m2^(3/2), moments over n; from three values that differ
   std::optional<double> low, high;       // of the mean; from two values on
+  double log_centre = 0, log_error = 0;  // of the log interval: of the mean's logarithm
   double confidence = 0.95;
   std::string method;                 // "Student's t, 4 degrees of freedom", with what it assumes
   std::vector<std::string> warnings;  // few values, skewed ones

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/uncertain_input.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -88,7 +91,30 @@ double UncertainInput::at(double coordinate) const {
 }
 
 double UncertainInput::coordinate(double p) const {
-  return shape == InputShape::uniform ? 2 * p - 1 : normal_quantile(p);
+  switch (shape) {
+    case InputShape::uniform:
+      return 2 * p - 1;
+    case InputShape::triangular:
+      return std::sqrt(6.0) * (p < 0.5 ? std::sqrt(2 * p) - 1 : 1 - std::sqrt(2 - 2 * p));
+    case InputShape::sample: {
+      const auto k = static_cast<std::size_t>(p * static_cast<double>(sample.size()));
+      return (sample[std::min(k, sample.size() - 1)] - value) / uncertainty;
+    }
+    default:
+      return coordinate_of_score(normal_quantile(p));
+  }
+}
+
+double UncertainInput::coordinate_of_score(double z) const {
+  if (shape == InputShape::normal) return z;
+  if (shape != InputShape::lognormal) return coordinate((1 + elementary::erf(z / std::numbers::sqrt2)) / 2);
+  const double ratio = uncertainty / value, deviation = std::sqrt(elementary::log1p(ratio * ratio));
+  return elementary::expm1(deviation * (z - deviation / 2)) / ratio;
+}
+
+std::span<const std::string> input_shapes() {
+  static const std::vector<std::string> names = {"normal", "uniform", "lognormal", "triangular", "sample"};
+  return names;
 }
 
 void check_inputs(std::span<const UncertainInput> inputs) {
@@ -116,6 +142,14 @@ void check_inputs(std::span<const UncertainInput> inputs) {
       throw Error(ErrorCode::bad_value,
                   "the uncertainty of " + quoted(input.name) + " is " + format_exact(input.uncertainty),
                   "give one above 0, or leave the input out: what is exact has no share");
+    const bool lognormal = input.shape == InputShape::lognormal && input.value <= 0;
+    if (lognormal || !(input.degrees >= 1) ||
+        (std::isfinite(input.degrees) && input.shape != InputShape::normal))
+      throw Error(ErrorCode::bad_value,
+                  "the input " + quoted(input.name) +
+                      (lognormal ? " is lognormal and has the value " + format_short(input.value)
+                                 : " has " + format_short(input.degrees) + " degrees of freedom"),
+                  lognormal ? "give its mean, above 0" : "give 1 or more, of a normal input");
   }
 }
 

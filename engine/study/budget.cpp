@@ -3,15 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/distributions.hpp"
+#include "engine/statistics/least_squares.hpp"
+#include "engine/study/budget_draws.hpp"
 #include "engine/study/sensitivity.hpp"
 
 namespace asperity {
@@ -51,123 +53,108 @@ double median_seconds(std::vector<double> values) {
 // Asks, counts and forecasts.
 class BudgetRuns {
  public:
-  BudgetRuns(const BudgetRequest& request, const BudgetBatch& ask) : request_(request), ask_(ask) {
-    for (const UncertainInput& input : request.inputs) nominal_.push_back(input.value);
-    grids_ = std::max<std::size_t>(1, request.cells.size());
-    replicates_ = std::max<std::size_t>(1, request.replicates);
-    tightest_ = request.tolerances.empty() ? 0 : request.tolerances.size() - 1;
-    sharpest_ = request.tips.empty() ? 0 : request.tips.size() - 1;
-    total_ = budget_runs(request);
+  BudgetRuns(const BudgetRequest& request, const BudgetBatch& ask)
+      : request_(request),
+        ask_(ask),
+        cells_(budget_grids(request)),
+        grids_(std::max<std::size_t>(1, request.cells.size())),
+        replicates_(std::max<std::size_t>(1, request.replicates)),
+        total_(budget_runs(request)) {
+    for (const UncertainInput& input : request.inputs) base_.inputs.push_back(input.value);
+    if (!request.tolerances.empty()) base_.tolerance = request.tolerances.size() - 1;
+    if (!request.tips.empty()) base_.tip = request.tips.size() - 1;
     seconds.resize(grids_);
-    for (std::size_t c = 0; c < grids_; ++c)
-      weight_ +=
-          weight_of(c) * static_cast<double>(replicates_ + (c == 0 ? total_ - grids_ * replicates_ : 0));
+    weight_ = weight_of(0) * static_cast<double>(total_ - grids_ * replicates_);
+    for (std::size_t c = 0; c < grids_; ++c) weight_ += weight_of(c) * static_cast<double>(replicates_);
+  }
+
+  // The first replicate on the coarsest grid, as well as can be.
+  BudgetSetting base(std::string part) const {
+    BudgetSetting setting = base_;
+    setting.part = std::move(part);
+    return setting;
+  }
+
+  // Throws where an answer is not finite, unless some may be lost.
+  std::vector<double> run(std::vector<BudgetSetting> settings, bool some_may_be_lost = false) {
+    if (settings.empty()) return {};
+    for (BudgetSetting& setting : settings) {
+      setting.number = ++count;
+      setting.of = total_;
+      setting.done_before = std::min(1.0, done_ / weight_);
+      setting.done_after = std::min(1.0, (done_ += weight_of(setting.cells)) / weight_);
+    }
+    const std::vector<BudgetAnswer> answers = ask_(settings);
+    std::vector<double> values;
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+      const BudgetSetting& of = settings[k];
+      const std::string run = "the answer of run " + std::to_string(of.number) + " (" + of.part + ") is ";
+      if (!std::isfinite(answers[k].value)) {
+        lost = Error(ErrorCode::bad_value, run + "not finite", "a budget needs a finite number of every run");
+        if (!some_may_be_lost) throw *lost;
+      } else if (!has_square(answers[k].value)) {
+        refuse_request(run + format_short(answers[k].value) + ", whose square leaves the range of numbers",
+                       "return it in another unit");
+      }
+      sum += answers[k].seconds;
+      if (of.part == "solver")
+        loose_seconds = answers[k].seconds;
+      else if (of.inputs == base_.inputs && of.tip == base_.tip && !of.noise && of.cells < grids_)
+        seconds[of.cells].push_back(answers[k].seconds);
+      values.push_back(answers[k].value);
+    }
+    return values;
   }
 
   // answers[c][r]: on grid c with replicate r.
   std::vector<std::vector<double>> replicates() {
     std::vector<std::vector<double>> answers(grids_);
-    const auto take = [&](const std::vector<double>& values) {
+    for (const auto& [from, to] :
+         {std::pair(std::size_t{0}, std::size_t{1}), std::pair(std::size_t{1}, replicates_)}) {
+      std::vector<BudgetSetting> settings;
+      for (std::size_t r = from; r < to; ++r)
+        for (std::size_t c = 0; c < grids_; ++c) {
+          settings.push_back(base(replicates_ > 1 ? "replicate " + std::to_string(r + 1) : "the value"));
+          settings.back().replicate = r;
+          settings.back().cells = c;
+        }
+      const std::vector<double> values = run(std::move(settings), from > 0);
       for (std::size_t k = 0; k < values.size(); ++k) answers[k % grids_].push_back(values[k]);
-    };
-    for (std::size_t c = 0; c < grids_; ++c) add_replicate(0, c);
-    take(run());
-    forecast();
-    for (std::size_t r = 1; r < replicates_; ++r)
-      for (std::size_t c = 0; c < grids_; ++c) add_replicate(r, c);
-    take(run());
+      if (from == 0) forecast();
+    }
     return answers;
+  }
+  // The specimen on the grids between; empty if `ask` refuses one grid.
+  std::vector<double> between() {
+    std::vector<BudgetSetting> settings(cells_.size() - grids_, base("grids between"));
+    for (std::size_t k = 0; k < settings.size(); ++k) settings[k].cells = grids_ + k;
+    try {
+      return run(std::move(settings));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::bad_value) throw;
+      return {};
+    }
   }
   // More runs over the inputs than were counted at first.
   void expect(std::size_t more) {
     total_ += more;
     weight_ += weight_of(0) * static_cast<double>(more);
   }
-  double loose() {
-    add(nominal_, 0, 0, tightest_ - 1, "solver");
-    return run().front();
-  }
-  double blunt() {
-    add(nominal_, 0, 0, tightest_, "tip");
-    asked_.back().tip = sharpest_ - 1;
-    return run().front();
-  }
-  std::vector<double> noisy() {
-    for (std::size_t k = 0; k < request_.noises; ++k) {
-      add(nominal_, 0, 0, tightest_, "noise");
-      asked_.back().noise = k;
-    }
-    return run();
-  }
-  std::vector<double> at(std::span<const std::vector<double>> inputs) {
-    for (const std::vector<double>& values : inputs) add(values, 0, 0, tightest_, "inputs");
-    return run();
-  }
 
   std::size_t count = 0;
   double sum = 0;
   std::vector<std::vector<double>> seconds;  // of runs at the values of the inputs, grid by grid
   double loose_seconds = 0;
+  std::optional<Error> lost;  // names the last answer without a finite number
 
  private:
-  double weight_of(std::size_t c) const {
-    return request_.cells.empty() ? 1 : request_.cells[c] * request_.cells[c];
-  }
-
-  void add_replicate(std::size_t replicate, std::size_t cells) {
-    add(nominal_, replicate, cells, tightest_,
-        replicates_ > 1 ? "replicate " + std::to_string(replicate + 1) : "the value");
-  }
-
-  void add(const std::vector<double>& inputs, std::size_t replicate, std::size_t cells, std::size_t tolerance,
-           std::string part) {
-    BudgetSetting setting;
-    setting.inputs = inputs;
-    setting.replicate = replicate;
-    setting.cells = cells;
-    setting.tolerance = tolerance;
-    setting.tip = sharpest_;
-    setting.part = std::move(part);
-    setting.number = ++count;
-    setting.of = total_;
-    setting.done_before = std::min(1.0, done_ / weight_);
-    done_ += weight_of(cells);
-    setting.done_after = std::min(1.0, done_ / weight_);
-    asked_.push_back(std::move(setting));
-  }
-
-  // The answers of what was added.
-  std::vector<double> run() {
-    if (asked_.empty()) return {};
-    const std::vector<BudgetSetting> settings = std::exchange(asked_, {});
-    const std::vector<BudgetAnswer> answers = ask_(settings);
-    std::vector<double> values;
-    for (std::size_t k = 0; k < settings.size(); ++k) {
-      const BudgetSetting& setting = settings[k];
-      if (!std::isfinite(answers[k].value))
-        throw Error(
-            ErrorCode::bad_value,
-            "the answer of run " + std::to_string(setting.number) + " (" + setting.part + ") is not finite",
-            "a budget needs a finite number of every run");
-      if (!has_square(answers[k].value))
-        throw Error(ErrorCode::bad_value,
-                    "the answer of run " + std::to_string(setting.number) + " (" + setting.part + ") is " +
-                        format_short(answers[k].value) + ", whose square leaves the range of numbers",
-                    "return it in another unit");
-      sum += answers[k].seconds;
-      if (setting.part == "solver")
-        loose_seconds = answers[k].seconds;
-      else if (setting.part != "inputs" && setting.part != "tip" && setting.part != "noise")
-        seconds[setting.cells].push_back(answers[k].seconds);
-      values.push_back(answers[k].value);
-    }
-    return values;
-  }
+  double weight_of(std::size_t c) const { return cells_.empty() ? 1 : cells_[c] * cells_[c]; }
 
   void forecast() const {
     if (!request_.at_most) return;
     double expected = seconds[0][0] * static_cast<double>(total_ - grids_ * replicates_);
     for (const auto& on_grid : seconds) expected += on_grid[0] * static_cast<double>(replicates_);
+    for (std::size_t c = grids_; c < cells_.size(); ++c) expected += seconds.back()[0];
     expected /= std::max(1, request_.at_a_time);
     if (expected > *request_.at_most)
       throw Error(ErrorCode::infeasible,
@@ -178,238 +165,216 @@ class BudgetRuns {
 
   const BudgetRequest& request_;
   const BudgetBatch& ask_;
-  std::vector<BudgetSetting> asked_;  // that are not answered yet
-  std::vector<double> nominal_;
-  std::size_t grids_ = 1, replicates_ = 1, tightest_ = 0, sharpest_ = 0, total_ = 0;
+  const std::vector<double> cells_;
+  const std::size_t grids_, replicates_;
+  std::size_t total_;
+  BudgetSetting base_;
   double weight_ = 0, done_ = 0;
 };
 
-// What the error of the finest grid is, of the change to it from one r times coarser: 1/(r^p - 1), over all
-// orders p that are possible.
-struct Extrapolation {
-  double ratio = 2, low = 1, high = 2;
-  double at(double order) const { return 1 / (elementary::pow(ratio, order) - 1); }
-  // Mean and standard deviation for p alike anywhere between the ends.
-  std::pair<double, double> moments() const {
-    if (high == low) return {at(low), 0};
-    constexpr int steps = 200;
-    double mean = 0, square = 0;
-    for (int k = 0; k < steps; ++k) {
-      const double factor = at(low + (high - low) * (k + 0.5) / steps);
-      mean += factor / steps;
-      square += factor * factor / steps;
+// Means of the repeats of each specimen, without replicates that gave no finite number.
+void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
+                    std::vector<std::vector<double>>& answers, Budget& budget) {
+  std::map<std::size_t, std::vector<std::size_t>> repeats;
+  std::vector<std::string> lost;
+  const std::size_t all = answers.front().size();
+  for (std::size_t r = 0; r < all; ++r)
+    if (std::ranges::all_of(answers, [r](const auto& on_grid) { return std::isfinite(on_grid[r]); }))
+      repeats[request.specimens.empty() ? r : request.specimens[r]].push_back(r);
+    else
+      lost.push_back(std::to_string(r + 1));
+  if (4 * lost.size() > all) throw *runs.lost;
+  if (!lost.empty())
+    budget.warnings.push_back("of " + std::to_string(all) + " replicates, " + joined(lost, " and ") +
+                              " gave no finite number: the mean is that of the others");
+  for (auto& on_grid : answers) {
+    std::vector<double> means;
+    for (const auto& [specimen, of] : repeats) {
+      means.push_back(0);
+      for (const std::size_t r : of) means.back() += on_grid[r] / static_cast<double>(of.size());
     }
-    return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
+    on_grid = std::move(means);
   }
-};
-
-// What one draw is made of.
-struct BudgetFindings {
-  std::vector<double> extrapolated;  // a replicate each
-  double centre = 0;                 // of them: their mean, or that of Cox
-  double change = 0;                 // to the finest grid, in the mean
-  Extrapolation by;
-  double factor_mean = 0, factor_spread = 0;
-  Extrapolation by_tip;  // of the change from the blunter tip to the sharpest
-  double tip_change = 0, tip_mean = 0, tip_spread = 0;
-  double noise = 0;                // standard deviation over its draws
-  double solver = 0;               // half the width in which the error of the solver lies
-  std::vector<double> of_answers;  // where chaos is refused: answers less their mean
-};
-
-double average_of(const std::vector<double>& values) {
-  double mean = 0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  return mean;
+  budget.repeats = static_cast<double>(all - lost.size()) / static_cast<double>(repeats.size());
+  if (request.replicates == 0) return;
+  budget.replicates = repeats.size();
+  if (repeats.size() < 2)
+    refuse_request("`replicate` has one specimen", "scatter takes two or more, better five");
 }
 
-// Student's t with `degrees` of freedom from two uniform numbers (Bailey 1994).
-double student_draw(const Stream& stream, std::uint64_t k, double degrees) {
-  const double u = 1 - stream.uniform(2 * k), v = stream.uniform(2 * k + 1);
-  return std::sqrt(degrees * elementary::expm1(-2 / degrees * elementary::log(u))) *
-         elementary::cos(2 * std::numbers::pi * v);
+// A drift of this order through all grids, with chance in proportion to the width of their cells: by how much
+// the value at no width differs from that of the finest, and the standard error of this.
+std::pair<double, double> drift_of(const std::vector<double>& widths, const std::vector<double>& steps,
+                                   double order) {
+  TableColumns columns(2);
+  std::vector<double> weighted;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    columns[0].push_back(1 / widths[k]);
+    columns[1].push_back(elementary::pow(widths[k], order - 1));
+    weighted.push_back(steps[k] / widths[k]);
+  }
+  const LinearLeastSquares fit = linear_least_squares(columns, weighted);
+  double squares = 0, influence = 0;
+  for (const double residual : fit.residuals) squares += residual * residual;
+  for (const std::vector<double>& of : fit.influence) influence += of[0] * of[0];
+  return {fit.coefficients[0], std::sqrt(squares * influence / static_cast<double>(widths.size() - 2))};
 }
 
-class BudgetDraws {
- public:
-  BudgetDraws(const BudgetRequest& request, const BudgetFindings& found, const Budget& budget)
-      : request_(request), found_(found), budget_(budget) {
-    if (request.interval == MeanInterval::log_normal && budget.sample) {
-      std::vector<double> logs;
-      for (const double value : found.extrapolated) logs.push_back(elementary::log(value));
-      const double n = static_cast<double>(logs.size());
-      const double mean = average_of(logs);
-      for (const double value : logs) log_variance_ += (value - mean) * (value - mean) / (n - 1);
-      log_centre_ = mean + log_variance_ / 2;
-      log_error_ = std::sqrt(log_variance_ / n + log_variance_ * log_variance_ / (2 * (n - 1)));
-    }
-    if (budget.chaos) {
-      at_values_ = budget.chaos->at(std::vector<double>(request.inputs.size()));
-      lack_ = std::sqrt(budget.chaos->leave_one_out * budget.chaos->variance);
-    }
-  }
-
-  std::vector<double> all() const {
-    std::vector<double> drawn;
-    drawn.reserve(request_.draws);
-    const Stream t(request_.seed, "budget sampling"), order(request_.seed, "budget order"),
-        solver(request_.seed, "budget solver"), lack(request_.seed, "budget lack"),
-        tip(request_.seed, "budget tip"), noise(request_.seed, "budget noise");
-    std::vector<Stream> of_inputs;
-    for (std::size_t j = 0; j < request_.inputs.size(); ++j)
-      of_inputs.emplace_back(request_.seed, "budget input " + std::to_string(j));
-    std::vector<double> point(request_.inputs.size());
-    for (std::uint64_t k = 0; k < request_.draws; ++k) {
-      double value = found_.centre;
-      if (budget_.sample) value += sampling(t, k);
-      if (found_.change != 0)
-        value += found_.change *
-                 (found_.by.at(order.uniform(k, found_.by.low, found_.by.high)) - found_.factor_mean);
-      if (found_.tip_change != 0)
-        value += found_.tip_change *
-                 (found_.by_tip.at(tip.uniform(k, found_.by_tip.low, found_.by_tip.high)) - found_.tip_mean);
-      if (found_.noise > 0)
-        value += found_.noise * student_draw(noise, k, static_cast<double>(request_.noises - 1));
-      if (found_.solver > 0) value += found_.solver * solver.uniform(k, -1, 1);
-      if (!found_.of_answers.empty()) {
-        value += found_.of_answers[static_cast<std::size_t>(lack.below(k, found_.of_answers.size()))];
-      } else if (budget_.chaos) {
-        for (std::size_t j = 0; j < point.size(); ++j)
-          point[j] = request_.inputs[j].shape == InputShape::uniform ? of_inputs[j].uniform(k, -1, 1)
-                                                                     : of_inputs[j].normal(k);
-        value += budget_.chaos->at(point) - at_values_;
-        if (lack_ > 0) value += lack_ * lack.normal(k);
-      }
-      drawn.push_back(value);
-    }
-    std::ranges::sort(drawn);
-    return drawn;
-  }
-
- private:
-  // Of the mean of the replicates, from their centre.
-  double sampling(const Stream& stream, std::uint64_t k) const {
-    const double t = student_draw(stream, k, static_cast<double>(budget_.sample->count - 1));
-    if (request_.interval == MeanInterval::log_normal)
-      return elementary::exp(log_centre_ + t * log_error_) - found_.centre;
-    return t * *budget_.sample->standard_error;
-  }
-
-  const BudgetRequest& request_;
-  const BudgetFindings& found_;
-  const Budget& budget_;
-  double log_variance_ = 0, log_centre_ = 0, log_error_ = 0;
-  double at_values_ = 0, lack_ = 0;
-};
-
-// The value below which lies the share p of sorted draws.
-double draw_below(const std::vector<double>& sorted, double p) {
-  const double place = p * static_cast<double>(sorted.size()) - 0.5;
-  const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(sorted.size() - 1));
-  const auto k = static_cast<std::size_t>(low);
-  const double part = std::clamp(place - low, 0.0, 1.0);
-  return k + 1 < sorted.size() ? sorted[k] + part * (sorted[k + 1] - sorted[k]) : sorted[k];
+// `at(p)` for orders p alike anywhere between the ends.
+template <class At>
+std::vector<double> over_orders(double low, double high, At at) {
+  std::vector<double> found;
+  for (int k = 0; k < (high > low ? 200 : 1); ++k) found.push_back(at(low + (high - low) * (k + 0.5) / 200));
+  return found;
 }
 
-void look_at_cells(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
+// The error of the finest of two that differ by `change`, r times as fine, over all orders.
+std::vector<double> extrapolations(double change, double ratio, double low, double high) {
+  return over_orders(low, high, [&](double order) { return change / (elementary::pow(ratio, order) - 1); });
+}
+
+// The error that the cells make for one specimen; `between` holds the answers on the grids between.
+void look_at_chance(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
+                    const std::vector<double>& between, BudgetTerm& term, Budget& budget) {
+  // Drifts of order 1 to 2 exceed their errors by this factor; the scatter of rough faces hardly ever does.
+  constexpr double clear = 15;
+  const std::vector<double> grids = budget_grids(request);
+  const std::size_t last = answers.size() - 1;
+  std::vector<double> widths{1}, steps{0};
+  std::vector<std::string> others;
+  double squares = 0;
+  for (std::size_t c = 0; c <= last + between.size(); ++c) {
+    if (c == last) continue;
+    widths.push_back(grids[last] / grids[c]);
+    steps.push_back((c < last ? answers[c].front() : between[c - last - 1]) - answers[last].front());
+    squares += steps.back() * steps.back() / (1 + widths.back() * widths.back());
+    others.push_back(format_short(grids[c]));
+  }
+  const std::size_t count = others.size();
+  const std::string names = joined(others, " and ");
+  term.scale = std::sqrt(squares / static_cast<double>(count));
+  term.degrees = count == 1 ? 1 : std::max(2.0, static_cast<double>(count - 1));
+  if (count == 1) {
+    budget.warnings.emplace_back(
+        "cells: one change may be small by chance, and the interval is wide for it; give three `cells`");
+  } else {
+    const auto [off, error] = drift_of(widths, steps, (request.order_low + request.order_high) / 2);
+    if (std::abs(off) > clear * error) {
+      term.scale = error;
+      term.list = over_orders(request.order_low, request.order_high,
+                              [&](double order) { return drift_of(widths, steps, order).first; });
+      budget.notes.push_back("cells: the value is corrected by " + format_short(average_of(term.list), 3) +
+                             " for the drift through " + names + " and " + format_short(grids[last]));
+      return;
+    }
+  }
+  budget.notes.push_back("cells: the value is that on " + format_short(grids[last]) +
+                         "; its error is as great as the scatter of " + names + " about it");
+}
+
+void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>>& answers, BudgetRuns& runs,
                    BudgetFindings& found, Budget& budget) {
   const std::size_t last = answers.size() - 1;
-  found.extrapolated = answers[last];
   if (last == 0) {
     budget.notes.push_back(request.cells.empty()
                                ? "cells: not estimated; give two or more `cells`"
                                : "cells: not estimated from one grid; give two or more `cells`");
     return;
   }
-  found.by = {request.cells[last] / request.cells[last - 1], request.order_low, request.order_high};
-  std::tie(found.factor_mean, found.factor_spread) = found.by.moments();
+  const double ratio = request.cells[last] / request.cells[last - 1];
   std::vector<double> steps;
-  for (std::size_t r = 0; r < answers[last].size(); ++r) {
+  for (std::size_t r = 0; r < answers[last].size(); ++r)
     steps.push_back(answers[last][r] - answers[last - 1][r]);
-    found.extrapolated[r] += found.factor_mean * steps[r];
-  }
-  found.change = average_of(steps);
+  const double change = average_of(steps);
   if (std::ranges::all_of(steps, [](double step) { return step == 0; }))
     budget.warnings.emplace_back(
         "the two finest grids give the same answer, to the last digit: does `ask` use its `cells`?");
-  budget.notes.push_back(
-      "cells: the value is corrected by " + format_short(found.factor_mean * found.change, 3) +
-      " for an error of order " + format_short(request.order_low) +
-      (request.order_high > request.order_low ? " to " + format_short(request.order_high) : std::string()));
-  if (last < 2) return;
-  const double before = average_of(answers[last - 1]) - average_of(answers[last - 2]);
-  const double ratio = request.cells[last - 1] / request.cells[last - 2];
-  if (!(found.change / before > 0)) {
-    budget.warnings.push_back(
-        "the three finest grids do not approach a value from one side: chance of the cells, or too few of "
-        "them; the share of cells is a guess");
-    return;
+  if (last > 1) {
+    const double before = average_of(answers[last - 1]) - average_of(answers[last - 2]);
+    // For equal ratios the changes go as r^p; unequal ones are taken for their mean.
+    if (change / before > 0)
+      budget.order_observed =
+          elementary::log(before / change) /
+          elementary::log(std::sqrt(ratio * request.cells[last - 1] / request.cells[last - 2]));
+    if (!budget.order_observed)
+      budget.warnings.emplace_back(
+          "the three finest grids do not approach a value from one side: chance of the cells, or too few");
+    else if (*budget.order_observed < request.order_low - 0.5 ||
+             *budget.order_observed > request.order_high + 0.5)
+      budget.warnings.push_back("the order observed over three grids is " +
+                                format_short(*budget.order_observed, 2) + ", off `order` from " +
+                                format_short(request.order_low) + " to " + format_short(request.order_high));
   }
-  // For equal ratios the changes go as r^p; unequal ones are taken for their mean.
-  budget.order_observed =
-      elementary::log(before / found.change) / elementary::log(std::sqrt(ratio * found.by.ratio));
-  if (*budget.order_observed < request.order_low - 0.5 || *budget.order_observed > request.order_high + 0.5)
-    budget.warnings.push_back("the order observed over three grids is " +
-                              format_short(*budget.order_observed, 2) + ", off `order` from " +
-                              format_short(request.order_low) + " to " + format_short(request.order_high));
+  BudgetTerm& term = found.terms.emplace_back();
+  term.name = "cells";
+  if (request.replicates == 0) return look_at_chance(request, answers, runs.between(), term, budget);
+  // Each replicate is corrected by the mean over the orders; the mean change keeps its standard error.
+  term.list = extrapolations(1, ratio, request.order_low, request.order_high);
+  const double factor = average_of(term.list), count = static_cast<double>(steps.size());
+  term.degrees = count - 1;
+  term.scale = term.uncertainty() * deviation_of(steps, term.degrees) / std::sqrt(count);
+  for (std::size_t r = 0; r < steps.size(); ++r) answers[last][r] += factor * steps[r];
+  for (double& value : term.list) value = change * (value - factor);
+  budget.notes.push_back(
+      "cells: the value is corrected by " + format_short(factor * change, 3) + " for an error of order " +
+      format_short(request.order_low) +
+      (request.order_high > request.order_low ? " to " + format_short(request.order_high) : std::string()));
 }
 
-void look_at_sample(const BudgetRequest& request, BudgetFindings& found, Budget& budget) {
-  found.centre = average_of(found.extrapolated);
+void look_at_sample(const BudgetRequest& request, const std::vector<double>& values, BudgetFindings& found,
+                    Budget& budget) {
+  found.centre = average_of(values);
   if (request.replicates == 0) {
     budget.notes.push_back("sampling: not estimated; give `replicate`");
     return;
   }
-  budget.sample = sample_mean(found.extrapolated, request.interval, request.confidence);
+  budget.sample = sample_mean(values, request.interval, request.confidence);
   budget.warnings.insert(budget.warnings.end(), budget.sample->warnings.begin(),
                          budget.sample->warnings.end());
-  if (std::ranges::all_of(found.extrapolated,
-                          [&](double value) { return value == found.extrapolated.front(); }))
+  if (std::ranges::all_of(values, [&](double value) { return value == values.front(); }))
     budget.warnings.emplace_back(
         "all replicates give the same answer, to the last digit: does `ask` use what `replicate` names?");
-  if (request.interval != MeanInterval::log_normal) return;
-  std::vector<double> logs;
-  for (const double value : found.extrapolated) logs.push_back(elementary::log(value));
-  const double mean = average_of(logs);
-  double variance = 0;
-  for (const double value : logs)
-    variance += (value - mean) * (value - mean) / static_cast<double>(logs.size() - 1);
-  found.centre = elementary::exp(mean + variance / 2);
+  found.terms.push_back(
+      {"sampling", {}, *budget.sample->standard_error, static_cast<double>(budget.sample->count - 1)});
+  if (request.interval == MeanInterval::log_normal) found.centre = elementary::exp(budget.sample->log_centre);
 }
 
-void look_at_solver(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
-                    BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
+void look_at_solver(const BudgetRequest& request, BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
   if (request.tolerances.size() < 2) {
     budget.notes.emplace_back("solver: not estimated; give two or more values of `tolerance`");
     return;
   }
   const std::size_t last = request.tolerances.size() - 1;
   const double ratio = request.tolerances[last - 1] / request.tolerances[last];
-  found.solver = std::abs(runs.loose() - answers[0][0]) / (ratio - 1);
+  BudgetSetting loose = runs.base("solver");
+  --loose.tolerance;
+  const double half = (runs.run({loose}).front() - found.first) / (ratio - 1);
+  found.terms.push_back({"solver", over_orders(-1, 1, [&](double share) { return share * half; })});
 }
 
 // What a stylus and its noise do to the answer; nothing is said of a budget that has no instrument.
-void look_at_instrument(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
-                        BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
+void look_at_instrument(const BudgetRequest& request, BudgetRuns& runs, BudgetFindings& found,
+                        Budget& budget) {
   if (request.tips.size() > 1) {
     const std::size_t last = request.tips.size() - 1;
-    found.by_tip = {request.tips[last - 1] / request.tips[last], 1, 2};
-    std::tie(found.tip_mean, found.tip_spread) = found.by_tip.moments();
-    found.tip_change = answers[0][0] - runs.blunt();
+    const double ratio = request.tips[last - 1] / request.tips[last];
+    BudgetSetting blunt = runs.base("tip");
+    --blunt.tip;
+    found.terms.push_back({"tip", extrapolations(found.first - runs.run({blunt}).front(), ratio, 1, 2)});
     budget.notes.push_back("tip: the value is corrected by " +
-                           format_short(found.tip_mean * found.tip_change, 3) +
+                           format_short(average_of(found.terms.back().list), 3) +
                            " for an error of order 1 to 2 of its radius");
   }
   if (request.noises == 0) return;
-  const std::vector<double> noisy = runs.noisy();
-  const double n = static_cast<double>(noisy.size()), shift = average_of(noisy) - answers[0][0];
-  double squares = 0;
-  for (const double value : noisy)
-    squares += (value - answers[0][0] - shift) * (value - answers[0][0] - shift);
-  found.noise = std::sqrt(squares / (n - 1));
+  std::vector<BudgetSetting> draws(request.noises, runs.base("noise"));
+  for (std::size_t k = 0; k < draws.size(); ++k) draws[k].noise = k;
+  const std::vector<double> noisy = runs.run(std::move(draws));
+  const double shift = average_of(noisy) - found.first, degrees = static_cast<double>(noisy.size() - 1);
+  const double noise = deviation_of(noisy, degrees);
+  found.terms.push_back({"noise", {}, noise, degrees});
   budget.notes.push_back("noise: n = " + std::to_string(noisy.size()) + ", moves the answer by " +
                          format_short(shift, 3) + " in the mean, which is not corrected");
-  if (std::abs(shift) > 3 * found.noise)
+  if (std::abs(shift) > 3 * noise)
     budget.warnings.push_back("noise moves the answer by " + format_short(shift, 3) +
                               ", far more than it scatters it: filter what is measured, or ask for what does "
                               "not hang on the shortest waves");
@@ -423,85 +388,126 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   // Doubled only where nobody has said how many runs or how long.
   ChaosRequest of_inputs{request.inputs, request.runs, request.seed};
   if (request.at_most) of_inputs.runs = runs_of_inputs(request);
+  // Student's t goes far beyond the points.
+  if (std::ranges::any_of(request.inputs, [](const auto& of) { return of.degrees < 30; }))
+    of_inputs.highest = 3;
   std::size_t asked = 0;
   ChaosOfRuns chaos = chaos_of_batches(
-      of_inputs, [&](std::span<const std::vector<double>> points) { return runs.at(points); },
+      of_inputs,
+      [&](std::span<const std::vector<double>> points) {
+        std::vector<BudgetSetting> settings(points.size(), runs.base("inputs"));
+        for (std::size_t k = 0; k < points.size(); ++k) settings[k].inputs = points[k];
+        return runs.run(std::move(settings));
+      },
       [&](std::size_t more) {
         if (asked > 0) runs.expect(more);
         asked += more;
       });
   budget.chaos = std::move(chaos.chaos);
-  const std::vector<double>& answers = chaos.answers;
-  // What is rough is said once, as a warning.
-  const bool good = budget.chaos->trust() == ChaosTrust::good;
+  const ChaosTrust trust = budget.chaos->trust();
   if (!(budget.chaos->variance > 0))
     budget.warnings.emplace_back("the answer does not hang on the inputs: does `ask` use them?");
-  budget.notes.push_back("inputs: taken as independent, shares do not hold for correlated ones" +
-                         (good ? "; " + budget.chaos->text() : std::string()));
-  if (good) return;
-  budget.warnings.push_back(budget.chaos->text());
-  if (budget.chaos->trust() == ChaosTrust::rough) return;
-  const double mean = average_of(answers);
-  for (const double answer : answers) found.of_answers.push_back(answer - mean);
+  // A rough fit is reported once, as a warning.
+  budget.notes.push_back(
+      (request.correlations.empty() ? "inputs: taken as independent" : "inputs: correlated") +
+      (trust == ChaosTrust::good ? "; " + budget.chaos->text() : std::string()));
+  if (trust != ChaosTrust::good) budget.warnings.push_back(budget.chaos->text());
+  if (trust != ChaosTrust::refused) return;
+  for (double& answer : chaos.answers) answer -= found.first;
+  found.terms.push_back({"inputs", std::move(chaos.answers)});
 }
 
-void add_part(Budget& budget, std::string name, double uncertainty, double share_error = 0) {
-  BudgetPart part;
+BudgetPart& add_part(Budget& budget, std::string name, double uncertainty, double degrees) {
+  BudgetPart& part = budget.parts.emplace_back();
   part.name = std::move(name);
   part.uncertainty = uncertainty;
-  part.share_error = share_error;
-  budget.parts.push_back(std::move(part));
+  part.degrees = degrees;
+  return part;
 }
 
-void add_parts(const BudgetRequest& request, const BudgetFindings& found, Budget& budget) {
-  if (budget.sample) add_part(budget, "sampling", *budget.sample->standard_error);
-  if (request.cells.size() > 1) add_part(budget, "cells", std::abs(found.change) * found.factor_spread);
-  if (request.tolerances.size() > 1) add_part(budget, "solver", found.solver / std::sqrt(3.0));
-  if (request.tips.size() > 1) add_part(budget, "tip", std::abs(found.tip_change) * found.tip_spread);
-  if (request.noises > 0) add_part(budget, "noise", found.noise);
-  double variance_of_inputs = 0;
-  if (!found.of_answers.empty()) {
-    for (const double value : found.of_answers)
-      variance_of_inputs += value * value / static_cast<double>(found.of_answers.size());
-    add_part(budget, "inputs", std::sqrt(variance_of_inputs));
-  } else if (budget.chaos) {
-    variance_of_inputs = budget.chaos->variance * (1 + budget.chaos->leave_one_out);
-    double together = variance_of_inputs;
-    for (const VarianceShare& share : budget.chaos->shares) {
-      const double variance = share.first * budget.chaos->variance;
-      together -= variance;
-      add_part(budget, share.name, std::sqrt(variance), share.first_error);
-    }
-    if (request.inputs.size() > 1) add_part(budget, "inputs together", std::sqrt(std::max(0.0, together)));
+// A row for each input, a row for the correlations, and a row for the rest of the variance.
+void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& budget) {
+  constexpr double always = std::numeric_limits<double>::infinity();
+  const PolynomialChaos& chaos = *budget.chaos;
+  const std::size_t count = request.inputs.size();
+  double rest = chaos.variance * (1 + chaos.leave_one_out), mutual = 0;
+  std::vector<double> slopes;
+  for (std::size_t j = 0; j < count; ++j) {
+    constexpr double step = 0.1;
+    std::vector<double> above(count), below(count);
+    above[j] = step;
+    below[j] = -step;
+    const UncertainInput& input = request.inputs[j];
+    const VarianceShare& share = chaos.shares[j];
+    const double slope = (chaos.at(above) - chaos.at(below)) / (input.at(step) - input.at(-step));
+    slopes.push_back(slope * input.uncertainty);
+    BudgetPart& part =
+        add_part(budget, input.name,
+                 request.correlations.empty() ? std::sqrt(share.first * chaos.variance) : std::abs(slopes[j]),
+                 input.degrees);
+    part.share_error = share.first_error;
+    part.input = input;
+    part.sensitivity = slope;
+    part.total = request.correlations.empty() ? share.total * chaos.variance : part.variance();
+    rest -= part.variance();
+    for (std::size_t k = 0; k < j; ++k) mutual += 2 * slopes[j] * slopes[k] * inputs.correlation(j, k);
   }
-  double variance = 0;
-  for (const BudgetPart& part : budget.parts) variance += part.uncertainty * part.uncertainty;
-  budget.uncertainty = std::sqrt(variance);
+  if (!request.correlations.empty())
+    add_part(budget, "correlation", std::sqrt(std::abs(mutual)), always).sign = mutual < 0 ? -1 : 1;
+  if (count > 1) add_part(budget, "inputs together", std::sqrt(std::max(0.0, rest)), always);
+}
+
+void add_parts(const BudgetRequest& request, const InputDraws& inputs, const BudgetFindings& found,
+               Budget& budget) {
+  for (const BudgetTerm& term : found.terms)
+    add_part(budget, term.name, term.uncertainty(),
+             term.scale > 0 ? term.degrees : std::numeric_limits<double>::infinity());
+  double variance = 0, of_inputs = 0;
+  for (const BudgetPart& part : budget.parts) variance += part.variance();
+  if (budget.chaos && budget.chaos->trust() != ChaosTrust::refused) {
+    const std::size_t others = budget.parts.size();
+    add_inputs(request, inputs, budget);
+    for (std::size_t k = others; k < budget.parts.size(); ++k) of_inputs += budget.parts[k].variance();
+  }
+  variance += of_inputs;
+  budget.uncertainty = std::sqrt(std::max(0.0, variance));
   for (BudgetPart& part : budget.parts) {
-    part.share = variance > 0 ? part.uncertainty * part.uncertainty / variance : 0;
-    part.share_error *= variance > 0 ? variance_of_inputs / variance : 0;
+    part.share = variance > 0 ? part.variance() / variance : 0;
+    part.share_error *= variance > 0 ? of_inputs / variance : 0;
   }
 }
 
-void add_interval(const BudgetRequest& request, BudgetFindings& found, Budget& budget) {
-  const bool sample_alone = budget.sample && !budget.chaos && found.change == 0 && found.solver == 0 &&
-                            found.tip_change == 0 && found.noise == 0;
+void add_interval(const BudgetRequest& request, const InputDraws& inputs, const BudgetFindings& found,
+                  Budget& budget) {
   budget.value = found.centre;
-  if (sample_alone) {
-    budget.low = *budget.sample->low;
-    budget.high = *budget.sample->high;
+  for (const BudgetTerm& term : found.terms) budget.value += average_of(term.list);
+  if (found.terms.size() == 1 && found.terms.front().list.empty() && !budget.chaos) {
+    const BudgetTerm& term = found.terms.front();
+    const double reach = term.scale * student_t_factor(request.confidence, term.degrees);
+    budget.low = budget.sample ? *budget.sample->low : budget.value - reach;
+    budget.high = budget.sample ? *budget.sample->high : budget.value + reach;
     return;
   }
-  found.centre += found.tip_mean * found.tip_change;
-  budget.value = found.centre;
-  if (budget.chaos && found.of_answers.empty())
+  if (budget.chaos && budget.chaos->trust() != ChaosTrust::refused)
     budget.value += budget.chaos->mean - budget.chaos->at(std::vector<double>(request.inputs.size()));
-  const std::vector<double> drawn = BudgetDraws(request, found, budget).all();
-  budget.low = draw_below(drawn, (1 - request.confidence) / 2);
-  budget.high = draw_below(drawn, (1 + request.confidence) / 2);
+  const std::vector<double> drawn = budget_draws(request, inputs, found, budget);
+  const auto tail =
+      static_cast<std::size_t>((1 - request.confidence) / 2 * static_cast<double>(drawn.size()));
+  budget.low = drawn[tail];
+  budget.high = drawn[drawn.size() - 1 - tail];
 }
 
 }  // namespace
+
+std::vector<double> budget_grids(const BudgetRequest& request) {
+  std::vector<double> grids = request.cells;
+  if (request.replicates > 0 || grids.size() != 2) return grids;
+  for (const double share : {0.25, 0.5}) {
+    const double cells = 2 * std::ceil((grids[0] + share * (grids[1] - grids[0])) / 2);
+    if (cells < grids[1] && cells != grids.back()) grids.push_back(cells);
+  }
+  return grids;
+}
 
 void check_request(const BudgetRequest& request) {
   if (!request.inputs.empty()) check_inputs(request.inputs);
@@ -527,21 +533,15 @@ void check_request(const BudgetRequest& request) {
 }
 
 std::size_t budget_runs(const BudgetRequest& request) {
+  const std::size_t between = budget_grids(request).size() - request.cells.size();
   return std::max<std::size_t>(1, request.cells.size()) * std::max<std::size_t>(1, request.replicates) +
-         (request.tolerances.size() > 1 ? 1 : 0) + (request.tips.size() > 1 ? 1 : 0) + request.noises +
-         runs_of_inputs(request);
-}
-
-Budget budget_of(const BudgetRequest& request, const BudgetAsk& ask) {
-  return budget_of_batches(request, [&ask](std::span<const BudgetSetting> settings) {
-    std::vector<BudgetAnswer> answers;
-    for (const BudgetSetting& setting : settings) answers.push_back(ask(setting));
-    return answers;
-  });
+         between + (request.tolerances.size() > 1 ? 1 : 0) + (request.tips.size() > 1 ? 1 : 0) +
+         request.noises + runs_of_inputs(request);
 }
 
 Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask) {
   check_request(request);
+  const InputDraws inputs(request);
   Budget budget;
   budget.confidence = request.confidence;
   budget.replicates = request.replicates;
@@ -551,20 +551,24 @@ Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask) {
   budget.asked = request.half_width;
   BudgetFindings found;
   BudgetRuns runs(request, ask);
-  const auto answers = runs.replicates();
-  look_at_cells(request, answers, found, budget);
-  look_at_sample(request, found, budget);
-  look_at_solver(request, answers, runs, found, budget);
-  look_at_instrument(request, answers, runs, found, budget);
+  auto answers = runs.replicates();
+  found.first = answers[0][0];
+  take_specimens(request, runs, answers, budget);
+  look_at_cells(request, answers, runs, found, budget);
+  look_at_sample(request, answers.back(), found, budget);
+  look_at_solver(request, runs, found, budget);
+  look_at_instrument(request, runs, found, budget);
   look_at_inputs(request, runs, found, budget);
-  add_parts(request, found, budget);
-  add_interval(request, found, budget);
+  add_parts(request, inputs, found, budget);
+  add_interval(request, inputs, found, budget);
+  if (budget.asked && request.of_answer) *budget.asked *= std::abs(budget.value);
   budget.runs = runs.count;
   budget.seconds = runs.sum;
   for (const auto& on_grid : runs.seconds) budget.seconds_of_cells.push_back(median_seconds(on_grid));
   const double solver_seconds =
       request.tolerances.size() > 1 ? std::max(0.0, runs.seconds[0][0] - runs.loose_seconds) : 0;
-  add_costs(budget, (request.order_low + request.order_high) / 2, solver_seconds);
+  const bool by_chance = request.replicates == 0 && !found.terms.empty() && found.terms.front().list.empty();
+  add_costs(budget, by_chance ? 1 : (request.order_low + request.order_high) / 2, solver_seconds);
   std::ranges::stable_sort(budget.parts,
                            [](const BudgetPart& a, const BudgetPart& b) { return a.share > b.share; });
   return budget;

@@ -18,56 +18,32 @@ namespace {
 
 constexpr std::size_t most_replicates = 100000;
 
-const BudgetPart* part_called(const Budget& budget, const char* name) {
-  for (const BudgetPart& part : budget.parts)
-    if (part.name == name) return &part;
-  return nullptr;
+// By Welch and Satterthwaite, of squared variances over their degrees of freedom.
+double effective_degrees(double variance, double squares) {
+  const double degrees = variance * variance / squares;
+  return degrees < 1e9 ? degrees : std::numeric_limits<double>::infinity();
 }
-
-// Seconds of a run on other grids.
-class GridTimes {
- public:
-  explicit GridTimes(const Budget& budget) : budget_(budget) {
-    const auto& t = budget.seconds_of_cells;
-    if (t.size() > 1 && t.back() > 0 && t[t.size() - 2] > 0)
-      power_ = std::clamp(elementary::log(t.back() / t[t.size() - 2]) /
-                              elementary::log(budget.cells.back() / budget.cells[t.size() - 2]),
-                          0.0, 4.0);
-  }
-  double at(double cells) const {
-    for (std::size_t k = 0; k < budget_.cells.size(); ++k)
-      if (budget_.cells[k] == cells) return budget_.seconds_of_cells[k];
-    return budget_.seconds_of_cells.back() * elementary::pow(cells / budget_.cells.back(), power_);
-  }
-
- private:
-  const Budget& budget_;
-  double power_ = 2;
-};
 
 double even_cells(double cells) { return 2 * std::ceil(cells / 2 - 1e-9); }
 
 // Predicts interval and time for other numbers of replicates and cells.
 class Planner {
  public:
-  Planner(const Budget& budget, double order) : budget_(budget), times_(budget), order_(order) {
-    if (const BudgetPart* part = part_called(budget, "sampling")) sampling_ = part->uncertainty;
-    if (const BudgetPart* part = part_called(budget, "cells")) cells_ = part->uncertainty;
-    rest_ = std::max(0.0, budget.uncertainty * budget.uncertainty - sampling_ * sampling_ - cells_ * cells_);
+  Planner(const Budget& budget, double order) : budget_(budget), order_(order) {
+    const auto& t = budget.seconds_of_cells;
     if (budget.cells.size() > 1) ratio_ = budget.cells.back() / budget.cells[budget.cells.size() - 2];
-    const double now = reach(replicates_now(), finest());
+    if (t.size() > 1 && t.back() > 0 && t[t.size() - 2] > 0)
+      power_ = std::clamp(elementary::log(t.back() / t[t.size() - 2]) / elementary::log(ratio_), 0.0, 4.0);
+    const double now = reach(budget_.replicates, finest());
     if (now > 0 && std::isfinite(budget.half_width())) scale_ = budget.half_width() / now;
   }
 
   double half_width(std::size_t replicates, double cells) const { return scale_ * reach(replicates, cells); }
 
   double seconds(std::size_t replicates, double cells) const {
-    double of_one = 0;
-    if (budget_.cells.empty())
-      of_one = budget_.seconds_of_cells.back();
-    else
-      of_one = times_.at(cells) + (budget_.cells.size() > 1 ? times_.at(cells / ratio_) : 0);
-    return of_one * static_cast<double>(std::max<std::size_t>(1, replicates));
+    double of_one = run_seconds(cells);
+    if (budget_.cells.size() > 1) of_one += run_seconds(cells / ratio_);
+    return of_one * budget_.repeats * static_cast<double>(std::max<std::size_t>(1, replicates));
   }
 
   // The fewest replicates on these cells; 0 for none, or where there is nothing to sample.
@@ -112,38 +88,42 @@ class Planner {
   }
 
   double finest() const { return budget_.cells.empty() ? 0 : budget_.cells.back(); }
-  std::size_t replicates_now() const { return budget_.replicates; }
   double finer_half() const { return even_cells(finest() * elementary::exp2(1 / order_)); }
-  double run_seconds(double cells) const { return times_.at(cells); }
+  double run_seconds(double cells) const {
+    const double finest_seconds = budget_.seconds_of_cells.back();
+    return budget_.cells.empty() ? finest_seconds
+                                 : finest_seconds * elementary::pow(cells / finest(), power_);
+  }
 
  private:
   double reach(std::size_t replicates, double cells) const {
-    double sampling = 0;
-    if (budget_.replicates > 0)
-      sampling =
-          sampling_ * sampling_ * static_cast<double>(budget_.replicates) / static_cast<double>(replicates);
-    double of_cells = 0;
-    if (budget_.cells.size() > 1) {
-      const double u = cells_ * elementary::pow(finest() / cells, order_);
-      of_cells = u * u;
+    double variance = 0, squares = 0;
+    for (const BudgetPart& part : budget_.parts) {
+      double of_part = part.variance(), degrees = part.degrees;
+      if (part.name == "sampling") {
+        of_part *= static_cast<double>(budget_.replicates) / static_cast<double>(replicates);
+        degrees = std::max(1.0, static_cast<double>(replicates) - 1);
+      } else if (part.name == "cells") {
+        of_part *= elementary::pow(finest() / cells, 2 * order_);
+      }
+      variance += of_part;
+      squares += of_part * of_part / degrees;
     }
-    const double variance = sampling + of_cells + rest_;
     if (!(variance > 0)) return 0;
-    // Degrees of freedom of the whole, by Welch and Satterthwaite.
-    double degrees = std::numeric_limits<double>::infinity();
-    if (sampling > 0 && replicates > 1)
-      degrees = variance / sampling * (variance / sampling) * static_cast<double>(replicates - 1);
-    if (degrees > 1e9) degrees = std::numeric_limits<double>::infinity();
-    return student_t_factor(budget_.confidence, degrees) * std::sqrt(variance);
+    return student_t_factor(budget_.confidence, effective_degrees(variance, squares)) * std::sqrt(variance);
   }
 
   const Budget& budget_;
-  GridTimes times_;
-  double order_;
-  double sampling_ = 0, cells_ = 0, rest_ = 0, ratio_ = 2, scale_ = 1;
+  double order_, ratio_ = 2, scale_ = 1, power_ = 2;  // power of the seconds
 };
 
 }  // namespace
+
+double Budget::degrees() const {
+  double squares = 0;
+  for (const BudgetPart& part : parts) squares += part.variance() * part.variance() / part.degrees;
+  return effective_degrees(uncertainty * uncertainty, squares);
+}
 
 // Fills what halving takes, how wide the interval is then, and the plan. `order` is that of the error of the
 // cells; `solver_seconds` is how much longer a run on the coarsest grid takes to the tightest tolerance than
@@ -151,11 +131,15 @@ class Planner {
 void add_costs(Budget& budget, double order, double solver_seconds) {
   const Planner planner(budget, order);
   const std::size_t n = budget.replicates;
-  const double runs = static_cast<double>(std::max<std::size_t>(1, n));
+  const double runs = budget.repeats * static_cast<double>(std::max<std::size_t>(1, n));
+  const double whole = budget.uncertainty * budget.uncertainty;
   for (BudgetPart& part : budget.parts) {
-    part.half_width_after = budget.half_width() * std::sqrt(std::max(0.0, 1 - 0.75 * part.share));
+    // An input narrows also what it does together with others.
+    const double share = part.input && whole > 0 ? part.total / whole : part.share;
+    part.half_width_after = budget.half_width() * std::sqrt(std::max(0.0, 1 - 0.75 * std::max(0.0, share)));
     if (part.name == "sampling") {
-      part.halving = std::to_string(3 * n) + " more replicates";
+      part.half_width_after = planner.half_width(4 * n, planner.finest());
+      part.halving = std::to_string(3 * n) + (budget.repeats > 1 ? " more specimens" : " more replicates");
       part.halving_seconds = planner.seconds(3 * n, planner.finest());
     } else if (part.name == "cells") {
       const double finer = planner.finer_half();
@@ -176,12 +160,11 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
           "a tip of " + format_quantity(budget.tips.back() / elementary::exp2(2.0 / 3), dimension::length, 2);
     } else if (part.name == "noise") {
       part.halving = "the mean of four measurements";
-    } else if (part.name == "inputs" || part.name == "inputs together") {
+    } else if (part.input) {
+      part.halving =
+          "measured to u = " + format_quantity(part.input->uncertainty / 2, part.input->dimension, 3);
+    } else {
       part.halving = "better measured inputs";
-    } else if (budget.chaos) {
-      for (const UncertainInput& input : budget.chaos->inputs)
-        if (input.name == part.name)
-          part.halving = "measured to u = " + format_short(input.uncertainty / 2, 3);
     }
   }
   if (budget.asked) budget.plan = planner.cheapest(*budget.asked);

@@ -5,15 +5,32 @@
 
 #include "engine/core/text.hpp"
 #include "engine/study/budget.hpp"
+#include "engine/study/study_text.hpp"
 
 namespace asperity {
 
 namespace {
 
-std::string padded_cell(std::string text, std::size_t width, bool right) {
-  if (text.size() >= width) return text;
-  const std::string space(width - text.size(), ' ');
-  return right ? space + text : text + space;
+// A number without the rounding of its last digits.
+std::string tidy(double value, double uncertainty, int digits) {
+  return format_short(std::abs(value) < 1e-12 * uncertainty ? 0 : value, digits);
+}
+
+std::string degrees_text(double degrees) {
+  return std::isfinite(degrees) ? format_short(degrees, 3) : std::string("∞");
+}
+
+// The inputs as the Guide to the Expression of Uncertainty in Measurement lists them.
+void add_input_sheet(const Budget& budget, std::string& text) {
+  std::vector<TextLine> lines = {{"input", "value", "u", "degrees", "sensitivity", "contribution", "shape"}};
+  for (const BudgetPart& part : budget.parts)
+    if (const auto& input = part.input)
+      lines.push_back({input->name, format_quantity(input->value, input->dimension, 5),
+                       format_quantity(input->uncertainty, input->dimension, 3), degrees_text(input->degrees),
+                       tidy(part.sensitivity, budget.uncertainty / input->uncertainty, 4),
+                       tidy(std::abs(part.sensitivity) * input->uncertainty, budget.uncertainty, 3),
+                       input_shapes()[static_cast<std::size_t>(input->shape)]});
+  if (lines.size() > 1) text += aligned(lines).substr(1) + "\n";
 }
 
 std::string budget_share_text(double share) { return format_short(std::round(1000 * share) / 10, 4) + " %"; }
@@ -46,27 +63,29 @@ void add_plan_text(const Budget& budget, std::string& text) {
 }  // namespace
 
 std::string Budget::text() const {
-  std::string text = "budget: " + format_short(value, 5) + ", from " + format_short(low, 5) + " to " +
-                     format_short(high, 5) + " (" + format_short(100 * confidence, 4) +
-                     " %), standard uncertainty " + format_short(uncertainty, 3) + "; " +
-                     std::to_string(runs) + (runs == 1 ? " run, " : " runs, ") + format_short(seconds, 2) +
-                     " s\n";
-  std::size_t width = 6;
-  for (const BudgetPart& part : parts) width = std::max(width, part.name.size() + 2);
-  text += "  " + padded_cell("part", width, false) + padded_cell("u", 11, true) +
-          padded_cell("share", 9, true) + "   to halve it\n";
+  std::string text = "budget: " + tidy(value, uncertainty, 5) + ", from " + tidy(low, uncertainty, 5) +
+                     " to " + tidy(high, uncertainty, 5) + " (" + format_short(100 * confidence, 4) +
+                     " %), standard uncertainty " + format_short(uncertainty, 3);
+  if (uncertainty > 0)
+    text += ", coverage factor " + format_short(half_width() / uncertainty, 3) + ", " +
+            degrees_text(degrees()) + " degrees of freedom";
+  text +=
+      "; " + std::to_string(runs) + (runs == 1 ? " run, " : " runs, ") + format_short(seconds, 2) + " s\n";
+  std::vector<TextLine> lines = {{"part", "u", "degrees", "share", "to halve it"}};
   const bool rough = chaos && chaos->trust() == ChaosTrust::rough;
   for (const BudgetPart& part : parts) {
     const bool of_input = !part.halving_seconds && part.name != "tip" && part.name != "noise";
-    text += "  " + padded_cell(part.name, width, false) +
-            padded_cell(format_short(part.uncertainty, 3), 11, true) +
-            padded_cell((rough && of_input ? "~" : "") + budget_share_text(part.share), 9, true) + "   " +
-            part.halving;
-    if (part.halving_seconds) text += ", " + format_short(*part.halving_seconds, 2) + " s";
-    text += "; then ± " + format_short(part.half_width_after, 3) + "\n";
+    std::string halving = part.halving;
+    if (part.halving_seconds) halving += ", " + format_short(*part.halving_seconds, 2) + " s";
+    lines.push_back({part.name, tidy(part.uncertainty, uncertainty, 3), degrees_text(part.degrees),
+                     (rough && of_input ? "~" : "") + budget_share_text(part.share),
+                     halving + "; then ± " + format_short(part.half_width_after, 3)});
   }
+  text += aligned(lines).substr(1) + "\n";
+  add_input_sheet(*this, text);
   if (sample) {
     text += "  sampling: n = " + std::to_string(sample->count);
+    if (repeats > 1) text += " specimens of " + format_short(repeats, 3) + " runs each";
     if (sample->skewness) text += ", skewness " + format_short(*sample->skewness, 2);
     text += "; " + sample->method + "\n";
   }

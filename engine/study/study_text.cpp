@@ -2,7 +2,6 @@
 #include "engine/study/study_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -25,23 +24,6 @@ Cell cell_of(const KnobValue& value) {
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-using Line = std::array<std::string, 6>;
-
-std::string aligned(const std::vector<Line>& lines) {
-  std::array<std::size_t, 6> widths{};
-  for (const Line& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], width_of(line[c]));
-  std::string text;
-  for (const Line& line : lines) {
-    std::string row = " ";
-    for (std::size_t c = 0; c < line.size(); ++c)
-      row += " " + line[c] + std::string(widths[c] - width_of(line[c]) + 1, ' ');
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += "\n" + row;
-  }
-  return text;
 }
 
 std::string time_with_spread(const StudyRow& row) {
@@ -108,6 +90,21 @@ std::string_view name(StudyRow::End end) {
 
 }  // namespace
 
+std::string aligned(const std::vector<TextLine>& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const TextLine& line : lines)
+    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], width_of(line[c]));
+  std::string text;
+  for (const TextLine& line : lines) {
+    std::string row = " ";
+    for (std::size_t c = 0; c < line.size(); ++c)
+      row += " " + line[c] + std::string(widths[c] - width_of(line[c]) + 1, ' ');
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += "\n" + row;
+  }
+  return text;
+}
+
 std::string share_text(double share) {
   const double percent = 100 * share;
   // Three digits, and no power of ten for a percentage that people still read.
@@ -143,11 +140,11 @@ std::string study_text(const StudyResult& result) {
   }
   if (!result.complete) text += "; stopped before its end";
 
-  std::vector<Line> lines = {{"way", "setting", "value", "error", "seconds (fastest to slowest)", ""}};
+  std::vector<TextLine> lines = {{"way", "setting", "value", "error", "seconds (fastest to slowest)", ""}};
   std::string previous;
   for (const StudyRow& row : result.rows) {
     const std::string& way = result.way_of(row).name;
-    Line line = {way == previous ? "" : way, lua_source(result.knobs_of(row)), "", "", "", ""};
+    TextLine line = {way == previous ? "" : way, lua_source(result.knobs_of(row)), "", "", "", ""};
     previous = way;
     if (row.end == StudyRow::End::measured) {
       line[2] = format_short(row.value, 7);

@@ -5,12 +5,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/core/files/json.hpp"
 #include "engine/statistics/table.hpp"
 #include "engine/study/study_result.hpp"
 
 namespace asperity {
+
+// The cells of a line, as many in each; and lines one below the other, each after a line end.
+using TextLine = std::vector<std::string>;
+std::string aligned(const std::vector<TextLine>& lines);
 
 // "1.2 %", "1234 %".
 std::string share_text(double share);

@@ -111,7 +111,61 @@ TEST_F(BudgetTest, TipAndNoiseAreAskedFor) {
   EXPECT_TRUE(refuses("lab.budget{ ask=print, tip={ '2 um', '5 um' } }", "blunt ones first"));
   EXPECT_TRUE(refuses("lab.budget{ ask=print, tip={ '2 s', '5 um' } }", "tip"));
   EXPECT_TRUE(refuses("lab.budget{ ask=print, noise={ 1, 1 } }", "`noise[2]` is 1 for the second time"));
-  EXPECT_TRUE(refuses("lab.budget{ ask=print, noise=3 }", "a list of seeds"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, noise=3 }", "`noise` has one draw"));
+}
+
+TEST_F(BudgetTest, InputsHaveShapesDegreesSamplesAndCorrelation) {
+  ASSERT_EQ(run(R"(
+    draws = {} for k = 1, 50 do draws[k] = k .. " um" end
+    b = lab.budget{ ask=function(x) return x.a + x.b + x.c + x.d + 1e6 * x.e end, correlation={ { "a", "b", -0.5 } },
+      inputs={ a={ value=1, u=0.1 }, b={ value=1, u=0.2 }, c={ value="2", u="10 %", shape="lognormal" },
+               d={ value=0, u=0.1, degrees=2 }, e={ sample=draws } } }
+    part = {} for _, p in ipairs(b.parts) do part[p.name] = p end)"),
+            "");
+  EXPECT_TRUE(holds("part.correlation.share < 0 and part.d.degrees == 2 and part.a.degrees == math.huge"));
+  EXPECT_TRUE(holds("math.abs(part.a.sensitivity - 1) < 1e-6 and math.abs(part.e.u - 14.577) < 0.01"));
+  EXPECT_TRUE(holds("tostring(b):find('25.5 um', 1, true) and tostring(b):find('lognormal', 1, true)"))
+      << value("b");
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, inputs={ a={ value=0, u=1, shape='cauchy' } } }",
+                      "give \"normal\" or \"uniform\" or \"lognormal\" or \"triangular\""));
+  EXPECT_TRUE(
+      refuses("lab.budget{ ask=print, inputs={ a={ value=0, u=1, shape='lognormal' } } }", "above 0"));
+  EXPECT_TRUE(
+      refuses("lab.budget{ ask=print, inputs={ a={ value=0, u=1, degrees=0 } } }", "`a` has 0 degrees"));
+  EXPECT_TRUE(
+      refuses("lab.budget{ ask=print, inputs={ a={ sample={ 1, 2, 3 } } } }", "fewer than 10 numbers"));
+  EXPECT_TRUE(refuses(
+      "lab.budget{ ask=print, inputs={ a={ value=0, u=1 } }, correlation={ { 'a', 'z', 0.5 } } }", "`z`"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, inputs={ a={ value=0, u=1 } }, correlation={ { 'a', 0.5 } } }",
+                      "`correlation` lists two inputs and a number"));
+}
+
+TEST_F(BudgetTest, ACalibrationIsAnInputWithItsCorrelation) {
+  ASSERT_EQ(run(R"(
+    rows = {} for k = 1, 8 do rows[k] = { x=k, y=2 + 0.5 * k + 0.1 * math.sin(9 * k) } end
+    line = lab.calibrate{ data=lab.table.from(rows), y="y", parameters={ p=1, q=1 },
+                          model=function(q, row) return q.p + q.q * row.x end }
+    b = lab.budget{ ask=function(x) return x.p + 4.5 * x.q end, inputs={ law=line } }
+    part = {} for _, p in ipairs(b.parts) do part[p.name] = p end)"),
+            "");
+  EXPECT_TRUE(holds("part.p.degrees == 6 and part.correlation.share < -1"));
+  EXPECT_TRUE(holds("math.abs(b.u - line.residual_sd / math.sqrt(8)) < 1e-3 * b.u"));
+  EXPECT_TRUE(refuses("lab.sensitivity{ ask=print, inputs={ law=line } }", "ask lab.budget"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, inputs={ law=line, p={ value=1, u=1 } } }", "`p`"));
+}
+
+TEST_F(BudgetTest, SpecimensHaveRepeats) {
+  ASSERT_EQ(run(R"(
+    b = lab.budget{ ask=function(x) return x.specimen + x.seed end, half_width="50 %",
+                    replicate={ specimen={ 1, 1, 2, 2, 5, 5 }, seed={ 1, 2, 1, 2, 1, 2 } } })"),
+            "");
+  EXPECT_TRUE(holds("b.n == 3 and b.degrees == 2 and b.parts[1].halving == '9 more specimens'"))
+      << value("b");
+  EXPECT_TRUE(holds("b.plan and b.plan.half_width <= 0.5 * b.value"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, replicate={ face={ 1, 1, 2 }, seed={ 1, 2, 3 } } }",
+                      "`replicate.face[2]` is 1 for the second time"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, replicate={ seed={ 1, 1, 3 }, specimen={ 1, 1, 2 } } }",
+                      "`replicate.seed[2]` is 1 for the second time"));
 }
 
 TEST_F(BudgetTest, SaysWhatIsWrongAndWhere) {

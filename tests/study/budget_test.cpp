@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -14,6 +16,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sanitizers.hpp"
+#include "tests/study/one_by_one.hpp"
 
 namespace asperity {
 namespace {
@@ -369,6 +372,299 @@ TEST(Budget, RunsComeInBatches) {
   r.at_a_time = 2;
   EXPECT_NO_THROW(budget_of_batches(r, batch));
   EXPECT_EQ(b.runs, 42u);
+}
+
+// --- one specimen
+
+// Errors of single grids as rough faces have them: chance in proportion to the width of the cells, with a
+// drift.
+TEST(Budget, OfOneSpecimenHoldsErrorsOfCellsThatAreChance) {
+  const int count = sanitized ? 60 : 500;
+  for (const double drift : {0.0, 1.0}) {
+    int held = 0;
+    for (int k = 0; k < count; ++k) {
+      const Stream s(static_cast<std::uint64_t>(k), "one specimen");
+      BudgetRequest r;
+      r.cells = {32, 64};
+      r.draws = 2000;
+      const auto ask = [&](const BudgetSetting& run) {
+        const double width = 32 / budget_grids(r)[run.cells];
+        return BudgetAnswer{width * (s.normal(run.cells) + drift), 0};
+      };
+      const Budget b = budget_of(r, ask);
+      EXPECT_EQ(b.runs, 4u);
+      held += b.low <= 0 && 0 <= b.high ? 1 : 0;
+    }
+    EXPECT_GE(held, count * 91 / 100) << "drift " << drift;
+  }
+}
+
+TEST(Budget, OfOneSpecimenTakesOffADriftThatAllGridsShow) {
+  BudgetRequest r;
+  r.cells = {32, 64};
+  for (const double order : {1.0, 1.3, 1.7, 2.0}) {
+    const Budget b = budget_of(r, [&](const BudgetSetting& run) {
+      return BudgetAnswer{5 + elementary::pow(16 / budget_grids(r)[run.cells], order), 0};
+    });
+    const double error = elementary::pow(.25, order);
+    EXPECT_LT(b.low, 5) << order;
+    EXPECT_GT(b.high, 5) << order;
+    EXPECT_LT(b.half_width(), error) << order;
+    EXPECT_LT(std::abs(b.value - 5), error) << order;
+  }
+}
+
+TEST(Budget, OfOneSpecimenIsWideWhereNoGridBetweenIsTaken) {
+  BudgetRequest r;
+  r.cells = {32, 64};
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    if (run.cells > 1) throw Error(ErrorCode::bad_value, "these cells are not in the list");
+    return BudgetAnswer{run.cells == 0 ? 1.0 : 1.1, 0};
+  });
+  EXPECT_NEAR(b.half_width(), 12.7 * .1 / std::sqrt(5.0), .05);
+  EXPECT_NE(b.text().find("may be small by chance"), std::string::npos);
+  EXPECT_EQ(budget_grids(r), (std::vector<double>{32, 64, 40, 48}));
+  r.cells = {16, 32, 64};
+  EXPECT_EQ(budget_grids(r), r.cells);
+  r.cells = {16, 18};
+  EXPECT_EQ(budget_grids(r), r.cells);
+}
+
+// --- kinds of inputs
+
+using InputTrial = std::function<std::vector<UncertainInput>(const Stream&)>;
+
+// Counts the intervals that hold 0, the sum of the inputs.
+int held_of(const InputTrial& trial, const std::vector<InputCorrelation>& correlations = {}) {
+  int held = 0;
+  for (std::uint64_t k = 0; k < 400; ++k) {
+    BudgetRequest r;
+    r.inputs = trial(Stream(k, "kinds"));
+    r.correlations = correlations;
+    r.draws = 2000;
+    const Budget b = budget_of(r, [](const BudgetSetting& run) {
+      return BudgetAnswer{std::accumulate(run.inputs.begin(), run.inputs.end(), 0.0), 0};
+    });
+    held += b.low <= 0 && 0 <= b.high ? 1 : 0;
+  }
+  return held;
+}
+
+TEST(Budget, HoldsTheMeanOfThreeReadingsByTheirDegreesOfFreedom) {
+  const auto readings = [](double degrees) {
+    return [degrees](const Stream& s) {
+      std::vector<double> values = {s.normal(0), s.normal(1), s.normal(2)};
+      const SampleMean mean = sample_mean(values);
+      return std::vector<UncertainInput>{{"a", mean.mean, *mean.standard_error, InputShape::normal, degrees}};
+    };
+  };
+  EXPECT_LE(held_of(readings(std::numeric_limits<double>::infinity())), 340);
+  const int held = held_of(readings(2));
+  EXPECT_GE(held, 368);
+  EXPECT_LE(held, 392);
+}
+
+TEST(Budget, HoldsTheSumOfCorrelatedInputs) {
+  for (const double r : {.8, -.8}) {
+    const InputTrial trial = [r](const Stream& s) {
+      const double a = s.normal(0), b = r * a + std::sqrt(1 - r * r) * s.normal(1);
+      return std::vector<UncertainInput>{{"a", a, 1}, {"b", b, 1}};
+    };
+    const int held = held_of(trial, {{"a", "b", r}});
+    EXPECT_GE(held, 368) << r;
+    EXPECT_LE(held, 392) << r;
+  }
+  BudgetRequest request;
+  request.inputs = {{"a", 0, 1}, {"b", 0, 1}};
+  request.correlations = {{"b", "a", -.8}};
+  const Budget b = budget_of(request, [](const BudgetSetting& run) {
+    return BudgetAnswer{run.inputs[0] + run.inputs[1], 0};
+  });
+  EXPECT_NEAR(b.uncertainty, std::sqrt(.4), 1e-9);
+  EXPECT_NEAR(b.half_width(), 1.96 * std::sqrt(.4), .03);
+  double sum = 0;
+  for (const BudgetPart& part : b.parts) sum += part.share;
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_NEAR(b.parts.back().share, -1.6 / .4, 1e-9);
+  const auto refused = [&](std::vector<InputCorrelation> list) {
+    request.correlations = std::move(list);
+    EXPECT_THROW(budget_of(request, [](const BudgetSetting&) { return BudgetAnswer{}; }), Error);
+  };
+  refused({{"a", "c", .5}});
+  refused({{"a", "a", .5}});
+  refused({{"a", "b", 1}});
+  refused({{"a", "b", .5}, {"b", "a", .5}});
+  request.inputs = {{"a", 0, 1}, {"b", 0, 1}, {"c", 0, 1}};
+  refused({{"a", "b", .9}, {"b", "c", .9}, {"a", "c", -.9}});
+  request.inputs[0].degrees = 3;
+  refused({{"a", "b", .5}});
+}
+
+TEST(Budget, ShapesHaveTheirQuantiles) {
+  const auto ends = [](UncertainInput input) {
+    BudgetRequest r;
+    r.inputs = {std::move(input)};
+    const Budget b = budget_of(r, [](const BudgetSetting& run) { return BudgetAnswer{run.inputs[0], 0}; });
+    EXPECT_NEAR(b.value, r.inputs[0].value, 1e-9);
+    EXPECT_NEAR(b.uncertainty, r.inputs[0].uncertainty, 1e-9);
+    return std::pair(b.low, b.high);
+  };
+  const auto [low, high] = ends({"a", 10, 4, InputShape::lognormal});
+  const double s = std::sqrt(elementary::log(1.16));
+  EXPECT_NEAR(low, 10 * elementary::exp(-s * s / 2 - 1.96 * s), .15);
+  EXPECT_NEAR(high, 10 * elementary::exp(-s * s / 2 + 1.96 * s), .4);
+  const auto [left, right] = ends({"a", 0, 1, InputShape::triangular});
+  EXPECT_NEAR(right, std::sqrt(6.0) * (1 - std::sqrt(.05)), .03);
+  EXPECT_NEAR(left, -right, .05);
+  UncertainInput own{"a", 0, 0, InputShape::sample};
+  for (int k = 0; k < 100; ++k) own.sample.push_back(k * k);
+  const SampleMean mean = sample_mean(own.sample);
+  own.value = mean.mean;
+  own.uncertainty = *mean.deviation;
+  const auto [least, most] = ends(own);
+  EXPECT_NEAR(least, 4, 3);
+  EXPECT_NEAR(most, 97 * 97, 120);
+}
+
+TEST(Budget, AStepIsDrawnFromItsAnswers) {
+  BudgetRequest r;
+  r.inputs = {{"a", 0, 1}};
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{run.inputs[0] > .5 ? 1.0 : 0.0, 0};
+  });
+  EXPECT_NEAR(b.value, .31, .03);
+  EXPECT_EQ(b.low, 0);
+  EXPECT_EQ(b.high, 1);
+  EXPECT_LE(b.runs, 1 + 4 * chaos_runs(1));  // stopped before the last doubling
+}
+
+TEST(Budget, ASheetListsInputsWithTheirSensitivities) {
+  BudgetRequest r;
+  r.inputs = {{"hardness", 1.1e9, 1e8}, {"mass", .2, .01, InputShape::uniform}};
+  r.inputs[0].dimension = dimension::pressure;
+  r.inputs[0].degrees = 4;
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{2e-9 * run.inputs[0] * (1 + run.inputs[1]), 0};
+  });
+  const BudgetPart& first = b.parts.front();
+  EXPECT_EQ(first.name, "hardness");
+  EXPECT_NEAR(first.sensitivity, 2.4e-9, 1e-18);
+  EXPECT_GT(b.degrees(), 4);
+  EXPECT_LT(b.degrees(), 4.1);
+  for (const char* said : {"1.1 GPa", "100 MPa", "2.4e-09", "uniform", "coverage factor 2.7"})
+    EXPECT_NE(b.text().find(said), std::string::npos) << said << "\n" << b.text();
+}
+
+TEST(Budget, HalvingCountsWhatInputsDoTogether) {
+  BudgetRequest r;
+  r.inputs = {{"a", 0, 1}, {"b", 0, 1}, {"c", 0, 1}};
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{run.inputs[0] * run.inputs[1] + .65 * run.inputs[2], 0};
+  });
+  const auto part = [&](const std::string& name) {
+    return *std::ranges::find(b.parts, name, &BudgetPart::name);
+  };
+  EXPECT_LT(part("a").half_width_after, part("c").half_width_after);
+  EXPECT_NEAR(part("a").half_width_after / b.half_width(), std::sqrt(.6725 / 1.4225), 1e-6);
+}
+
+TEST(Budget, AnExactLineOfManyInputsTakesFewRuns) {
+  BudgetRequest r;
+  for (int j = 0; j < 15; ++j) r.inputs.push_back({"x" + std::to_string(j), 1, .1});
+  const auto line = [](const BudgetSetting& run) {
+    return BudgetAnswer{std::accumulate(run.inputs.begin(), run.inputs.end(), 0.0), 0};
+  };
+  EXPECT_EQ(budget_of(r, line).runs, 33u);
+  const Budget curved = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{run.inputs[0] * run.inputs[1] * run.inputs[2] + run.inputs[3], 0};
+  });
+  EXPECT_GE(curved.runs, 1 + chaos_runs(15));
+}
+
+TEST(Budget, NoHighDegreeOfFewRuns) {
+  BudgetRequest r;
+  r.inputs = {{"a", 1, .4}};
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{1 / std::abs(run.inputs[0]), 0};
+  });
+  // The quantiles of 1/|a| are 0.56 and 4.0.
+  EXPECT_GT(b.low, .3);
+  EXPECT_LT(b.high, 12);
+}
+
+// --- replicates
+
+TEST(Budget, SpecimensDecideTheDegreesOfFreedomAndNotTheirRepeats) {
+  int held = 0, pooled = 0;
+  for (std::uint64_t k = 0; k < 400; ++k) {
+    const Stream s(k, "nested");
+    BudgetRequest r;
+    r.replicates = 16;
+    const auto ask = [&](const BudgetSetting& run) {
+      return BudgetAnswer{s.normal(run.replicate / 4) + s.normal(100 + run.replicate), 1};
+    };
+    const Budget all = budget_of(r, ask);
+    for (std::size_t n = 0; n < 16; ++n) r.specimens.push_back(n / 4);
+    const Budget b = budget_of(r, ask);
+    EXPECT_EQ(b.replicates, 4u);
+    EXPECT_EQ(b.repeats, 4);
+    EXPECT_EQ(b.parts.front().degrees, 3);
+    held += b.low <= 0 && 0 <= b.high ? 1 : 0;
+    pooled += all.low <= 0 && 0 <= all.high ? 1 : 0;
+  }
+  EXPECT_GE(held, 366);
+  EXPECT_LE(held, 394);
+  EXPECT_LT(pooled, 345);
+  BudgetRequest r;
+  r.replicates = 4;
+  r.specimens = {2, 2, 2, 2};
+  const auto one = [](const BudgetSetting& run) {
+    return BudgetAnswer{static_cast<double>(run.replicate), 1};
+  };
+  EXPECT_THROW(budget_of(r, one), Error);
+}
+
+TEST(Budget, OneLostSeedLosesOnlyItself) {
+  BudgetRequest r;
+  r.replicates = 24;
+  r.cells = {32, 64};
+  const auto ask = [](const BudgetSetting& run) {
+    return BudgetAnswer{run.replicate == 6 && run.cells == 1 ? NAN : static_cast<double>(run.replicate), 1};
+  };
+  const Budget b = budget_of(r, ask);
+  EXPECT_EQ(b.replicates, 23u);
+  EXPECT_NEAR(b.value, (276 - 6) / 23.0, 1e-12);
+  EXPECT_NE(b.text().find("of 24 replicates, 7 gave no finite number"), std::string::npos) << b.text();
+  r.replicates = 3;
+  const auto third = [](const BudgetSetting& run) { return BudgetAnswer{run.replicate == 2 ? NAN : 1.0, 1}; };
+  EXPECT_THROW(budget_of(r, third), Error);
+}
+
+TEST(Budget, HintOfThreeReplicatesIsThatOfThePlan) {
+  BudgetRequest r;
+  r.replicates = 3;
+  const auto ask = [](const BudgetSetting& run) {
+    return BudgetAnswer{100 + static_cast<double>(run.replicate), 1};
+  };
+  const Budget b = budget_of(r, ask);
+  r.half_width = b.parts.front().half_width_after * 1.0001;
+  const Budget planned = budget_of(r, ask);
+  ASSERT_TRUE(planned.plan);
+  EXPECT_EQ(planned.plan->replicates, 12u);
+  r.half_width = .05;
+  r.of_answer = true;
+  const Budget share = budget_of(r, ask);
+  EXPECT_NEAR(*share.asked, 5.05, 1e-12);
+  EXPECT_EQ(share.plan->replicates, 2u);
+}
+
+TEST(Budget, NumbersWithoutMeaningAreNotPrinted) {
+  BudgetRequest r;
+  r.replicates = 5;
+  const Budget b = budget_of(r, [](const BudgetSetting& run) {
+    return BudgetAnswer{static_cast<double>(run.replicate) - 2 + 1e-17, 0};
+  });
+  EXPECT_EQ(b.text().find("e-1"), std::string::npos) << b.text();
 }
 
 TEST(Budget, RefusesWhatContradictsItself) {

@@ -11,6 +11,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "tests/study/one_by_one.hpp"
 
 namespace asperity {
 namespace {
@@ -43,8 +44,8 @@ TEST(Sensitivity, DoublesTheRunsUntilTheFitIsGoodAndAsksNoneTwice) {
   EXPECT_EQ(asked.size(), found.chaos.runs);
   EXPECT_NEAR(found.chaos.shares[1].first, 0.442411, 0.05);
   EXPECT_NEAR(found.chaos.shares[2].total, 0.243684, 0.05);
-  EXPECT_EQ(found.order, (std::vector<std::size_t>{1, 0, 2}));
-  EXPECT_NE(found.text().find("measure next: x2"), std::string::npos) << found.text();
+  EXPECT_EQ(found.order, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_NE(found.text().find("measure next: x1"), std::string::npos) << found.text();
 }
 
 TEST(Sensitivity, SaysHowMuchHalvingAnInputNarrowsALinearAnswer) {
@@ -54,6 +55,20 @@ TEST(Sensitivity, SaysHowMuchHalvingAnInputNarrowsALinearAnswer) {
   EXPECT_NEAR(found.deviation, .5, 1e-12);
   EXPECT_NEAR(found.deviation_when[1], std::sqrt(.09 + .04), 1e-12);
   EXPECT_EQ(found.order.front(), 1u);
+}
+
+TEST(Sensitivity, CountsWhatInputsDoTogetherAndTellsTies) {
+  ChaosRequest request;
+  request.inputs = {{"a", 0, 1}, {"b", 0, 1}, {"c", 0, 1}};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    request.seed = seed;
+    const Sensitivity found =
+        sensitivity_of(request, [](const std::vector<double>& x) { return x[0] * x[1] + .65 * x[2]; });
+    EXPECT_EQ(found.order, (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(found.tied, 2u);
+    EXPECT_NEAR(found.deviation_when[0], std::sqrt(.25 + .4225), 1e-9);
+    EXPECT_NE(found.text().find("as much by b"), std::string::npos) << found.text();
+  }
 }
 
 TEST(Sensitivity, IsRefusedOfAJumpAndOfTooFewRuns) {

@@ -184,6 +184,10 @@ std::string describe_notebook(const void* self) {
       if (const Cell& cell = table.cell(r, c); is_number(cell) && std::isfinite(*number_in(cell)))
         values.push_back(*number_in(cell));
     if (values.size() < 2 || std::ranges::minmax(values).min == std::ranges::minmax(values).max) continue;
+    // A seed, or the number of a row, has no mean.
+    if (table.columns()[c].name == "seed" ||
+        std::ranges::adjacent_find(values, [](double a, double b) { return b != a + 1; }) == values.end())
+      continue;
     const SampleMean mean = sample_mean(values);
     const TableColumn& column = table.columns()[c];
     result += "\n  " + column.name + ": " + format_short(mean.mean, 4) + " ± " +

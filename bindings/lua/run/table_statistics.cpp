@@ -41,7 +41,8 @@ const Block<MeanKeys>& mean_block() {
                  }),
        where_key(&K::where),
        number("confidence", &K::confidence, inside(0, 1), "the share of such intervals that hold the mean"),
-       choice("interval", &K::interval, {{"t", MeanInterval::student}, {"log", MeanInterval::log_normal}},
+       choice("interval", &K::interval,
+              {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
               "Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which "
               "assumes that their logarithms are normal")}};
   return block;
@@ -118,7 +119,8 @@ Values mean_of_column(Call& call) {
   }
   warn_of_groups(call, column, keys, groups);
   Rows means(std::move(columns), std::move(rows));
-  means.rename("the means of " + quoted(column));
+  means.rename("the means of " + quoted(column) + "; low to high is their " +
+               format_short(100 * keys.confidence, 4) + " % interval");
   return {object(std::move(means))};
 }
 

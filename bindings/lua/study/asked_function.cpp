@@ -9,7 +9,9 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/study/study.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/sample_mean.hpp"
 
 namespace asperity::lua {
 
@@ -41,36 +43,50 @@ std::optional<Quantity> quantity_of(const Argument& value, const std::string& pa
   return {};
 }
 
+constexpr const char* input_example = "give { value=, u= }, such as { value=\"1.1 GPa\", u=\"0.1 GPa\" }";
+
 void read_input(const std::string& name, const std::string& path, const Argument& table, InputKeys& keys,
                 Problems& problems) {
   if (!table.is_table()) {
-    problems.push_back(quoted(path) + " is " + table.describe() +
-                       "; give { value=, u= }, such as { value=\"1.1 GPa\", u=\"0.1 GPa\" }");
+    problems.push_back(quoted(path) + " is " + table.describe() + "; " + input_example);
     return;
   }
   UncertainInput input;
   input.name = name;
   bool unknown = false;
   std::optional<Quantity> value, u;
+  std::vector<Quantity> sample;
   const std::size_t before = problems.size();
   table.each([&](const Argument& key, const Argument& given) {
-    static const std::vector<std::string> names = {"value", "u", "shape"};
-    if (!key.is_text() || std::ranges::find(names, key.text()) == names.end()) {
-      const std::string known = key.is_text() ? did_you_mean(key.text(), names) : "";
-      problems.push_back(quoted(path) + " has no key " +
-                         (key.is_text() ? quoted(key.text()) : key.describe()) + known +
-                         "; it takes `value`, `u` and `shape`");
+    static const std::vector<std::string> names = {"value", "u", "shape", "degrees", "sample"};
+    const std::string text(key.is_text() ? key.text() : ""), place = path + "." + text;
+    if (std::ranges::find(names, text) == names.end()) {
+      problems.push_back(quoted(path) + " has no key " + (key.is_text() ? quoted(text) : key.describe()) +
+                         did_you_mean(text, names) +
+                         "; it takes `value`, `u`, `shape`, `degrees` or `sample`");
     } else if (given.is_unknown()) {
       unknown = true;
-    } else if (key.text() == "shape") {
-      if (given.is_text() && given.text() == "uniform")
-        input.shape = InputShape::uniform;
-      else if (!given.is_text() || given.text() != "normal")
-        problems.push_back(quoted(path + ".shape") + " is " + given.describe() +
-                           "; give \"normal\" or \"uniform\"");
+    } else if (text == "shape") {
+      const auto shapes = input_shapes().first(4);
+      const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
+      if (found == shapes.end())
+        problems.push_back(quoted(place) + " is " + given.describe() + "; give \"" +
+                           joined(shapes, "\" or \"") + "\"");
+      input.shape = static_cast<InputShape>(found - shapes.begin());
+    } else if (text == "degrees") {
+      input.degrees = given.is_number() ? given.number() : 0;
+    } else if (text == "sample") {
+      for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
+        given.element(k, [&](const Argument& item) {
+          if (const auto read = quantity_of(item, place + "[" + std::to_string(k) + "]", problems))
+            sample.push_back(*read);
+        });
+      if (sample.size() < 10)
+        problems.push_back(quoted(place) + " has fewer than 10 numbers; of a few readings give their mean, " +
+                           "u = s / sqrt(n) and degrees = n - 1");
     } else {
-      auto read = quantity_of(given, path + "." + std::string(key.text()), problems);
-      if (key.text() == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read) {
+      auto read = quantity_of(given, place, problems);
+      if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read) {
         // A share of the value, which may not be read yet.
         with_key(table, "value", [&](const Argument& of) {
           Problems ignored;
@@ -78,18 +94,21 @@ void read_input(const std::string& name, const std::string& path, const Argument
             read = Quantity{std::abs(whole->value) * read->value, whole->dimension};
         });
       }
-      (key.text() == "u" ? u : value) = read;
+      (text == "u" ? u : value) = read;
     }
   });
-  if (unknown) {
-    keys.unknown = true;
-    return;
+  keys.unknown = keys.unknown || unknown;
+  if (unknown || problems.size() > before) return;
+  if (!sample.empty()) {
+    input.shape = InputShape::sample;
+    for (const Quantity& of : sample) input.sample.push_back(of.value);
+    std::ranges::sort(input.sample);
+    const SampleMean mean = sample_mean(input.sample);
+    value = Quantity{mean.mean, sample.front().dimension};
+    u = Quantity{*mean.deviation, sample.front().dimension};
   }
-  if (problems.size() > before) return;
   for (const auto& [key, read] : {std::pair("value", value), std::pair("u", u)})
-    if (!read)
-      problems.push_back(quoted(path) + " has no " + quoted(key) +
-                         "; give { value=, u= }, such as { value=\"1.1 GPa\", u=\"0.1 GPa\" }");
+    if (!read) problems.push_back(quoted(path) + " has no " + quoted(key) + "; " + input_example);
   if (!value || !u) return;
   if (!(value->dimension == u->dimension)) {
     problems.push_back(quoted(path) + " has a value that is " + describe(value->dimension) +
@@ -99,7 +118,32 @@ void read_input(const std::string& name, const std::string& path, const Argument
   }
   input.value = value->value;
   input.uncertainty = u->value;
+  input.dimension = value->dimension;
   keys.inputs.push_back(std::move(input));
+}
+
+// The parameters of a calibration, each under its own name.
+void read_calibration(const Object& object, const std::string& path, InputKeys& keys, Problems& problems) {
+  keys.unknown = keys.unknown || object.pointer == nullptr;  // a placeholder
+  if (keys.unknown) return;
+  const auto& report = *static_cast<const CalibrationReport*>(object.pointer.get());
+  for (std::size_t k = 0; k < report.found.parameters.size(); ++k) {
+    const CalibratedParameter& of = report.found.parameters[k];
+    if (!of.value || !of.standard_error) {
+      problems.push_back(quoted(path) + " gives " + quoted(of.name) +
+                         " no uncertainty; print the calibration, and calibrate what its rows determine");
+      continue;
+    }
+    UncertainInput& input = keys.inputs.emplace_back();
+    input.name = of.name;
+    input.value = *of.value;
+    input.uncertainty = *of.standard_error;
+    input.degrees = static_cast<double>(report.found.degrees);
+    input.dimension = report.dimensions[k];
+    for (std::size_t j = 0; j < k; ++j)
+      if (const auto& both = report.found.correlation[j][k]; both && *both != 0)
+        keys.correlations.push_back({report.found.parameters[j].name, of.name, *both});
+  }
 }
 
 // The share of a run that is done, of which it may speak several times over and which never falls.
@@ -120,6 +164,45 @@ class ShareMonitor final : public Monitor {
 };
 
 }  // namespace
+
+std::optional<KnobValue> knob_value(const Argument& value, bool& unknown) {
+  if (value.is_unknown()) {
+    unknown = true;
+    return KnobValue(0.0);
+  }
+  if (value.is_boolean()) return KnobValue(value.boolean());
+  if (value.is_number())
+    return value.integer() && lua_isinteger(value.state(), value.index()) != 0 ? KnobValue(*value.integer())
+                                                                               : KnobValue(value.number());
+  if (value.is_text()) return KnobValue(std::string(value.text()));
+  return {};
+}
+
+void read_sweep(const std::string& name, const std::string& path, const Argument& value, bool& unknown,
+                std::vector<KnobSweep>& knobs, Problems& problems) {
+  KnobSweep knob{name, {}, value.is_table()};
+  const auto take = [&](const Argument& item, const std::string& place) {
+    if (auto read = knob_value(item, unknown))
+      knob.values.push_back(*std::move(read));
+    else
+      problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
+                         ", and turn it into what you need inside `ask`");
+  };
+  if (!value.is_table()) {
+    take(value, path);
+  } else {
+    const std::int64_t length = value.length();
+    std::int64_t entries = 0;
+    value.each([&](const Argument&, const Argument&) { ++entries; });
+    if (entries != length) {
+      problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
+      return;
+    }
+    for (std::int64_t k = 1; k <= length; ++k)
+      value.element(k, [&](const Argument& item) { take(item, path + "[" + std::to_string(k) + "]"); });
+  }
+  knobs.push_back(std::move(knob));
+}
 
 void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table) {
   if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
@@ -223,6 +306,8 @@ void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys,
                          " has an entry without a name; write `hardness = { value=, u= }`");
     else if (input.is_unknown())
       keys.unknown = true;
+    else if (const Object* found = input.as_object(class_of<CalibrationReport>()))
+      read_calibration(*found, info.name + "." + std::string(key.text()), keys, problems);
     else
       read_input(std::string(key.text()), info.name + "." + std::string(key.text()), input, keys, problems);
   });

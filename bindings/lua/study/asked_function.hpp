@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/statistics/uncertain_input.hpp"
+#include "engine/study/budget.hpp"
 #include "engine/study/study_setting.hpp"
 
 namespace asperity::lua {
@@ -94,18 +96,24 @@ class RunProgress {
 // What lists inputs; a dry run may meet some that it cannot know.
 struct InputKeys {
   std::vector<UncertainInput> inputs;  // by name
+  std::vector<InputCorrelation> correlations;
   bool unknown = false;
 };
-// `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" } }`.
+// `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
 void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems);
 
 template <class O>
 Option<O> inputs_option() {
   return custom<O>(
       "inputs", "table",
-      "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the "
-      "same unit, or a share such as \"5 %\"; shape=\"uniform\" for one that lies anywhere within "
-      "√3 u, else it is normal. `ask` gets each as a plain SI number",
+      "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, "
+      "or "
+      "a share such as \"5 %\". shape=\"uniform\" lies anywhere within √3 u, \"triangular\" within √6 u; "
+      "\"lognormal\" has mean `value` and deviation u; else it is normal, with degrees=n-1 if u comes from n "
+      "readings (Student's t). { sample={…} } is a list of draws of the quantity itself. A calibration "
+      "gives all its parameters, under their own names and with their correlation. `ask` gets each as a "
+      "plain SI "
+      "number",
       [](const Argument& value, const OptionInfo& info, O& keys, Problems& problems) {
         read_inputs(value, info, keys, problems);
       });
@@ -119,6 +127,13 @@ Option<O> ask_option(std::string sentence) {
                    })
       .required();
 }
+
+constexpr const char* knob_kinds = "a number, a string or a boolean";
+// Nothing for other kinds. Sets `unknown` for the placeholder of a dry run.
+std::optional<KnobValue> knob_value(const Argument& value, bool& unknown);
+// A value, or a list of values.
+void read_sweep(const std::string& name, const std::string& path, const Argument& value, bool& unknown,
+                std::vector<KnobSweep>& knobs, Problems& problems);
 
 // Knobs in the order that Knobs has.
 void sort_knobs(Knobs& knobs);

@@ -15,58 +15,33 @@ namespace asperity::lua {
 
 namespace {
 
-// One key of `replicate` with its values.
-struct ReplicateKnob {
-  std::string name;
-  std::vector<KnobValue> values;
-};
-
 struct BudgetKeys : InputKeys {
-  std::vector<ReplicateKnob> replicate;  // lists of equal length, which go along together
+  std::vector<KnobSweep> replicate;  // lists of equal length, which go along together
   std::vector<double> cells, tolerances, tips;
-  std::vector<std::int64_t> noise;
+  std::vector<KnobSweep> noise;  // one list of seeds
   double order_low = 1, order_high = 2;
   std::optional<std::int64_t> runs;
   double confidence = 0.95;
   MeanInterval interval = MeanInterval::student;
   std::optional<double> half_width, at_most;
+  bool of_answer = false;  // `half_width` is a share
   std::uint64_t seed = 1;
 };
 
-std::optional<KnobValue> replicate_value(const Argument& value) {
-  if (value.is_boolean()) return KnobValue(value.boolean());
-  if (value.is_text()) return KnobValue(std::string(value.text()));
-  if (!value.is_number()) return {};
-  if (lua_isinteger(value.state(), value.index()) != 0) return KnobValue(*value.integer());
-  return KnobValue(value.number());
-}
-
-void read_replicate_list(const std::string& name, const std::string& path, const Argument& list,
-                         BudgetKeys& keys, Problems& problems) {
-  if (!list.is_table() || list.length() == 0) {
-    problems.push_back(quoted(path) + " is " + list.describe() + "; give a list, such as { 1, 2, 3, 4, 5 }");
-    return;
-  }
-  ReplicateKnob knob{name, {}};
-  for (std::int64_t k = 1; k <= list.length(); ++k)
-    list.element(k, [&](const Argument& item) {
-      if (item.is_unknown()) {
-        keys.unknown = true;
-        return;
-      }
-      const std::string place = path + "[" + std::to_string(k) + "]";
-      auto value = replicate_value(item);
-      if (!value) {
-        problems.push_back(quoted(place) + " is " + item.describe() +
-                           "; give a number, a string or a boolean");
-        return;
-      }
-      if (std::ranges::find(knob.values, *value) != knob.values.end())
-        problems.push_back(quoted(place) + " is " + lua_source(*value) +
-                           " for the second time; a run made twice says nothing of the scatter");
-      knob.values.push_back(*std::move(value));
-    });
-  keys.replicate.push_back(std::move(knob));
+// Refuses two runs with the same values in all these lists.
+void refuse_repeats(const std::string& path, std::span<const KnobSweep> lists, Problems& problems) {
+  const std::vector<KnobValue>& values = lists.front().values;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto alike = [&](const KnobSweep& of) {
+        return of.values.size() > k && of.values[j] == of.values[k];
+      };
+      if (!std::ranges::all_of(lists, alike)) continue;
+      problems.push_back(quoted(path + "[" + std::to_string(k + 1) + "]") + " is " + lua_source(values[k]) +
+                         " for the second time; a run made twice says nothing of the scatter, and a list "
+                         "`specimen` says which runs are repeats of one");
+      return;
+    }
 }
 
 void read_replicate(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
@@ -78,10 +53,10 @@ void read_replicate(const Argument& value, const OptionInfo& info, BudgetKeys& k
     else if (list.is_unknown())
       keys.unknown = true;
     else
-      read_replicate_list(std::string(key.text()), info.name + "." + std::string(key.text()), list, keys,
-                          problems);
+      read_sweep(std::string(key.text()), info.name + "." + std::string(key.text()), list, keys.unknown,
+                 keys.replicate, problems);
   });
-  std::ranges::sort(keys.replicate, {}, &ReplicateKnob::name);
+  std::ranges::sort(keys.replicate, {}, &KnobSweep::name);
 }
 
 // Numbers in a list, or one.
@@ -108,37 +83,47 @@ void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys,
     }
 }
 
-// Seeds of its draws.
-void read_noise(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
-  if (!value.is_table() || value.length() == 0)
-    return detail::wrong_type(value, info, "a list of seeds such as { 1, 2, 3, 4, 5 }", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& item) {
-      const std::string place = info.name + "[" + std::to_string(k) + "]";
-      if (item.is_unknown()) {
-        keys.unknown = true;
-      } else if (const auto seed = item.is_number() ? item.integer() : std::nullopt; !seed || *seed < 0) {
-        problems.push_back(quoted(place) + " is " + item.describe() + "; give a seed, a whole number from 0");
-      } else if (std::ranges::find(keys.noise, *seed) != keys.noise.end()) {
-        problems.push_back(quoted(place) + " is " + std::to_string(*seed) +
-                           " for the second time; a run made twice says nothing of the scatter");
-      } else {
-        keys.noise.push_back(*seed);
-      }
+// { { "a", "b", -0.8 }, … }
+void read_correlation(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
+  std::vector<KnobSweep> rows;
+  for (std::int64_t k = 1; value.is_table() && k <= value.length(); ++k)
+    value.element(k, [&](const Argument& row) {
+      read_sweep("", info.name + "[" + std::to_string(k) + "]", row, keys.unknown, rows, problems);
     });
+  bool wrong = rows.empty();
+  for (KnobSweep& row : rows) {
+    row.values.resize(3);
+    const auto *one = std::get_if<std::string>(row.values.data()),
+               *other = std::get_if<std::string>(&row.values[1]);
+    const auto r = number_of({{"r", row.values[2]}}, "r");
+    if (one != nullptr && other != nullptr && r)
+      keys.correlations.push_back({*one, *other, *r});
+    else
+      wrong = true;
+  }
+  if (wrong && !keys.unknown)
+    problems.push_back(quoted(info.name) +
+                       " lists two inputs and a number each, such as { { \"a\", \"b\", -0.8 } }");
 }
+
+bool names_specimens(const KnobSweep& list) { return list.name == "specimen"; }
 
 void check_budget(BudgetKeys& keys, Problems& problems) {
   if (keys.unknown) return;
-  for (const ReplicateKnob& knob : keys.replicate)
+  for (const KnobSweep& knob : keys.replicate)
     if (knob.values.size() != keys.replicate.front().values.size())
       problems.push_back(
           "the lists of `replicate` go along together, and " + quoted(keys.replicate.front().name) + " has " +
           std::to_string(keys.replicate.front().values.size()) + " values, " + quoted(knob.name) + " " +
           std::to_string(knob.values.size()) + "; give as many of each");
+  const bool nested = std::ranges::any_of(keys.replicate, names_specimens);
+  for (std::size_t k = 0; k < (nested ? 1 : keys.replicate.size()); ++k)
+    refuse_repeats("replicate." + keys.replicate[k].name,
+                   std::span(keys.replicate).subspan(k, nested ? keys.replicate.size() : 1), problems);
+  if (!keys.noise.empty()) refuse_repeats("noise", keys.noise, problems);
   std::vector<std::string> names;
   for (const UncertainInput& input : keys.inputs) names.push_back(input.name);
-  for (const ReplicateKnob& knob : keys.replicate) names.push_back(knob.name);
+  for (const KnobSweep& knob : keys.replicate) names.push_back(knob.name);
   if (!keys.cells.empty()) names.emplace_back("cells");
   if (!keys.tolerances.empty()) names.emplace_back("tolerance");
   if (!keys.tips.empty()) names.emplace_back("tip");
@@ -147,7 +132,8 @@ void check_budget(BudgetKeys& keys, Problems& problems) {
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
     problems.push_back(quoted(*twice) +
                        " is asked for in two ways; `ask` can get only one value by that name");
-  for (const char* taken : {"sampling", "cells", "solver", "tip", "noise", "inputs", "inputs together"})
+  for (const char* taken :
+       {"sampling", "cells", "solver", "tip", "noise", "inputs", "correlation", "inputs together"})
     for (const UncertainInput& input : keys.inputs)
       if (input.name == taken)
         problems.push_back("the input " + quoted(input.name) +
@@ -175,15 +161,23 @@ const Block<BudgetKeys>& budget_block() {
            "surfaces, its calls are spread over threads, each in a fresh copy of everything it uses"),
        inputs_option<K>(),
        custom<K>(
+           "correlation", "{string, string, number}[]",
+           "of inputs, such as { { \"alpha\", \"tau0\", -0.8 } }; those that are not named are independent",
+           read_correlation),
+       custom<K>(
            "replicate", "table",
            "what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
-           "is the share of sampling; several lists go along together",
+           "is the share of sampling; several lists go along together. With a list `specimen`, runs of one "
+           "are "
+           "its repeats: the means of the specimens are the sample, and their number gives the degrees",
            read_replicate),
-       custom<K>(
-           "cells", "integer|integer[]",
-           "cells a side, coarse to fine: two grids show the error of the cells, three its order too. The "
-           "inputs are varied on the coarsest",
-           read_cells),
+       custom<K>("cells", "integer|integer[]",
+                 "cells a side, coarse to fine: the change between two grids shows the error of the cells, "
+                 "three show "
+                 "its order too. With two and no `replicate`, `ask` gets up to two numbers of cells between "
+                 "them as "
+                 "well, since two answers may agree by chance. The inputs are varied on the coarsest",
+                 read_cells),
        pair_option<K>("order", &K::order_low, &K::order_high, dimension::number, between(0.1, 10),
                       "of the error of the cells, the least and the greatest that are possible")
            .defaults_to("{1, 2}"),
@@ -196,7 +190,9 @@ const Block<BudgetKeys>& budget_block() {
            "seeds of draws of an instrument's noise: `ask` gets one as x.noise and adds that noise to what "
            "is measured; x.noise is nil in all other runs. The scatter of the answers is the share of "
            "noise, which is that of one measurement",
-           read_noise),
+           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+             read_sweep("noise", info.name, value, keys.unknown, keys.noise, problems);
+           }),
        integer("runs", &K::runs, between(3, 100000),
                "how often the inputs are varied; without it three for each term of degree 2 (64 for five "
                "inputs), doubled up to three times while the leave-one-out error is above 5 %"),
@@ -205,10 +201,14 @@ const Block<BudgetKeys>& budget_block() {
               {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
               "of the mean over replicates: Student's t, or for positive skewed answers the log interval of "
               "Cox, which assumes that their logarithms are normal"),
-       quantity(
-           "half_width", &K::half_width, dimension::number, above(0),
-           "the interval that is wanted, plus or minus this, in the unit of the answer: the cheapest way "
-           "to it is said"),
+       custom<K>(
+           "half_width", "number|string",
+           "the interval that is wanted, plus or minus this, in the unit of the answer or as a share of it "
+           "such as \"5 %\": the cheapest way to it is said",
+           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+             keys.half_width = detail::read_quantity(value, info, above(0), problems);
+             keys.of_answer = value.is_text() && value.text().find('%') != std::string_view::npos;
+           }),
        quantity("at_most", &K::at_most, dimension::time, above(0),
                 "longest time for all runs; refused after the first ones where they will take longer"),
        integer("seed", &K::seed, at_least(0), "of the values of the inputs and of the draws")},
@@ -219,30 +219,36 @@ const Block<BudgetKeys>& budget_block() {
 BudgetRequest request_of(const BudgetKeys& keys) {
   BudgetRequest request;
   request.inputs = keys.inputs;
+  request.correlations = keys.correlations;
   request.replicates = keys.replicate.empty() ? 0 : keys.replicate.front().values.size();
+  for (const KnobSweep& list : keys.replicate)
+    for (std::size_t k = 0; names_specimens(list) && k < list.values.size(); ++k)
+      request.specimens.push_back(
+          static_cast<std::size_t>(std::ranges::find(list.values, list.values[k]) - list.values.begin()));
   request.cells = keys.cells;
   request.order_low = keys.order_low;
   request.order_high = keys.order_high;
   request.tolerances = keys.tolerances;
   request.tips = keys.tips;
-  request.noises = keys.noise.size();
+  if (!keys.noise.empty()) request.noises = keys.noise.front().values.size();
   request.runs = static_cast<std::size_t>(keys.runs.value_or(0));
   request.confidence = keys.confidence;
   request.interval = keys.interval;
   request.half_width = keys.half_width;
+  request.of_answer = keys.of_answer;
   request.at_most = keys.at_most;
   request.seed = keys.seed;
   return request;
 }
 
-Knobs knobs_of_run(const BudgetKeys& keys, const BudgetSetting& run) {
+Knobs knobs_of_run(const BudgetKeys& keys, const std::vector<double>& grids, const BudgetSetting& run) {
   Knobs knobs;
   for (std::size_t j = 0; j < keys.inputs.size(); ++j) knobs.push_back({keys.inputs[j].name, run.inputs[j]});
-  for (const ReplicateKnob& knob : keys.replicate) knobs.push_back({knob.name, knob.values[run.replicate]});
-  if (!keys.cells.empty()) knobs.push_back({"cells", static_cast<std::int64_t>(keys.cells[run.cells])});
+  for (const KnobSweep& knob : keys.replicate) knobs.push_back({knob.name, knob.values[run.replicate]});
+  if (!keys.cells.empty()) knobs.push_back({"cells", static_cast<std::int64_t>(grids[run.cells])});
   if (!keys.tolerances.empty()) knobs.push_back({"tolerance", keys.tolerances[run.tolerance]});
   if (!keys.tips.empty()) knobs.push_back({"tip", keys.tips[run.tip]});
-  if (run.noise) knobs.push_back({"noise", keys.noise[*run.noise]});
+  if (run.noise) knobs.push_back({"noise", keys.noise.front().values[*run.noise]});
   sort_knobs(knobs);
   return knobs;
 }
@@ -252,7 +258,7 @@ Values dry_budget(Call& call, const BudgetKeys& keys, const AskedFunction& ask) 
     BudgetSetting first;
     for (const UncertainInput& input : keys.inputs) first.inputs.push_back(input.value);
     check_request(request_of(keys));
-    ask.try_once(knobs_of_run(keys, first));
+    ask.try_once(knobs_of_run(keys, keys.cells, first));
   }
   call.session().gave_placeholders = true;
   return {Object{&class_of<Budget>(), nullptr, false}};
@@ -289,9 +295,10 @@ Values make_budget(Call& call) {
     RunProgress progress(session.monitor(), "budget");
     BudgetRequest request = request_of(keys);
     request.at_a_time = ask.at_a_time();
+    const std::vector<double> grids = budget_grids(request);
     Budget found = budget_of_batches(request, [&](std::span<const BudgetSetting> runs) {
       std::vector<Knobs> knobs;
-      for (const BudgetSetting& run : runs) knobs.push_back(knobs_of_run(keys, run));
+      for (const BudgetSetting& run : runs) knobs.push_back(knobs_of_run(keys, grids, run));
       // Of the run that is the first of those that are not done.
       const auto show = [&](double done) {
         const auto k = std::min(static_cast<std::size_t>(done), runs.size() - 1);
@@ -319,10 +326,14 @@ const RecordType<BudgetPart>& part_type() {
       "part",
       "A part of the error of a number.",
       {{"name", &P::name,
-        "sampling, cells, solver, tip, noise, an input, or `inputs together`: what inputs do only together, "
-        "and what their polynomial leaves open"},
+        "sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: what inputs do "
+        "only "
+        "together, and what their polynomial leaves open"},
        {"u", &P::uncertainty, "standard uncertainty from this part, in the unit of the answer"},
-       {"share", &P::share, "of the variance; all sum to 1"},
+       {"degrees", &P::degrees, "degrees of freedom of u; infinite where it is taken as known"},
+       {"sensitivity", [](const P& p) { return p.input ? std::optional(p.sensitivity) : std::nullopt; },
+        "of an input: derivative of the answer at the values of all"},
+       {"share", &P::share, "of the variance; all sum to 1, and that of a correlation may be below 0"},
        {"share_error", &P::share_error, "standard error of the share of an input; 0 of other parts"},
        {"halving", &P::halving, "what halves it"},
        {"seconds", [](const P& p) { return p.halving_seconds; },
@@ -350,21 +361,22 @@ const RecordType<BudgetPlan>& plan_type() {
 }  // namespace
 
 Function budget_function() {
-  return {.name = "budget",
-          .body = make_budget,
-          .sentence =
-              "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
-              "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
-              "share of each part, what halving each costs, and the cheapest way to an interval. Inputs are "
-              "taken as independent of each other. What `ask` presses is taken up from the run where it was "
-              "computed before, and then costs no time.",
-          .options = &budget_block(),
-          .returns = "Budget",
-          .example =
-              "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 "
-              "um\", hurst=0.8, rms_height=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * "
-              "x.gain end, cells={ 32, 64 }, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, "
-              "u=\"2 %\" } } })"};
+  return {
+      .name = "budget",
+      .body = make_budget,
+      .sentence =
+          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
+          "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
+          "share of each part, what halving each costs, and the cheapest way to an interval. print() adds a "
+          "sheet of the inputs as the GUM has it. What `ask` presses is taken up from the run where it was "
+          "computed before, and then costs no time.",
+      .options = &budget_block(),
+      .returns = "Budget",
+      .example =
+          "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 "
+          "um\", hurst=0.8, rms_height=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * "
+          "x.gain end, cells={ 32, 64 }, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, "
+          "u=\"2 %\" } } })"};
 }
 
 template <>
@@ -381,7 +393,9 @@ const Class& class_of<Budget>() {
         getter<&Budget::high>("high", "number", "upper end of its interval"),
         getter<&Budget::confidence>("confidence", "number", "of the interval"),
         getter<&Budget::uncertainty>("u", "number", "its standard uncertainty"),
-        getter<&Budget::replicates>("n", "integer", "replicates; 0 where there is nothing to sample"),
+        getter<&Budget::degrees>("degrees", "number", "of freedom of u, by Welch and Satterthwaite"),
+        getter<&Budget::replicates>(
+            "n", "integer", "replicates, or specimens with repeats; 0 where there is nothing to sample"),
         getter<Budget>("skewness", "number?", "of the answers over the replicates",
                        [](const Budget& of) { return of.sample ? of.sample->skewness : std::nullopt; }),
         getter<Budget>("leave_one_out", "number?",

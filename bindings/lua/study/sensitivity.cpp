@@ -29,7 +29,12 @@ const Block<SensitivityKeys>& sensitivity_block() {
        integer("runs", &K::runs, between(3, 100000),
                "how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), "
                "doubled up to three times while the leave-one-out error is above 5 %"),
-       integer("seed", &K::seed, at_least(0), "of the values at which `ask` is called")}};
+       integer("seed", &K::seed, at_least(0), "of the values at which `ask` is called")},
+      [](K& keys, Problems& problems) {
+        if (!keys.correlations.empty())
+          problems.emplace_back(
+              "`inputs` are correlated, and shares are of independent ones; ask lab.budget");
+      }};
   return block;
 }
 
@@ -174,12 +179,13 @@ const Class& class_of<Sensitivity>() {
                             [](const Sensitivity& of) { return of.chaos.trust() != ChaosTrust::good; }),
         getter<Sensitivity>(
             "measure_next", "string?",
-            "the input whose better measurement narrows the answer most; nil where the answer hangs on none",
+            "the input whose better measurement narrows the answer most, the first by name of those that do "
+            "alike; nil where the answer hangs on none",
             [](const Sensitivity& of) {
               return (of.chaos.variance != 0) ? std::optional(of.chaos.shares[of.order.front()].name)
                                               : std::nullopt;
             }),
-        getter<Sensitivity>("inputs", "InputShare[]", "the shares, greatest first order first",
+        getter<Sensitivity>("inputs", "InputShare[]", "the shares, that of the input to measure next first",
                             [](const Sensitivity& of) { return share_type().list(shared_inputs(of)); }),
     };
     c.results = {&share_type()};

@@ -24,47 +24,6 @@ struct StudyKeys {
   bool unknown = false;  // a dry run met a knob that it cannot know
 };
 
-std::optional<KnobValue> knob_value(const Argument& value, StudyKeys& keys) {
-  if (value.is_unknown()) {
-    keys.unknown = true;
-    return KnobValue(0.0);
-  }
-  if (value.is_boolean()) return KnobValue(value.boolean());
-  if (value.is_number())
-    return value.integer() && lua_isinteger(value.state(), value.index()) != 0 ? KnobValue(*value.integer())
-                                                                               : KnobValue(value.number());
-  if (value.is_text()) return KnobValue(std::string(value.text()));
-  return {};
-}
-
-constexpr const char* knob_kinds = "a number, a string or a boolean";
-
-void read_sweep(const std::string& name, const std::string& path, const Argument& value, StudyKeys& keys,
-                std::vector<KnobSweep>& knobs, Problems& problems) {
-  KnobSweep knob{name, {}, value.is_table()};
-  const auto take = [&](const Argument& item, const std::string& place) {
-    if (auto read = knob_value(item, keys))
-      knob.values.push_back(*std::move(read));
-    else
-      problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
-                         ", and turn it into what you need inside `ask`");
-  };
-  if (!value.is_table()) {
-    take(value, path);
-  } else {
-    const std::int64_t length = value.length();
-    std::int64_t entries = 0;
-    value.each([&](const Argument&, const Argument&) { ++entries; });
-    if (entries != length) {
-      problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
-      return;
-    }
-    for (std::int64_t k = 1; k <= length; ++k)
-      value.element(k, [&](const Argument& item) { take(item, path + "[" + std::to_string(k) + "]"); });
-  }
-  knobs.push_back(std::move(knob));
-}
-
 void read_way(const Argument& table, const std::string& path, StudyKeys& keys, Problems& problems) {
   if (!table.is_table()) {
     problems.push_back(quoted(path) + " is " + table.describe() +
@@ -78,7 +37,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
       problems.push_back(quoted(path) + " holds a value without a key; write `knob = value`");
     } else if (key.text() != "name") {
       const std::string knob(key.text());
-      read_sweep(knob, path + "." + knob, value, keys, knobs, problems);
+      read_sweep(knob, path + "." + knob, value, keys.unknown, knobs, problems);
     } else if (value.is_text() && !value.text().empty()) {
       name = value.text();
     } else {
@@ -123,7 +82,7 @@ void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, 
   } else if (value.is_table()) {
     Knobs knobs;
     value.each([&](const Argument& key, const Argument& item) {
-      const auto read = knob_value(item, keys);
+      const auto read = knob_value(item, keys.unknown);
       if (!key.is_text())
         problems.push_back(quoted(info.name) + " holds a value without a key; write `knob = value`");
       else if (!read)

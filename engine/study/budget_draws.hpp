@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws from all parts of a budget together.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/study/budget.hpp"
+
+namespace asperity {
+
+// Student's t with `degrees` of freedom from two uniform numbers (Bailey 1994).
+inline double student_draw(const Stream& stream, std::uint64_t k, double degrees) {
+  const double u = 1 - stream.uniform(2 * k), v = stream.uniform(2 * k + 1);
+  return std::sqrt(degrees * elementary::expm1(-2 / degrees * elementary::log(u))) *
+         elementary::cos(2 * std::numbers::pi * v);
+}
+
+// χ² with these degrees of freedom (Marsaglia & Tsang 2000): one try in 19 of 20 draws, and never 16.
+inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double degrees) {
+  const double shape = degrees / 2, d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3;
+  for (std::uint64_t i = 16 * k;; ++i) {
+    const double x = stream.normal(2 * i), root = 1 + x / std::sqrt(9 * d), v = root * root * root;
+    if (v <= 0) continue;
+    const double u = 1 - stream.uniform(4 * i + 2);
+    if (elementary::log(u) > x * x / 2 + d - d * v + d * elementary::log(v)) continue;
+    return 2 * d * v * (shape < 1 ? elementary::pow(1 - stream.uniform(4 * i + 3), 1 / shape) : 1);
+  }
+}
+
+// Draws of inputs. Standard normal numbers with the correlations select the quantiles of the inputs. An input
+// with degrees of freedom is Student's t; correlated inputs share an estimate of their scatter, as the
+// parameters of a calibration do.
+class InputDraws {
+ public:
+  InputDraws(const BudgetRequest& request) : inputs_(request.inputs) {
+    const std::size_t n = inputs_.size();
+    correlation_.assign(n, std::vector<double>(n));
+    for (std::size_t j = 0; j < n; ++j) {
+      correlation_[j][j] = 1;
+      scores_.emplace_back(request.seed, "budget input " + std::to_string(j));
+      scales_.emplace_back(request.seed, "budget degrees " + std::to_string(j));
+    }
+    for (const InputCorrelation& of : request.correlations) {
+      const std::size_t one = place_of(of.one), other = place_of(of.other);
+      const std::string both = quoted(of.one) + " and " + quoted(of.other);
+      if (correlation_[one][other] != 0 || !(std::abs(of.value) < 1))
+        refuse(both + " have " + format_short(of.value), "give each two once, a number between -1 and 1");
+      if (inputs_[one].degrees != inputs_[other].degrees)
+        refuse(both + " have unlike `degrees`", "give both the same: their scatter is one estimate");
+      correlation_[one][other] = correlation_[other][one] = of.value;
+    }
+    factor_ = correlation_;
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t k = 0; k <= j; ++k) {
+        for (std::size_t i = 0; i < k; ++i) factor_[j][k] -= factor_[j][i] * factor_[k][i];
+        if (k < j)
+          factor_[j][k] /= factor_[k][k];
+        else if (factor_[j][j] > 1e-12)
+          factor_[j][j] = std::sqrt(factor_[j][j]);
+        else
+          refuse("no inputs can have all of these", "correct those of " + quoted(inputs_[j].name));
+      }
+  }
+
+  // Standardised coordinates of draw k.
+  std::vector<double> at(std::uint64_t k) const {
+    std::vector<double> scores, found;
+    for (std::size_t j = 0; j < inputs_.size(); ++j) {
+      scores.push_back(scores_[j].normal(k));
+      double z = 0;
+      for (std::size_t i = 0; i <= j; ++i)
+        if (factor_[j][i] != 0) z += factor_[j][i] * scores[i];
+      // The first that this one is correlated with has the scatter of both.
+      std::size_t group = 0;
+      while (correlation_[j][group] == 0) ++group;
+      if (const double degrees = inputs_[j].degrees; std::isfinite(degrees))
+        z *= std::sqrt(degrees / chi_squared_draw(scales_[group], k, degrees));
+      found.push_back(inputs_[j].coordinate_of_score(z));
+    }
+    return found;
+  }
+  double correlation(std::size_t one, std::size_t other) const { return correlation_[one][other]; }
+
+ private:
+  [[noreturn]] static void refuse(const std::string& sentence, const std::string& hint) {
+    throw Error(ErrorCode::bad_value, "`correlation`: " + sentence, hint);
+  }
+  std::size_t place_of(const std::string& name) const {
+    const auto found = std::ranges::find(inputs_, name, &UncertainInput::name);
+    if (found == inputs_.end()) refuse("there is no input " + quoted(name), "name two of `inputs`");
+    return static_cast<std::size_t>(found - inputs_.begin());
+  }
+
+  const std::vector<UncertainInput>& inputs_;
+  std::vector<std::vector<double>> correlation_, factor_;  // and its Cholesky factor
+  std::vector<Stream> scores_, scales_;
+};
+
+inline double average_of(const std::vector<double>& values) {
+  double mean = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  return mean;
+}
+
+// Standard deviation about the mean, with these degrees of freedom.
+inline double deviation_of(const std::vector<double>& values, double degrees) {
+  const double mean = average_of(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return degrees > 0 ? std::sqrt(squares / degrees) : 0;
+}
+
+// A part adds a value from a list, each equally likely, and Student's t times a scale.
+struct BudgetTerm {
+  std::string name;
+  std::vector<double> list;
+  double scale = 0, degrees = 1;
+  double uncertainty() const {
+    return elementary::hypot(scale, deviation_of(list, static_cast<double>(list.size())));
+  }
+};
+
+struct BudgetFindings {
+  double first = 0;   // the first replicate on the coarsest grid
+  double centre = 0;  // of the replicates: their mean, or that of Cox
+  std::vector<BudgetTerm> terms;
+};
+
+// Ascending; of the parts, and of the inputs by their polynomial unless it is refused.
+inline std::vector<double> budget_draws(const BudgetRequest& request, const InputDraws& inputs,
+                                        const BudgetFindings& found, const Budget& budget) {
+  const Stream lack(request.seed, "budget lack");
+  std::vector<Stream> places, scatters;
+  for (const BudgetTerm& term : found.terms) {
+    places.emplace_back(request.seed, "budget place " + term.name);
+    scatters.emplace_back(request.seed, "budget " + term.name);
+  }
+  const PolynomialChaos* chaos =
+      budget.chaos && budget.chaos->trust() != ChaosTrust::refused ? &*budget.chaos : nullptr;
+  const double at_values = chaos != nullptr ? chaos->at(std::vector<double>(request.inputs.size())) : 0;
+  std::vector<double> drawn;
+  for (std::uint64_t k = 0; k < request.draws; ++k) {
+    double value = found.centre;
+    for (std::size_t i = 0; i < found.terms.size(); ++i) {
+      const BudgetTerm& term = found.terms[i];
+      if (!term.list.empty())
+        value += term.list[static_cast<std::size_t>(places[i].below(k, term.list.size()))];
+      if (!(term.scale > 0)) continue;
+      const double t = student_draw(scatters[i], k, term.degrees);
+      if (term.name == "sampling" && request.interval == MeanInterval::log_normal)
+        value += elementary::exp(budget.sample->log_centre + t * budget.sample->log_error) - found.centre;
+      else
+        value += t * term.scale;
+    }
+    if (chaos != nullptr)
+      value += chaos->at(inputs.at(k)) - at_values +
+               std::sqrt(chaos->leave_one_out * chaos->variance) * lack.normal(k);
+    drawn.push_back(value);
+  }
+  std::ranges::sort(drawn);
+  return drawn;
+}
+
+}  // namespace asperity
