@@ -42,6 +42,8 @@ AlgebraicError find_algebraic_error(const Solution& solution, bool plastic) {
   const double height = bodies.peak_to_valley();
   error.indentation = height > 0 ? found.approach / height : infinity;
   error.separation = found.approach + rounding * height;
+  if (found.plastic_volume > 0)
+    error.separation += found.plastic_volume / (static_cast<double>(bodies.facing()) * error.node_area);
   error.mean_gap = found.mean_gap;
   error.energy = found.energy;
   error.peak_pressure = found.peak_pressure;

@@ -56,13 +56,21 @@ const StateQuantity of_every_state[] = {
      .value = quantity_value<&S::attraction>},
     {.name = "approach",
      .called = "the approach",
-     .sentence = "from first touch of the bodies as they are now; after yielding that is the touch of the "
-                 "worn faces, and `separation` is what one event compares with the next",
+     .sentence = "from first touch of the bodies as they were before this press; after yielding that is the "
+                 "touch of the worn faces, and `displacement` is what one event compares with the next",
      .dimension = dimension::length,
      .value = quantity_value<&S::approach>,
      .bound = quantity_bound<&E::approach>,
      .cells = CellError{2, 2.5, 1, 1.5, Kind::approach, nullptr,
                         "; most of it is the highest peak between the nodes"}},
+    {.name = "displacement",
+     .called = "the displacement",
+     .sentence = "travel since first touch of the unworn bodies, as a testing machine records it: `approach` and "
+                 "what earlier events took off the highest point",
+     .dimension = dimension::length,
+     .value = quantity_value<&S::displacement>,
+     .bound = quantity_bound<&E::approach>,
+     .bound_remark = ", of this press alone"},
     {.name = "indentation",
      .called = "the indentation",
      .sentence = "approach over the peak-to-valley of the combined heights; flats have none: an error. The "
@@ -124,8 +132,8 @@ const StateQuantity of_every_state[] = {
      .cells = CellError{1, 3, 1.5, 3, Kind::peak}},
     {.name = "separation",
      .called = "the separation",
-     .sentence = "of the mean planes of the bodies where they face each other, undeformed, as they stand "
-                 "under this load",
+     .sentence = "of the mean planes of the bodies where they face each other, without elastic deformation and "
+                 "with all that has yielded, under this load too",
      .dimension = dimension::length,
      .value = quantity_value<&S::separation>,
      .bound = quantity_bound<&E::separation>,

@@ -5,13 +5,16 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numbers>
 
+#include "engine/contact/elastic_model.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
 #include "engine/contact/solution.hpp"
+#include "engine/contact/state_limits.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
@@ -63,6 +66,8 @@ struct State::Shared {
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
   Effects effects;
+  bool moves_every_node = false;
+  std::vector<GapTerm> attraction;
   bool yields = false;  // whether anything limits the pressure
 
   Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
@@ -126,6 +131,9 @@ State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCo
   shared_->effects_run = plan.effects_run;
   shared_->effects_off = plan.effects_off;
   shared_->effects = plan.effects;
+  shared_->moves_every_node = plan.model != nullptr && plan.model->moves_every_node;
+  std::ranges::copy_if(plan.attraction, std::back_inserter(shared_->attraction),
+                       [](const GapTerm& term) { return term.work > 0; });
   shared_->yields = plan.yield.has_value();
 }
 
@@ -202,6 +210,8 @@ const std::vector<std::string>& State::effects_off() const { return shared_->eff
 const Effects& State::effects() const { return shared_->effects; }
 bool State::yields() const { return shared_->yields; }
 const StateCost& State::cost() const { return *cost_; }
+bool State::moves_every_node() const { return shared_->moves_every_node; }
+const std::vector<GapTerm>& State::attraction_terms() const { return shared_->attraction; }
 bool State::converged() const { return residual() <= shared_->tolerance; }
 
 double State::indentation() const {
@@ -219,8 +229,15 @@ double State::flatten() const {
 }
 double State::separation() const {
   return shared_->separation.get([&] {
-    return geometry().combined_range().max - known_mean(geometry().combined().values()) - approach();
+    const ContactGeometry& bodies = geometry();
+    const double before = bodies.combined_range().max - known_mean(bodies.combined().values()) - approach();
+    if (!(plastic_volume() > 0)) return before;
+    laws_met().meet(Law::yielded_separation);
+    return before + plastic_volume() / (static_cast<double>(bodies.facing()) * bodies.grid().cell_area());
   });
+}
+double State::displacement() const {
+  return geometry().first_touch() - geometry().combined_range().max + approach();
 }
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
@@ -381,8 +398,9 @@ std::string State::text(const std::string& of_the_cells) const {
   }
   const AlgebraicError& error = algebraic_error();
   // In the unit of the value, so that the two are compared at a glance.
-  const auto within = [](double value, double by, Dimension dimension) {
-    if (!std::isfinite(by)) return format_quantity(value, dimension);
+  const bool few = rests_on_few_nodes(*this);  // the bound of the solver then hides the error of the cells
+  const auto within = [few](double value, double by, Dimension dimension) {
+    if (few || !std::isfinite(by)) return format_quantity(value, dimension);
     const DisplayUnit unit = display_unit(std::abs(value), dimension);
     return format_short(value / unit.factor, 4) + " ± " + format_short(by / unit.factor, 2) + " " + unit.name;
   };
@@ -394,7 +412,7 @@ std::string State::text(const std::string& of_the_cells) const {
   result += " (" + format_quantity(load(), dimension::force) + "): approach " +
             within(approach(), error.approach, dimension::length) + ", area fraction " +
             format_short(area_fraction(), 4) +
-            (error.contact_bracket.low > 0 || error.contact_bracket.high < error.nodes
+            (!few && (error.contact_bracket.low > 0 || error.contact_bracket.high < error.nodes)
                  ? " ± " + format_short(error.area_fraction, 2)
                  : std::string()) +
             " of " + std::to_string(shared_->grid().nodes()) + " nodes" +

@@ -22,9 +22,9 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "body i took H_j/(H_i + H_j) of what yields, however hard it is",
      "it takes 1/(1 + exp(1.5 (r^2 - 1/r^2)) E_i/E_j), r = H_i/H_j with the hardness each node has by then",
      "plastic events of two bodies of unlike hardness or modulus, or that harden, and all that follows them"},
-    {Law::tilt_weight, "0.2.0", "heavy weights on the tilt stage",
+    {Law::tilt_weight, "0.2.0", "heavy weights and lone spots on the tilt stage",
      "on a half-space friction at the probe pressures was taken for that at the weight, also where the "
-     "weight presses harder than they do",
+     "weight presses harder than they do, or on one spot whose area is not in proportion to the load",
      "such a weight is solved for itself, and as the stage is raised what is left of it",
      "angles, mu and area per load of such trials"},
     {Law::approach_control, "0.2.0", "control by approach",
@@ -65,6 +65,10 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "a stray reading on a ramp, or several in a row, became a press or a release",
      "up to three in a row that leave the lines through their neighbours are left out",
      "events found in such recordings, their loads and dwells, and all that follows them"},
+    {Law::yielded_separation, "0.2.0", "the separation of a press that yields",
+     "`separation` was that of the bodies before the press yielded",
+     "what yields under the press is taken off first, so that pressing once more changes nothing",
+     "separations of such presses, and all that follows them"},
 }};
 
 constexpr bool each_in_its_place() {

@@ -307,7 +307,8 @@ void SpecimenPair::lay(const Pose& pose) {
     unload();
     return;
   }
-  auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, geometry_->memory());
+  auto geometry = std::make_shared<ContactGeometry>(scene_, pose, geometry_->memory());
+  geometry->keep_first_touch(*geometry_);
   Plan plan = planned(scene_, *geometry);
   // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
   const Material* flat = std::get_if<Material>(&scene_.upper);

@@ -6,7 +6,8 @@
 // and what a load makes of area and friction there is taken to hold down to the weight: real area grows in
 // proportion to load. A weight that presses harder than the least of the probes is solved itself, and as the
 // stage is raised the lesser loads down to that probe. So does what an attraction across the gap adds, unless
-// the bodies stick without a load (Pastewka & Robbins 2014). A rough counter-body is put down afresh for
+// the bodies stick without a load (Pastewka & Robbins 2014). A lone spot grows in no such proportion (a ball's
+// as load^2/3): where the probes show it, the weight is solved itself, on however few nodes. A rough counter-body is put down afresh for
 // every trial; on a flat every placement is the same contact and trials differ only by the scatter asked for.
 #pragma once
 
@@ -43,6 +44,8 @@ struct TiltProbe {
   double mu = 0;              // friction over load, its adhesive part on the corrected area; may be negative
                               // where junctions interlock
   double attraction = 0;      // over load, of bodies that attract each other across the gap
+  bool lone_spot = false;     // all nodes in contact hang together, by edges or corners
+  std::vector<std::string> limits{};  // state_limits
 };
 
 struct TiltResult {

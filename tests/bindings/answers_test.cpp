@@ -151,6 +151,21 @@ TEST_F(Answers, AStateThatIsPrintedSaysWhatItIsToBeDoubtedFor) {
             std::string::npos);
 }
 
+TEST_F(Answers, FrictionOfAStateAndTheTiltStageReportItsLimits) {
+  const std::string hard = "the peak pressure is";
+  EXPECT_EQ(run("law = lab.friction{ tau0='5 MPa', alpha=0.1 }\n"
+                "stage = lab.tilt_stage{ contact=contact(), friction=law, mass='4.3 g' }"),
+            "");
+  warns("law:on(contact():press{ pressure='500 GPa' })", "script.lua:1: law:on: the mean pressure is");
+  warns("law:on(contact():press{ pressure='500 GPa' })", "script.lua:1: law:on: " + hard);
+  EXPECT_EQ(warned("law:on(contact():press{ pressure='1 MPa' })"), "");
+  const std::string heavy = "lab.tilt_stage{ contact=contact(), friction=law, mass='2000 kg' }:raise{ repeats=2 }";
+  warns("print(" + heavy + ")", "tilt stage: " + hard);
+  EXPECT_NE(value(heavy + ".note").find(hard), std::string::npos);
+  EXPECT_EQ(value("#contact():press{ pressure='1 MPa' }.warnings"), "0");
+  EXPECT_NE(value("contact():press{ pressure='500 GPa' }.warnings[2]").find(hard), std::string::npos);
+}
+
 TEST_F(Answers, NamesStandAlongXAndNotUp) {
   EXPECT_EQ(run("book = lab.notebook 'grits' book:write{ grit='P80', Ra=1 } book:write{ grit='P120', Ra=2 }"),
             "");

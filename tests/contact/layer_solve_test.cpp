@@ -277,6 +277,23 @@ TEST(LayerContact, OnAnIncompressibleLayerComesNoNearerThanFullContact) {
   EXPECT_NE(test::error_of([&] { at_approach(problem, 1.01 * most); }).find("hardness"), std::string::npos);
 }
 
+// To long waves such a layer is so stiff that heights matter at a billion times its modulus.
+TEST(LayerContact, OfUnequalHeightsIsMeasuredByThem) {
+  HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 9, 1e-6);
+  problem.share = wave_share({1e-4, 0.5, LayerBase::bonded});
+  double area = 0, flat = 0;
+  for (int power = 3; power <= 9; ++power) {
+    const HalfSpaceAnswer answer = solve(problem, std::pow(10.0, power));
+    EXPECT_LE(answer.certificate.worst(), 1e-6);
+    EXPECT_GE(area_fraction(answer), area) << power;
+    EXPECT_GE(flattened(problem, answer), flat - 1e-5) << power;
+    area = area_fraction(answer);
+    flat = flattened(problem, answer);
+    const double open = std::ranges::max(answer.gap.values());
+    EXPECT_NEAR(flat, 1 - open / range(problem.heights->values()).span(), 1e-5) << power;
+  }
+}
+
 TEST(LayerContact, OfAFlatIsEven) {
   HalfSpaceProblem problem = problem_of(make_grid(8, 6, 1, 1), Field(8, 6, 1e-3), Boundary::periodic, 2);
   problem.share = wave_share({0.5, 0.25, LayerBase::bonded});

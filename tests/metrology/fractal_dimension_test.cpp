@@ -142,6 +142,27 @@ TEST(LengthMethod, HoldsForHeightsOfAnyMagnitude) {
 }
 
 // All other methods are blind to the scale of the heights.
+// A jump has D = 1.5 by its structure, exactly, and scales as nothing does.
+TEST(FractalDimension, OfAFewJumpsIsNotResolved) {
+  const auto reason = [](int samples, std::vector<int> jumps, DimensionMethod method) {
+    Array<double> z(static_cast<std::size_t>(samples));
+    for (int i = 0; i < samples; ++i)
+      z[static_cast<std::size_t>(i)] = static_cast<double>(
+          std::count_if(jumps.begin(), jumps.end(), [&](int jump) { return i >= jump; }) % 2);
+    const FractalDimension d = fractal_dimension(Profile(1, std::move(z)), with(method));
+    EXPECT_FALSE(d.resolved);
+    return d.reason;
+  };
+  const std::string one = "one jump makes all of it: the heights do not scale";
+  for (const DimensionMethod method :
+       {DimensionMethod::structure, DimensionMethod::psd, DimensionMethod::madogram}) {
+    for (const int samples : {64, 101, 4096}) EXPECT_EQ(reason(samples, {samples / 3}, method), one);
+    EXPECT_EQ(reason(4096, {1000, 3000}, method), "a few jumps make most of it: the heights do not scale");
+  }
+  const Surface surface = make_surface(64, 64, 1, 1, [](int i, int) { return i < 20 ? 0.0 : 1.0; });
+  EXPECT_EQ(fractal_dimension(surface, with(DimensionMethod::structure)).reason, one);
+}
+
 TEST(FractalDimension, OfOtherMethodsIgnoresScaleAndOffset) {
   const Array<double> z = fractional_brownian(300, 0.6, 8);
   for (const DimensionMethod method : all_methods) {

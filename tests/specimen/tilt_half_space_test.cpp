@@ -8,6 +8,7 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/tilt_trials.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::tilt_half_space_test {
@@ -59,6 +60,40 @@ TEST(TiltHalfSpace, TheAngleDoesNotDependOnAWeightBelowTheProbes) {
   light.stage.mass = 1e-6;
   heavy.stage.mass = 0.19;  // 29.8 MPa
   EXPECT_NEAR(raise(pair, law, light).angle, raise(pair, law, heavy).angle, 1e-12);
+}
+
+// A ball has one spot, whose area grows as load^(2/3): by Hertz the weight is held at mu = 0.1943.
+TEST(TiltHalfSpace, ALoneSpotIsSolvedUnderTheWeight) {
+  for (const double size : {1e-3, 2e-4, 1e-4}) {
+    Scene scene{sphere_surface({Grid{64, 64, size, size}, 1e-2, SphereShape::paraboloid})
+                    .with_material(test::elastic(70e9, 0.33)),
+                rigid_material(), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
+    const JunctionLaw weak({5 * megapascal, 0.1, {}, {}});
+    TiltTrialOptions options = stage({megapascal, 3 * megapascal});
+    options.repeats = 1;
+    const TiltResult result = raise(SpecimenPair(scene), weak, options);
+    EXPECT_NEAR(std::tan(result.angle), 0.1943, 0.012) << size;
+    ASSERT_EQ(result.at_weight.size(), 1U);
+    EXPECT_FALSE(result.probe_spread.has_value());
+  }
+}
+
+TEST(TiltHalfSpace, AreaPerLoadThatDiffersBetweenTheProbesIsReported) {
+  const std::string differs = "area per load differs by";
+  const TiltResult rough = raise(on_quartz(), law, stage({20 * megapascal, 2000 * megapascal}));
+  EXPECT_TRUE(rough.at_weight.empty());
+  EXPECT_NE(rough.note.find(differs), std::string::npos) << rough.note;
+  EXPECT_EQ(raise(on_quartz(), law, stage({30 * megapascal})).note.find(differs), std::string::npos);
+}
+
+TEST(TiltHalfSpace, PressuresAboveTheHardnessAreReported) {
+  const std::string hard = "times the hardness of the lower body";
+  const TiltResult elastic = raise(on_quartz(), law, stage({30 * megapascal, 60 * megapascal}));
+  EXPECT_NE(elastic.note.find(hard), std::string::npos) << elastic.note;
+  EXPECT_EQ(elastic.note.find(hard), elastic.note.rfind(hard));
+  Scene scene = on_quartz().scene();
+  scene.effects.set(PlasticityOptions{});
+  EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(hard), std::string::npos);
 }
 
 // B5: a weight that presses harder than a probe is not extrapolated to.

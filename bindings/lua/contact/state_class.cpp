@@ -13,10 +13,11 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/accuracy/companion_grids.hpp"
-#include "engine/accuracy/doubts.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/contact/state_file.hpp"
+#include "engine/contact/state_limits.hpp"
 #include "engine/surface/io/xdmf.hpp"
 
 namespace asperity::lua {
@@ -136,7 +137,17 @@ Values write_state(Call& call) {
   return {path};
 }
 
-std::string describe_state(const void* self) { return described(*static_cast<const Contacting*>(self)); }
+// One line with what is known of the error of the cells, and below it the limits, a line each. Of a state that
+// was closed its line alone.
+std::string describe_state(const void* self) {
+  const auto& state = *static_cast<const Contacting*>(self);
+  if (state.closed()) return state.text();
+  std::string of_the_cells = discretisation_text(state);
+  if (state.chosen()) of_the_cells += (of_the_cells.empty() ? "" : "; ") + state.chosen()->text();
+  std::string text = state.text(of_the_cells);
+  for (const std::string& sentence : state_limits(state)) text += "\n  warning: " + sentence;
+  return text;
+}
 std::size_t state_bytes(const void* self) {
   return static_cast<std::size_t>(bytes_held_with_other_grids(*static_cast<const Contacting*>(self)));
 }
@@ -163,6 +174,16 @@ const Class& class_of<asperity::State>() {
     c.article_name = "a state";
     c.sentence =
         "A contact under load: an immutable value whose fields are computed when they are first read.";
+    c.drawing =
+        "upper body     -----+-------------------------  at first touch of the unworn bodies\n"
+        "                    |\n"
+        "                    | displacement    +-------  at first touch of the worn bodies\n"
+        "                    |                 |\n"
+        "                    |                 | approach\n"
+        "               -----+---+-------------+-------  under this load\n"
+        "                        |\n"
+        "                        | separation\n"
+        "lower body     ~~~~~~~~~+~~~~~~~~~~~~~~~~~~~~~  mean plane, with all that has yielded\n";
     c.describe = describe_state;
     c.native_bytes = state_bytes;
     c.digest = text_of<&Contacting::digest>;
@@ -191,6 +212,10 @@ const Class& class_of<asperity::State>() {
                               "whether every entry of the certificate is within the tolerance"),
         getter<S>("solver", "string", "what found the solution",
                   [](const S& of) { return std::string(of.solver()); }),
+        getter<S>("warnings", "string[]",
+                  "where these numbers say little of real bodies: few nodes in contact, a contact at the rim of "
+                  "a free tile, steep slopes, pressures near the modulus or above the hardness",
+                  [](const S& of) { return text_list(state_limits(of)); }),
         getter<S>("effects_run", "string[]", "effects that were computed",
                   [](const S& of) { return text_list(of.effects_run()); }),
         getter<S>("effects_off", "string[]", "effects that the scene does not name",

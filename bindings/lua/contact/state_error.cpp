@@ -14,7 +14,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -25,22 +24,9 @@ const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_
 
 // A field is asked for by its own name.
 Values bound(Call& call) {
-  const StateQuantity& quantity = *find_quantity(call.function_name());
-  const asperity::State& state = call.self<StateBounds>().state;
-  const std::optional<double> found = quantity.bound(state);
-  if (found) return {*found};
-  const auto& run = state.effects_run();
-  if (!quantity.effect.empty() && std::find(run.begin(), run.end(), quantity.effect) == run.end())
-    refuse_without(quoted(call.function_name()), quoted(quantity.effect));
-  throw Error(ErrorCode::bad_state,
-              quoted(call.function_name()) + " has no algebraic bound in a state pressed by `flatten`",
-              "the others are bounds at the load that was found; press by `pressure` or `approach`");
-}
-
-const NodeBracket& yielded(Call& call) {
-  const auto& found = bounds(call.self<StateBounds>()).yielded_bracket;
-  if (!found) refuse_without(quoted(call.function_name()), quoted(find_quantity("plastic_fraction")->effect));
-  return *found;
+  const std::optional<double> found =
+      find_quantity(call.function_name())->bound(call.self<StateBounds>().state);
+  return {found ? Value(*found) : Value()};
 }
 
 double share(const AlgebraicError& e, std::int64_t nodes) {
@@ -82,13 +68,15 @@ const Class& class_of<StateBounds>() {
     c.article_name = "an algebraic error";
     c.sentence =
         "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units "
-        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
-        "they cost to find is no part of the cost of the state.";
+        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. nil: load, "
+        "pressure and secant_stiffness of a state pressed by `flatten`, whose other bounds are at the load that "
+        "was found, and what needs an effect that the scene does not name. What they cost to find is no part of "
+        "the cost of the state.";
     c.describe = describe_bounds;
     for (const StateQuantity& quantity : state_quantities())
       if (quantity.bound != nullptr)
         c.fields.push_back(
-            {std::string(quantity.name), "number", bound_sentence(quantity), quantity.dimension, bound});
+            {std::string(quantity.name), "number?", bound_sentence(quantity), quantity.dimension, bound});
     const std::vector<Getter> brackets = {
         getter<StateBounds>("contacts_low", "integer", "nodes that are surely in contact",
                             [](const StateBounds& of) { return bounds(of).contact_bracket.low; }),
@@ -112,16 +100,17 @@ const Class& class_of<StateBounds>() {
         getter<StateBounds>(
             "area_fraction_high", "number", "that and the share that may be",
             [](const StateBounds& of) { return share(bounds(of), bounds(of).contact_bracket.high); }),
-        {"plastic_fraction_low",
-         "number",
-         "share of the nodes surely at the cap; needs plasticity",
-         {},
-         [](Call& call) -> Values { return {share(bounds(call.self<StateBounds>()), yielded(call).low)}; }},
-        {"plastic_fraction_high",
-         "number",
-         "that and the share that may be; needs plasticity",
-         {},
-         [](Call& call) -> Values { return {share(bounds(call.self<StateBounds>()), yielded(call).high)}; }},
+        getter<StateBounds>("plastic_fraction_low", "number?",
+                            "share of the nodes surely at the cap; nil without plasticity",
+                            [](const StateBounds& of) {
+                              const auto& e = bounds(of);
+                              return e.yielded_bracket ? Value(share(e, e.yielded_bracket->low)) : Value();
+                            }),
+        getter<StateBounds>("plastic_fraction_high", "number?", "that and the share that may be",
+                            [](const StateBounds& of) {
+                              const auto& e = bounds(of);
+                              return e.yielded_bracket ? Value(share(e, e.yielded_bracket->high)) : Value();
+                            }),
         getter<StateBounds>("cost", "Cost", "seconds, transforms and bytes of finding these bounds",
                             [](const StateBounds& of) { return cost_type()(bounds(of).cost); }),
     };

@@ -502,6 +502,7 @@ std::string reference_page() {
   for (const Class* type : classes()) {
     page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
     fields_reference(page, type->fields);
+    if (!type->drawing.empty()) page += "```text\n" + type->drawing + "```\n\n";
     operators_reference(page, type->operators);
     for (const Function& f : type->methods) function_reference(page, f);
     records_reference(page, type->results, told);

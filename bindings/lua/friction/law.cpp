@@ -6,6 +6,7 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/contact/effects/interlocking.hpp"
+#include "engine/contact/state_limits.hpp"
 
 namespace asperity::lua {
 
@@ -76,6 +77,8 @@ Values law_on(Call& call) {
     const std::pair<std::string, Cost> cost{"interlocking", scope.so_far()};
     call.session().ledger->add_effects({&cost, 1});
   }
+  for (const std::string& limit : state_limits(state))
+    call.session().monitor().warn(where(call.L) + "law:on: " + limit);
   return {friction_type()(r)};
 }
 

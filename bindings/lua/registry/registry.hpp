@@ -94,6 +94,7 @@ struct Class {
   std::string article_name{};  // "a surface"
   std::string sentence{};
   std::vector<Getter> fields{};
+  std::string drawing{};  // of lines, which the reference shows below the fields
   std::vector<Function> methods{};
   std::vector<Operator> operators{};
   std::vector<const RecordInfo*> results{};  // types of the records that its fields and methods give

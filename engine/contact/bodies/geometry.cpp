@@ -99,8 +99,10 @@ ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& befo
   }
   if (pose_.on_lattice() || upper_is_flat()) {
     *this = ContactGeometry(scene, pose_, std::move(memory));
+    first_touch_ = before.first_touch();
     return;
   }
+  first_touch_ = before.first_touch();
   lower_ = scene.lower;
   upper_ = scene.upper;
   memory_ = std::move(memory);

@@ -50,6 +50,9 @@ class ContactGeometry {
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
   Range combined_range() const { return range_; }          // m
   double peak_to_valley() const { return range_.span(); }  // m
+  // m, the greatest combined height of the bodies as they lay before any event changed their shapes.
+  double first_touch() const { return first_touch_.value_or(range_.max); }
+  void keep_first_touch(const ContactGeometry& before) { first_touch_ = before.first_touch_; }
   // The combined heights at the nodes where the bodies face each other, in the order of the nodes.
   Array<double> facing_heights() const;
   // The nodes at which the bodies face each other; all, unless a free boundary lets one body overhang.
@@ -67,6 +70,7 @@ class ContactGeometry {
   BodyMemory memory_;
   std::shared_ptr<const Field> combined_;  // none under a flat
   Range range_;
+  std::optional<double> first_touch_;  // none while the bodies are unworn
   std::int64_t facing_ = 0;
 };
 

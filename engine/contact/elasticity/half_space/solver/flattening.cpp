@@ -216,10 +216,10 @@ double wanted_share(double fraction, double accuracy) {
 // The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
 // away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
 // apart. Where the load should be sought instead, an answer that did not converge.
-// `met`: the loads on either side that it passed.
+// `met`: the loads on either side that it passed. `alone`: the load was sought in vain.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
-                                    Monitor& monitor) {
+                                    Monitor& monitor, bool alone = false) {
   constexpr int most_solves = 60;
   // After so many solves, or fewer where they leave as much as `far`, or after many applications, the load is
   // sought from what they met.
@@ -301,7 +301,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
                        std::abs(approach / before.approach - 1) < near;
     const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
                              (solve > 0 && applications > many_by_approach);
-    by_load = steep || ((met.below || met.above) && long_enough);
+    by_load = !alone && (steep || ((met.below || met.above) && long_enough));
     if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
@@ -525,6 +525,12 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.iterations += before;
   }
   if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
+  // Where all nodes but some in pits are at the cap, one load goes with a stretch of approaches.
+  if (!answer.converged && problem.yield.caps() && 2 * answer.yielded > answer.contacts) {
+    const int before = answer.iterations;
+    answer = flatten_by_approach(problem, fraction, answer.approach, problem.tolerance, loads, monitor, true);
+    answer.iterations += before;
+  }
   return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
 }
 

@@ -95,9 +95,13 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   }
 }
 
-// What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about.
+// What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about. A
+// layer gives way by as much less as its greatest compliance is below that of a half-space.
 double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
-  return mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
+  const double length = mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
+  if (!problem.share) return length;
+  const double longest = 2 * std::numbers::pi / std::sqrt(problem.grid.area()) * problem.grid.hx();
+  return 0.5 * longest * multiplier_of(problem).greatest_from(longest) * length;
 }
 
 // Whether the heights say more than rounding. On a free tile a punch whose heights differ by a millionth of
@@ -112,6 +116,8 @@ bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
     const auto differs = [first = heights.front()](double h) { return h != first; };
     if (std::none_of(heights.begin(), heights.end(), differs)) return false;
   }
+  // The heights of a layer may matter at any pressure: an incompressible one hardly gives way to long waves.
+  if (problem.share) return true;
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   return problem.rms > least * punch_length(problem, mean_pressure);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/accuracy/doubts.hpp"
+#include "engine/contact/state_limits.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "engine/accuracy/chosen_accuracy.hpp"
-#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/gap_term.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -59,11 +59,57 @@ SofterBody softer_body(const ContactGeometry& geometry) {
   return softer;
 }
 
+// The greatest value at the rim of the tile; values that are missing are left out.
+template <class Value>
+double greatest_at_rim(const Grid& grid, const Value& value) {
+  double greatest = 0;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1))
+      greatest = std::max(greatest, value(i, j));
+  return greatest;
+}
+
+// What the rim of a free tile cuts off; empty where it is nothing, and of flats, which are meant to be cut.
+std::string cut_off_at_the_rim(const State& state) {
+  const ContactGeometry& geometry = state.geometry();
+  if (!state.moves_every_node() || geometry.boundary() != Boundary::free || !(geometry.peak_to_valley() > 0))
+    return {};
+  if (state.contacts() > 0) {
+    const auto contact = state.field("contact");
+    if (greatest_at_rim(state.grid(), [&](int i, int j) { return (*contact)(i, j); }) > 0)
+      return "the contact reaches the rim of the free tile, where the bodies end";
+  }
+  if (state.attraction_terms().empty()) return {};
+  const auto gap = state.field("gap");
+  constexpr double noticeable = 0.01;  // of the traction at touch, and about of the whole force
+  for (const GapTerm& term : state.attraction_terms()) {
+    const double share = greatest_at_rim(state.grid(), [&](int i, int j) {
+      const double g = (*gap)(i, j);
+      return std::isnan(g) ? 0.0 : term.traction(std::max(g, 0.0)) / term.greatest();
+    });
+    if (share > noticeable)
+      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end: it pulls there by " +
+             format_short(100 * share, 2) + " % of its greatest traction; take a larger tile or a shorter range";
+  }
+  return {};
+}
+
 }  // namespace
 
-std::vector<std::string> doubts(const State& state) {
+bool rests_on_few_nodes(const State& state) {
+  constexpr std::int64_t few = 30;
+  return state.moves_every_node() && state.contacts() > 0 && state.contacts() < few &&
+         state.contacts() < state.geometry().facing();
+}
+
+std::vector<std::string> state_limits(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   std::vector<std::string> sentences;
+  if (rests_on_few_nodes(state))
+    sentences.push_back("only " + std::to_string(state.contacts()) +
+                        (state.contacts() == 1 ? " node touches" : " nodes touch") +
+                        ", so the result depends on the cells: press harder, or take finer cells on a smaller tile");
+  if (std::string cut = cut_off_at_the_rim(state); !cut.empty()) sentences.push_back(std::move(cut));
   if (state.load() <= 0) return sentences;
   constexpr double steep = 1;
   if (const double slope = combined_rms_slope(geometry); slope > steep)
@@ -84,15 +130,6 @@ std::vector<std::string> doubts(const State& state) {
                           effects_that(Effect::Acts::bounds_pressure));
   }
   return sentences;
-}
-
-std::string described(const State& state) {
-  std::string of_the_cells = state.closed() ? std::string() : discretisation_text(state);
-  if (state.chosen()) of_the_cells += (of_the_cells.empty() ? "" : "; ") + state.chosen()->text();
-  std::string text = state.text(of_the_cells);
-  if (state.closed()) return text;
-  for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
-  return text;
 }
 
 }  // namespace asperity
