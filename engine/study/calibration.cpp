@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "engine/core/error.hpp"
@@ -22,6 +23,8 @@ namespace {
 constexpr double level_of_specimens = 0.25;  // of the F test after which specimens are the observations
 constexpr double through_every_row = 1e-9;   // residuals, relative to the data
 constexpr double no_part = 0.01;             // of a direction that no row sees, in a parameter
+constexpr double moved_little = 0.2;  // half-widths by which a bound may move a linearised interval,
+constexpr double moved_far = 3;       // and those from which only a combination is known
 
 std::string row_name(const CalibrationRows& rows, std::size_t k) {
   return "row " + std::to_string(rows.numbers.empty() ? k + 1 : rows.numbers[k]);
@@ -222,7 +225,8 @@ class CalibrationWork {
     settle(start);
     if (rows_.specimens.empty() || tangent_.rank == 0) return;
     const bool wanted = options_.basis == CalibrationBasis::specimens;
-    if (groups_.size() <= tangent_.rank) {
+    const std::size_t used = tangent_.rank + static_cast<std::size_t>(std::ranges::count(held_, true));
+    if (groups_.size() <= used) {
       if (wanted)
         throw Error(ErrorCode::infeasible,
                     "basis=\"specimens\" has " + counted(groups_.size(), "specimen", "specimens") + " for " +
@@ -232,7 +236,7 @@ class CalibrationWork {
     }
     SpecimenVariances variances;
     if (groups_.size() < rows_.y.size()) {
-      variances = variances_of(groups_, weighted_rows(rows_, at_.place), tangent_.rank);
+      variances = variances_of(groups_, weighted_rows(rows_, at_.place), used);
       test_ = variances.test;
     }
     if (options_.basis == CalibrationBasis::rows) return;
@@ -259,14 +263,60 @@ class CalibrationWork {
     // be free is measured by its own column.
     covariance_ = covariance_of(tangent_, problem_.parameters());
     determined_ = determined_parameters(tangent_, problem_.parameters());
+    moved_.assign(problem_.parameters(), 0);
+    bounds_.clear();
     const std::size_t held = static_cast<std::size_t>(std::ranges::count(held_, true));
     const std::size_t observations = problem_.groups().size(), used = tangent_.rank + held;
     degrees_ = observations > used ? observations - used : 0;
-    variance_ = degrees_ > 0 ? at_.place.sum / static_cast<double>(degrees_) : rows_.u.empty() ? 0 : 1;
-    // What is left where the model passes through every row is rounding, and no scatter.
+    // Residuals of a model that passes through every row are rounding errors.
     const double rounding = through_every_row * problem_.size_of(at_.place);
-    if (degrees_ > 0 && at_.place.sum <= rounding * rounding) variance_ = 0;
+    scatter_ = degrees_ > 0 && at_.place.sum > rounding * rounding
+                   ? at_.place.sum / static_cast<double>(degrees_)
+                   : 0;
+    variance_ = known_scatter() ? 1 : scatter_;
+    for (std::size_t p = 0; p < problem_.parameters(); ++p)
+      if (held_[p]) leave_bound(p);
   }
+
+  // How far the parameter p can leave its bound until S meets the cut, and how far the others move with it. An
+  // interval with p held at the bound is the interval of their combination with p.
+  void leave_bound(std::size_t p) {
+    std::vector<bool> others(problem_.parameters(), true);
+    others[p] = false;
+    const CalibrationTangent own = problem_.tangent(at_.place, at_.rows_jacobian, others);
+    if (!(own.lengths.front() > 0)) return;
+    CalibrationBound bound{p, 0, std::vector<double>(problem_.parameters())};
+    std::vector<double> across = own.svd.u.front();
+    for (std::size_t k = 0; k < tangent_.rank; ++k) {
+      const double along = std::inner_product(across.begin(), across.end(), tangent_.svd.u[k].begin(), 0.0) *
+                           own.svd.v.front().front();
+      for (std::size_t i = 0; i < tangent_.parameters.size(); ++i)
+        if (tangent_.lengths[i] > 0)
+          bound.moves[tangent_.parameters[i]] -=
+              tangent_.svd.v[k][i] / tangent_.svd.values[k] * along * own.lengths.front() / tangent_.lengths[i];
+    }
+    for (std::size_t k = 0; k < tangent_.rank; ++k) {
+      const double along = std::inner_product(across.begin(), across.end(), tangent_.svd.u[k].begin(), 0.0);
+      for (std::size_t i = 0; i < across.size(); ++i) across[i] -= along * tangent_.svd.u[k][i];
+    }
+    const double allowed = cut() * variance_, push = own.lengths.front() * std::abs(own.along.front()),
+                 bend = length_of(across) * own.lengths.front();
+    bound.range = allowed / (push + std::sqrt(push * push + bend * bend * allowed));
+    if (degrees_ == 0 && !known_scatter()) bound.range = std::numeric_limits<double>::infinity();
+    const CalibrationParameter& of = problem_.parameter(p);
+    if (of.lower && of.upper) bound.range = std::min(bound.range, *of.upper - *of.lower);
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const double move = std::abs(bound.moves[i]) * bound.range,
+                   reach = factor() * std::sqrt(variance_ * covariance_[i][i]);
+      if (move > 0) moved_[i] += move / reach;
+      if (moved_[i] > moved_far) determined_[i] = false, bound.decides = true;
+    }
+    bound.moves[p] = 1;
+    bounds_.push_back(std::move(bound));
+  }
+
+  // Whether `u` says how far an observation scatters.
+  bool known_scatter() const { return !rows_.u.empty() && !options_.relative_u && !by_specimens_; }
 
   // A parameter at a bound is not held there by the rows where it can leave it, together with others, and no
   // row changes. `all`: the tangent of all parameters.
@@ -314,8 +364,9 @@ class CalibrationWork {
 
   bool scatter_known() const { return variance_ > 0; }
   double factor() const {
-    return degrees_ > 0 ? student_t_factor(options_.confidence, static_cast<double>(degrees_))
-                        : student_t_factor(options_.confidence, std::numeric_limits<double>::infinity());
+    return student_t_factor(options_.confidence, degrees_ > 0 && !known_scatter()
+                                                     ? static_cast<double>(degrees_)
+                                                     : std::numeric_limits<double>::infinity());
   }
   double cut() const { return factor() * factor(); }
 
@@ -330,9 +381,10 @@ class CalibrationWork {
       std::vector<double> guide(problem_.parameters());
       double reach = 0;
       if (held_[p]) {
-        const double length = held_length(p);
-        if (!(length > 0)) continue;
-        reach = std::sqrt(allowed) / length;
+        const auto bound = std::ranges::find(bounds_, p, &CalibrationBound::parameter);
+        if (bound == bounds_.end() || bound->decides) continue;
+        guide = bound->moves;
+        reach = bound->range;
       } else {
         for (std::size_t i = 0; i < guide.size(); ++i) guide[i] = covariance_[i][p] / covariance_[p][p];
         reach = factor() * std::sqrt(variance_ * covariance_[p][p]);
@@ -345,12 +397,6 @@ class CalibrationWork {
     return {};
   }
 
-  double held_length(std::size_t p) const {
-    std::vector<bool> others(problem_.parameters(), true);
-    others[p] = false;
-    return problem_.tangent(at_.place, at_.rows_jacobian, others).lengths.front();
-  }
-
   Calibration described() {
     Calibration found;
     const std::size_t count = problem_.parameters();
@@ -359,12 +405,12 @@ class CalibrationWork {
     found.degrees = degrees_;
     found.by_specimens = by_specimens_;
     found.sum_of_squares = at_.place.sum;
-    found.residual_deviation = degrees_ > 0 ? std::sqrt(variance_) : 0;
+    found.residual_deviation = std::sqrt(scatter_);
     found.cut = cut();
     found.iterations = iterations_;
     found.fitted = at_.place.fitted;
     for (std::size_t k = 0; k < rows_.y.size(); ++k) found.residuals.push_back(rows_.y[k] - found.fitted[k]);
-    const bool spread = degrees_ > 0 || !rows_.u.empty();
+    const bool spread = degrees_ > 0 || known_scatter();
     const double t = factor();
     for (std::size_t p = 0; p < count; ++p) {
       CalibratedParameter of;
@@ -374,7 +420,7 @@ class CalibrationWork {
       of.at_upper = held_[p] && !of.at_lower;
       if (of.determined) {
         of.value = at_.place.q[p];
-        if (!held_[p] && spread) {
+        if (!held_[p] && spread && moved_[p] <= moved_little) {
           of.standard_error = std::sqrt(variance_ * covariance_[p][p]);
           of.low = *of.value - t * *of.standard_error;
           of.high = *of.value + t * *of.standard_error;
@@ -400,7 +446,8 @@ class CalibrationWork {
     add_band(found, spread, t);
     add_specimens(found);
     found.calls = problem_.calls();
-    const CalibrationFindings findings{problem_,       at_,       tangent_,     covariance_, held_, variance_,
+    const CalibrationFindings findings{problem_, at_,       tangent_,       covariance_,
+                                       held_,    bounds_,   moved_,         variance_,  scatter_,
                                        spread ? t : 0, profiles_, begun_again_, options_};
     add_verdict(found, findings);
     found.calls = problem_.calls();
@@ -435,12 +482,14 @@ class CalibrationWork {
   CalibrationMinimum at_;
   CalibrationTangent tangent_;
   std::vector<bool> held_, determined_;
+  std::vector<CalibrationBound> bounds_;
+  std::vector<double> moved_;  // by parameters that leave their bounds, in half-widths of the own interval
   TableColumns covariance_;
   std::vector<std::pair<std::string, CalibrationGroup>> groups_;
   std::optional<SpecimenScatter> test_;
   std::vector<CalibrationProfile> profiles_;
   std::size_t degrees_ = 0;
-  double variance_ = 0;
+  double scatter_ = 0, variance_ = 0;  // of an observation of weight 1: seen in residuals, of intervals
   bool by_specimens_ = false;
   int iterations_ = 0, begun_again_ = 0;
 };

@@ -16,7 +16,7 @@ namespace asperity {
 namespace {
 
 constexpr int most_calibration_steps = 200;
-constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent plane, relative
+constexpr double calibration_orthogonal = 1e-8;   // residuals to the tangent plane, relative
 constexpr double near_enough_for_central = 1e-4;  // the same, from which differences are central
 constexpr double noise_of_model = 0.03;           // the same, at which a model that goes no lower has arrived
 constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
@@ -115,14 +115,17 @@ std::vector<std::optional<std::vector<double>>> CalibrationProblem::fitted_all(
   return found;
 }
 
+double CalibrationProblem::observed_mean(const std::vector<double>& of_rows, std::size_t observation) const {
+  double sum = 0;
+  for (const std::size_t row : groups_[observation].rows) sum += of_rows[row];
+  return sum / static_cast<double>(groups_[observation].rows.size());
+}
+
 std::vector<double> CalibrationProblem::observed(const std::vector<double>& of_rows) const {
   std::vector<double> values;
   values.reserve(groups_.size());
-  for (const CalibrationGroup& group : groups_) {
-    double sum = 0;
-    for (const std::size_t row : group.rows) sum += of_rows[row];
-    values.push_back(group.weight * sum / static_cast<double>(group.rows.size()));
-  }
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    values.push_back(groups_[i].weight * observed_mean(of_rows, i));
   return values;
 }
 
@@ -385,6 +388,7 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
   bool central = false;
   for (found.iterations = 0;; ++found.iterations) {
     found.rows_jacobian = jacobian(found.place, found.scales, none, central);
+    if (found.iterations == 0 && before.scales.empty()) refuse_still(found);
     const CalibrationTangent at =
         tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
     const double length = length_of(found.place.residual),

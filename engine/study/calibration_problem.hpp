@@ -97,6 +97,10 @@ class CalibrationProblem {
   // `hidden`: as in CalibrationMinimum.
   CalibrationTangent tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                              const std::vector<bool>& held, double hidden = 0) const;
+  // Throws Error{not_converged} where no row changes with a parameter by its difference, but some by a wider
+  // one, or where no parameter changes any row.
+  void refuse_still(const CalibrationMinimum& at);
+  double observed_mean(const std::vector<double>& of_rows, std::size_t observation) const;
   // Of differences of rising width, the first that tell every parameter, or else those that agree best;
   // nothing where the model has no value beside.
   std::optional<FirmSlopes> firm_slopes(const CalibrationMinimum& at);

@@ -147,7 +147,9 @@ std::string calibration_text(const CalibrationReport& report) {
   if (!between.empty()) text += "\n  correlation: " + between;
   if (found.condition)
     text += (between.empty() ? "\n  " : "; ") + ("condition " + format_short(*found.condition, 3));
-  return text + "\n  verdict: " + found.verdict;
+  text += "\n  verdict: " + found.verdict;
+  for (const std::string& warning : found.warnings) text += "\n  warning: " + warning;
+  return text;
 }
 
 std::string calibration_digest(const CalibrationReport& report) {

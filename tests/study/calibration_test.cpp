@@ -440,7 +440,11 @@ TEST(Calibration, UncertaintiesWeighAndAreChecked) {
   const Calibration found = calibrate(made.rows, made.model(), tilt_law);
   const CurveFit line = fit_line(points);
   EXPECT_NEAR(*found.parameters[1].value, line.parameters[1].value, 1e-9);
-  EXPECT_NEAR(*found.parameters[1].standard_error, line.parameters[1].standard_error, 1e-9);
+  EXPECT_NEAR(*found.parameters[1].standard_error,
+              line.parameters[1].standard_error / found.residual_deviation, 1e-9);
+  const Calibration ratios = calibrate(made.rows, made.model(), tilt_law, {.relative_u = true});
+  EXPECT_NEAR(*ratios.parameters[1].standard_error, line.parameters[1].standard_error, 1e-9);
+  EXPECT_TRUE(warns(found, "times as far as `u` says"));
   for (double& u : made.rows.u) u /= 10;
   EXPECT_TRUE(warns(calibrate(made.rows, made.model(), tilt_law), "times as far as `u` says"));
 }
@@ -467,8 +471,8 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   const Calibration found = calibrate(made.rows, made.model(), bounded, relative);
   EXPECT_EQ(*found.parameters[0].value, 0.35);
   EXPECT_TRUE(found.parameters[0].at_lower);
-  EXPECT_FALSE(found.parameters[0].low);
-  EXPECT_TRUE(found.parameters[1].low);
+  EXPECT_FALSE(found.parameters[0].low || found.parameters[1].low);
+  EXPECT_TRUE(found.parameters[1].profile_low);
   EXPECT_TRUE(says(found.verdict, "alpha stands at its lower bound 0.35: the rows ask for less"))
       << found.verdict;
   // The other is at its best with the bound held.
@@ -479,6 +483,125 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   };
   EXPECT_NEAR(*found.parameters[1].value, *calibrate(made.rows, held, alone, relative).parameters[0].value,
               1e-6);
+}
+
+// Two real areas that hardly differ determine a sum; noise often asks for a parameter below its bound.
+TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
+  int at_bound = 0;
+  for (const double ratio : {1.01, 1.05, 1.1, 1.3})
+    for (const double lower : {-1e9, 0.0})
+      for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+        Experiment made = experiment(2, ratio, 0, seed, 7);
+        const std::vector<CalibrationParameter> law = {{"alpha", 0.1, lower, {}}, {"tau0", 0.3, 0.0, {}}};
+        const Calibration found = calibrate(made.rows, made.model(), law, relative);
+        const CalibratedParameter &alpha = found.parameters[0], &tau0 = found.parameters[1];
+        if (!alpha.at_lower && !tau0.at_lower) continue;
+        ++at_bound;
+        EXPECT_FALSE(alpha.low || tau0.low || alpha.standard_error || tau0.standard_error);
+        EXPECT_FALSE(alpha.profile_low.value_or(0) > 0.2 || alpha.profile_high.value_or(1) < 0.2);
+        EXPECT_FALSE(tau0.profile_low.value_or(0) > 0.3 || tau0.profile_high.value_or(1) < 0.3);
+        EXPECT_FALSE(alpha.value && tau0.value) << found.verdict;
+        ASSERT_EQ(found.combinations.size(), 1U) << found.verdict;
+        EXPECT_TRUE(says(found.verdict, "only " + found.combinations[0] + " is known")) << found.verdict;
+        EXPECT_FALSE(found.identifiable);
+      }
+  EXPECT_GT(at_bound, 40);
+}
+
+// The profile of the other parameter lets the one at its bound move: S at its ends, by a fit of the bound one.
+TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
+  const Experiment made = experiment(6, 4, 0, 3);
+  const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
+  CalibrationRows rows = made.rows;
+  rows.specimens.clear();
+  const Calibration found = calibrate(rows, made.model(), law);
+  ASSERT_TRUE(found.parameters[0].at_lower && found.parameters[1].profile_low);
+  for (const double end : {*found.parameters[1].profile_low, *found.parameters[1].profile_high}) {
+    const CalibrationModel fixed = [&](std::span<const double> q, std::size_t row) {
+      return q[0] + end * made.c[row];
+    };
+    const Calibration there =
+        calibrate(rows, fixed, std::vector<CalibrationParameter>{{"alpha", 0.3, 0.24, 1.0}});
+    const double variance = found.sum_of_squares / static_cast<double>(found.degrees);
+    EXPECT_NEAR((there.sum_of_squares - found.sum_of_squares) / variance / found.cut, 1, 0.02);
+  }
+}
+
+TEST(Calibration, StartAtWhichNoStepChangesARowIsRefused) {
+  const std::vector<double> x = {1, 2, 3, 4, 5};
+  const CalibrationRows rows{{5.1, 10.2, 14.7, 20.3, 24.8}};
+  const auto refused = [&](double n, double factor, double shift) {
+    const CalibrationModel whole = [&](std::span<const double> q, std::size_t row) {
+      return std::floor(q[0] + 0.5) * x[row] * factor + shift * q[1];
+    };
+    return error_of([&] {
+      calibrate(rows, whole, std::vector<CalibrationParameter>{{"n", n, {}, {}}, {"b", 1, {}, {}}});
+    });
+  };
+  for (const double n : {3.0, 2.8, 0.0, -40.0})
+    EXPECT_TRUE(says(refused(n, 1, 1), "no row changes when `n` makes a step at its start " + format_short(n)));
+  EXPECT_TRUE(says(refused(3, 0, 0), "no row changes when"));
+}
+
+TEST(Calibration, KnownUncertaintyGivesTheIntervalWithoutScatter) {
+  // Three points on a line with u = 1: u(slope) = 1/sqrt(2).
+  const std::vector<double> c = {1, 2, 3};
+  const CalibrationModel line = [&](std::span<const double> q, std::size_t row) {
+    return q[0] + q[1] * c[row];
+  };
+  const Calibration found = calibrate({{2, 4, 6}, {1, 1, 1}}, line, tilt_law);
+  EXPECT_NEAR(*found.parameters[1].standard_error, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(*found.parameters[1].high, 2 + 1.959963984540054 * std::sqrt(0.5), 1e-9);
+  EXPECT_TRUE(found.parameters[1].profile_high);
+}
+
+int warned(const std::string& part, int sets, auto make) {
+  int said = 0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    const Stream draws(static_cast<std::uint64_t>(seed), "rows with residuals to look at");
+    CalibrationRows rows;
+    std::vector<double> x;
+    double before = draws.normal(999);
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      x.push_back(static_cast<double>(k) / 20);
+      rows.y.push_back(make(draws, k, x.back(), before));
+    }
+    const CalibrationModel line = [&](std::span<const double> q, std::size_t row) {
+      return q[0] + q[1] * x[row];
+    };
+    said += warns(calibrate(rows, line, tilt_law, {.profile = false}), part) ? 1 : 0;
+  }
+  return said;
+}
+
+TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
+  constexpr int sets = 100;
+  const auto line = [](const Stream& draws, std::uint64_t k, double x, double&) {
+    return 1 + x + 0.1 * draws.normal(k);
+  };
+  const auto parabola = [](const Stream& draws, std::uint64_t k, double x, double&) {
+    return x * x + 0.02 * draws.normal(k);
+  };
+  const auto drift = [](const Stream& draws, std::uint64_t k, double x, double& before) {
+    before = 0.8 * before + 0.6 * draws.normal(k);
+    return 1 + x + 0.1 * before;
+  };
+  const auto copies = [](const Stream& draws, std::uint64_t k, double, double&) {
+    return static_cast<double>(k / 4 * 4) / 20 + 0.1 * draws.normal(k / 4);
+  };
+  EXPECT_LE(warned("keep their sign", sets, line), 10);  // 5 % at most
+  EXPECT_LE(warned("neighbouring rows", sets, line), 12);
+  EXPECT_GE(warned("keep their sign", sets, parabola), 95);
+  EXPECT_GE(warned("neighbouring rows", sets, drift), 60);
+  EXPECT_EQ(warned("rows repeat another row exactly", sets, copies), 0);  // x differs
+  const Experiment made = experiment(6, 4, 0, 3, 1);
+  Experiment often;
+  for (int copy = 0; copy < 4; ++copy)
+    for (std::size_t k = 0; k < 6; ++k) {
+      often.c.push_back(made.c[k]);
+      often.rows.y.push_back(made.rows.y[k]);
+    }
+  EXPECT_TRUE(warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
 }
 
 TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {
