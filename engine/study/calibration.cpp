@@ -20,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double level_of_specimens = 0.25;  // of the F test after which specimens are the observations
+constexpr double level_of_specimens = 0.5;  // of the F test after which specimens are the observations
 constexpr double through_every_row = 1e-9;   // residuals, relative to the data
 constexpr double no_part = 0.01;             // of a direction that no row sees, in a parameter
 constexpr double moved_little = 0.2;  // half-widths by which a bound may move a linearised interval,

@@ -6,7 +6,7 @@
 // & Watts 1988, ch. 6). A direction in which no row changes is no estimate: its parameters are given no
 // number, and the combination that the rows do determine is told. So is one that a parameter at its bound would
 // move far beyond its own interval if it left the bound. With `u` intervals rest on `u`, not on residuals. Rows of one specimen are repeats: where
-// specimens scatter more than their repeats (one-way F test at 25 %), the means of the specimens are the
+// specimens scatter more than their repeats (one-way F test at 50 %), the means of the specimens are the
 // observations, with t of m - p degrees. What the model does not describe is not seen.
 #pragma once
 

@@ -97,12 +97,16 @@ NeighbourTest neighbour_test(const std::vector<double>& residual, const Calibrat
     const std::vector<double> near = neighbours(tangent.svd.u[i]);
     trace -= product(tangent.svd.u[i], near);
     square -= 2 * product(near, near);
-    for (std::size_t j = 0; j < p; ++j) square += std::pow(product(tangent.svd.u[j], near), 2);
+    for (std::size_t j = 0; j < p; ++j) {
+      const double both = product(tangent.svd.u[j], near);
+      square += both * both;
+    }
   }
   const double mean = trace / degrees, variance = 2 * (square - trace * mean) / (degrees * (degrees + 2)),
                lag = product(residual, neighbours(residual)) / product(residual, residual);
   if (!(variance > 0)) return {};
-  return {0.5 * std::erfc((lag - mean) / std::sqrt(2 * variance)), lag};
+  const double z = (lag - mean) / std::sqrt(variance);
+  return {z > 0 ? (1 - f_cdf(z * z, 1, 1e9)) / 2 : 1, lag};
 }
 
 class VerdictWords {

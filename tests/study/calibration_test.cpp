@@ -17,7 +17,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/curve_fit.hpp"
+#include "engine/study/curve_fit.hpp"
 
 namespace asperity::calibration_test {
 namespace {
@@ -408,7 +408,7 @@ TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
   CalibrationOptions options;
   options.basis = CalibrationBasis::specimens;
   const Calibration found = calibrate(made.rows, made.model(), tilt_law, options);
-  FitPoints means;
+  CalibrationRows means;
   for (std::size_t s = 0; s < 5; ++s) {
     double mean = 0;
     for (std::size_t k = 0; k < 5; ++k) mean += made.rows.y[5 * s + k] / 5;
@@ -417,8 +417,8 @@ TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
   }
   const CurveFit line = fit_line(means);
   for (std::size_t p = 0; p < 2; ++p) {
-    EXPECT_NEAR(*found.parameters[p].value, line.parameters[p].value, 1e-9);
-    EXPECT_NEAR(*found.parameters[p].low, line.parameters[p].low, 1e-7);
+    EXPECT_NEAR(*found.parameters[p].value, *line.found.parameters[p].value, 1e-9);
+    EXPECT_NEAR(*found.parameters[p].low, *line.found.parameters[p].low, 1e-7);
   }
 }
 
@@ -432,18 +432,15 @@ TEST(Calibration, OneRowASpecimenIsNoRepeat) {
 TEST(Calibration, UncertaintiesWeighAndAreChecked) {
   Experiment made = experiment(6, 4, 0, 3);
   made.rows.specimens.clear();
-  FitPoints points{made.c, made.rows.y, {}};
-  for (const double c : made.c) {
-    made.rows.u.push_back(0.1 + 0.05 * c);
-    points.weights.push_back(1 / (made.rows.u.back() * made.rows.u.back()));
-  }
-  const Calibration found = calibrate(made.rows, made.model(), tilt_law);
-  const CurveFit line = fit_line(points);
-  EXPECT_NEAR(*found.parameters[1].value, line.parameters[1].value, 1e-9);
-  EXPECT_NEAR(*found.parameters[1].standard_error,
-              line.parameters[1].standard_error / found.residual_deviation, 1e-9);
-  const Calibration ratios = calibrate(made.rows, made.model(), tilt_law, {.relative_u = true});
-  EXPECT_NEAR(*ratios.parameters[1].standard_error, line.parameters[1].standard_error, 1e-9);
+  for (const double c : made.c) made.rows.u.push_back(0.1 + 0.05 * c);
+  made.rows.x = made.c;
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law),
+                    ratios = calibrate(made.rows, made.model(), tilt_law, {.relative_u = true}),
+                    line = fit_line(made.rows).found;
+  EXPECT_NEAR(*found.parameters[1].value, *line.parameters[1].value, 1e-9);
+  EXPECT_NEAR(*found.parameters[1].standard_error, *line.parameters[1].standard_error, 1e-9);
+  EXPECT_NEAR(*ratios.parameters[1].standard_error,
+              *line.parameters[1].standard_error * found.residual_deviation, 1e-9);
   EXPECT_TRUE(warns(found, "times as far as `u` says"));
   for (double& u : made.rows.u) u /= 10;
   EXPECT_TRUE(warns(calibrate(made.rows, made.model(), tilt_law), "times as far as `u` says"));

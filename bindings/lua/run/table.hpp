@@ -32,9 +32,8 @@ Function histogram_method();
 Function fit_method();
 Function chart_method();
 const RecordInfo& histogram_type();
-std::vector<const RecordInfo*> fit_types();
 
-// A fit as a record of t:fit holds it; nothing for any other value.
+// The curve that t:fit gave; nothing for any other value.
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 }  // namespace asperity::lua

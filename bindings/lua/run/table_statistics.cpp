@@ -259,9 +259,7 @@ std::vector<Function> table_analysis_methods() {
 }
 
 std::vector<const RecordInfo*> table_analysis_results() {
-  std::vector<const RecordInfo*> types = fit_types();
-  types.push_back(&histogram_type());
-  return types;
+  return {&histogram_type()};
 }
 
 }  // namespace asperity::lua

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: what is asked for, the rows as the model gets them, and the model, a function of the script
+// lab.calibrate: its parameters, and the model, a function of the script
 // that is called with the table q of the parameters in SI and one row as rows() gives it.
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_values.hpp"
@@ -18,8 +18,6 @@
 #include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/statistics/number_columns.hpp"
-#include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
 
@@ -29,16 +27,10 @@ using Rows = asperity::Table;
 
 // --- what is asked for
 
-struct CalibrateKeys {
+struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::string y;
   std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
   std::vector<Dimension> dimensions;
-  std::optional<double> u_number;
-  std::optional<std::string> u_text;  // a column, or a quantity
-  std::optional<std::string> specimen;
-  TableFilter where;
-  CalibrationOptions options;
 };
 
 // One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
@@ -135,29 +127,8 @@ void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& key
   }
 }
 
-void read_u(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
-  if (value.is_number())
-    keys.u_number = value.number();
-  else if (value.is_text())
-    keys.u_text = std::string(value.text());
-  else
-    detail::wrong_type(value, info, "a column, a number or a quantity", problems);
-}
-
-Option<CalibrateKeys> in_options(Option<CalibrationOptions> inner) {
-  Option<CalibrateKeys> option;
-  option.info = std::move(inner.info);
-  option.read = [read = std::move(inner.read)](const Argument& value, const OptionInfo& info,
-                                               CalibrateKeys& keys, Problems& problems) {
-    read(value, info, keys.options, problems);
-  };
-  option.show = [show = std::move(inner.show)](const CalibrateKeys& keys) { return show(keys.options); };
-  return option;
-}
-
 const Block<CalibrateKeys>& calibrate_block() {
   using K = CalibrateKeys;
-  using O = CalibrationOptions;
   static const Block<K> block{
       "lab.calibrate",
       {custom<K>("model", "function",
@@ -176,106 +147,9 @@ const Block<CalibrateKeys>& calibrate_block() {
            "(0.001), and wants to be larger for a model with a tolerance of its own",
            read_parameters)
            .required(),
-       custom<K>(
-           "u", "string|number",
-           "standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by "
-           "1/u². All alike without it",
-           read_u),
-       in_options(
-           choice("scatter", &O::scatter,
-                  {{"absolute", CalibrationScatter::absolute}, {"relative", CalibrationScatter::relative}},
-                  "what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²)")),
-       text(
-           "specimen", &K::specimen,
-           "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
-           "than repeats their means are what is fitted"),
-       in_options(
-           choice("basis", &O::basis,
-                  {{"automatic", CalibrationBasis::automatic},
-                   {"rows", CalibrationBasis::rows},
-                   {"specimens", CalibrationBasis::specimens}},
-                  "what counts as an observation; automatic: rows, and specimens where they scatter (F test "
-                  "at 25 %)")),
-       in_options(Option<O>(number("confidence", &O::confidence, inside(0, 1), "of the intervals"))),
-       in_options(
-           flag("profile", &O::profile,
-                "intervals by profile likelihood as well: two sets of parameters each where the model is "
-                "straight, ten or more where it is curved")),
+       u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
        where_key(&K::where)}};
   return block;
-}
-
-// --- the rows
-
-struct CalibrationInput {
-  CalibrationRows rows;
-  Rows used;
-  std::vector<std::size_t> numbers;
-  std::size_t left_out = 0;
-};
-
-std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
-
-// "`load` is 5 N" for each column with the same number or word in all rows, beside the y.
-std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
-  std::vector<std::string> found;
-  constexpr std::size_t most = 4;
-  for (std::size_t k = 0; k < table.columns().size() && found.size() < most; ++k) {
-    if (but.contains(k) || table.rows() < 2 || is_empty(table.cell(0, k))) continue;
-    bool same = true;
-    for (std::size_t row = 1; row < table.rows() && same; ++row)
-      same = same_cell(table.cell(row, k), table.cell(0, k));
-    if (same)
-      found.push_back(quoted(table.columns()[k].name) + " is " + short_text(table.cell(0, k)) +
-                      unit_text(table.columns()[k]));
-  }
-  return found;
-}
-
-CalibrationInput input_of(const CalibrateKeys& keys) {
-  const Rows chosen = rows_of(*keys.data, keys.where.rows(*keys.data));
-  if (chosen.rows() == 0 && !keys.where.empty() && !TableFilter().rows(*keys.data).empty())
-    throw Error(ErrorCode::bad_value, "no row matches `where` " + keys.where.text(),
-                "give values that its columns hold");
-  std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
-  const std::size_t y = chosen.column(keys.y, "y");
-  std::set<std::size_t> told = {y};
-  const bool u_column = keys.u_text && chosen.find_column(*keys.u_text);
-  std::optional<double> u = keys.u_number;
-  if (u_column) {
-    named.emplace_back("u", *keys.u_text);
-    told.insert(chosen.column(*keys.u_text, "u"));
-  } else if (keys.u_text) {
-    try {
-      u = parse_quantity_in(*keys.u_text, chosen.columns()[y].unit);
-    } catch (const Error& error) {
-      throw Error(error.code(),
-                  "`u` is neither a column of " + chosen.name() + " nor a value of " + quoted(keys.y) + ": " +
-                      error.sentence(),
-                  "give a column, or a quantity such as \"0.5 deg\"");
-    }
-  }
-  std::optional<std::size_t> specimen;
-  if (keys.specimen) specimen = chosen.column(*keys.specimen, "specimen");
-  if (specimen) told.insert(*specimen);
-  const NumberColumns numbers = number_columns(chosen, named);
-  CalibrationInput found;
-  std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < numbers.rows.size(); ++k) {
-    const std::size_t row = numbers.rows[k];
-    if (specimen && is_empty(chosen.cell(row, *specimen))) continue;
-    used.push_back(row);
-    found.numbers.push_back(row + 1);
-    found.rows.y.push_back(numbers.values[0][k]);
-    if (u_column) found.rows.u.push_back(numbers.values[1][k]);
-    if (specimen) found.rows.specimens.push_back(short_text(chosen.cell(row, *specimen)));
-  }
-  if (u) found.rows.u.assign(found.rows.y.size(), *u);
-  found.left_out = chosen.rows() - used.size();
-  found.used = rows_of(chosen, used);
-  found.rows.numbers = found.numbers;
-  found.rows.alike = alike_columns(found.used, told);
-  return found;
 }
 
 // --- the model
@@ -436,57 +310,25 @@ class CalibratedFunction {
 
 // --- the function
 
-std::string specimen_column_hint(const CalibrateKeys& keys, const CalibrationInput& input) {
-  if (keys.specimen) return "";
-  for (const char* name : {"specimen", "specimens", "sample"}) {
-    const auto column = input.used.find_column(name);
-    if (!column) continue;
-    std::set<std::string> different;
-    for (std::size_t row = 0; row < input.used.rows(); ++row)
-      different.insert(short_text(input.used.cell(row, *column)));
-    if (different.size() > 1 && different.size() < input.used.rows())
-      return "the rows have a column " + quoted(name) +
-             ", which the calibration was not told of: repeats on one specimen are not independent; give "
-             "specimen=\"" +
-             name + "\"";
-  }
-  return "";
-}
-
 Values run_calibration(Call& call) {
   const CalibrateKeys keys = call.options(calibrate_block());
   if (keys.data == nullptr)
     throw Error(ErrorCode::bad_state, "`data` has no rows", "give a table of measured rows");
-  CalibrationInput input = input_of(keys);
+  CalibrationInput input = calibration_input(*keys.data, keys);
   Session& session = call.session();
   return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
     const Argument::StackGuard guard(call.L);
-    CalibrationReport report;
     check_calibration(input.rows, keys.parameters, keys.options);
-    {
-      CalibratedFunction model(call, function, input.used, keys.parameters, input.numbers);
-      CalibrationOptions options = keys.options;
-      options.sparing = model.heavy();
-      const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
-                                              const std::function<void(std::size_t)>& done) {
-        return model(queries, done);
-      };
-      report.found = calibrate(input.rows, batch, keys.parameters, options, session.monitor());
-    }
-    report.rows = std::move(input.used);
-    report.numbers = std::move(input.numbers);
-    report.left_out = input.left_out;
-    report.y = split_column_unit(keys.y).name;
+    CalibratedFunction model(call, function, input.used, keys.parameters, input.numbers);
+    CalibrationOptions options = keys.options;
+    options.sparing = model.heavy();
+    const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
+                                            const std::function<void(std::size_t)>& done) {
+      return model(queries, done);
+    };
+    Calibration found = calibrate(input.rows, batch, keys.parameters, options, session.monitor());
+    CalibrationReport report = calibration_report(call, keys, std::move(input), std::move(found));
     report.dimensions = keys.dimensions;
-    report.scatter = keys.options.scatter;
-    report.known_uncertainty = !input.rows.u.empty();
-    warn_of(call, report.found.warnings);
-    // `input.used` went into the report; the hint reads that.
-    const std::string hint = specimen_column_hint(keys, {{}, report.rows, {}, 0});
-    if (!hint.empty()) {
-      report.found.warnings.push_back(hint);
-      warn_of(call, {hint});
-    }
     return {object(std::move(report))};
   });
 }
