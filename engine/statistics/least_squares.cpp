@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/least_squares.hpp"
 
-// A namespace of its own: the linker must not take for these functions what another source compiled of
-// Eigen's, with other alignments.
+// A namespace of its own: the linker must not replace these functions by Eigen's functions from
+// another source, compiled with other alignments.
 #define Eigen asperity_least_squares_eigen
 #define EIGEN_DONT_VECTORIZE
 #define EIGEN_MAX_ALIGN_BYTES 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Factorisations of which least squares are made: singular values of a table, and linear least squares.
+// Singular values of a table, and linear least squares.
 //
 // Linear algebra is Eigen's, compiled for one processor alone, with sums in one order: the same bits
 // everywhere. No header shows its types.
@@ -34,7 +34,7 @@ struct LinearLeastSquares {
   double independence = 1;
 };
 
-// Columns of the length of y, no more of them than there are y; every entry must be finite. O(n columns²).
+// Columns as long as y, and not more columns than y has numbers; every entry must be finite. O(n columns²).
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y);
 
 // The root of the sum of their squares.

@@ -69,7 +69,8 @@ void CalibrationProblem::report(std::int64_t calls) {
 std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<double>>& sets) {
   std::vector<CalibrationQuery> queries;
   for (const std::vector<double>& q : sets)
-    for (std::size_t k = 0; k < rows_.y.size(); ++k) queries.push_back({q, k});
+    for (std::size_t k = 0; k < rows_.y.size(); ++k)
+      for (std::size_t r = 0; r < rows_.replicates; ++r) queries.push_back({q, k, r});
   stop_flag().check();
   const std::int64_t before = calls_;
   report(before);
@@ -79,10 +80,19 @@ std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<doub
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k])) continue;
     without_value_ = queries[k].row;
-    without_value_at_ = sets[k / rows_.y.size()];
+    without_value_at_ = sets[k / (rows_.y.size() * rows_.replicates)];
     break;
   }
   return values;
+}
+
+std::vector<std::vector<double>> CalibrationProblem::replicate_deviations(const CalibrationPlace& at) {
+  std::vector<std::vector<double>> found(rows_.replicates, std::vector<double>(rows_.y.size()));
+  const std::vector<double> values = asked({at.q});
+  if (values.size() < rows_.replicates * rows_.y.size()) refuse_place("at the least sum");
+  for (std::size_t k = 0; k < values.size(); ++k)
+    found[k % rows_.replicates][k / rows_.replicates] = values[k] - at.fitted[k / rows_.replicates];
+  return found;
 }
 
 std::optional<std::vector<double>> CalibrationProblem::fitted(const std::vector<double>& q) {
@@ -105,11 +115,12 @@ std::vector<std::optional<std::vector<double>>> CalibrationProblem::fitted_all(
     }
   }
   if (unknown.empty()) return found;
-  const std::size_t rows = rows_.y.size();
+  const std::size_t rows = rows_.y.size(), all = rows * rows_.replicates;
   const std::vector<double> values = asked(unknown);
-  for (std::size_t j = 0; j < unknown.size() && (j + 1) * rows <= values.size(); ++j) {
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(j * rows);
-    std::vector<double> of_rows(first, first + static_cast<std::ptrdiff_t>(rows));
+  for (std::size_t j = 0; j < unknown.size() && (j + 1) * all <= values.size(); ++j) {
+    std::vector<double> of_rows(rows);
+    for (std::size_t k = 0; k < all; ++k)
+      of_rows[k / rows_.replicates] += values[j * all + k] / static_cast<double>(rows_.replicates);
     if (!std::ranges::all_of(of_rows, [](double value) { return std::isfinite(value); })) continue;
     if (sparing_) known_.emplace_back(unknown[j], of_rows);
     found[places[j]] = std::move(of_rows);
@@ -408,11 +419,11 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
       return found;
     }
     if (found.iterations >= most_calibration_steps)
-      throw Error(ErrorCode::not_converged,
-                  "the calibration found no least sum of squares in " +
-                      std::to_string(most_calibration_steps) + " steps; it ended at " +
-                      parameters_text(found.place.q),
-                  "begin nearer to the answer, set `lower` and `upper` in lab.calibrate, or fit fewer parameters");
+      throw Error(
+          ErrorCode::not_converged,
+          "the calibration found no least sum of squares in " + std::to_string(most_calibration_steps) +
+              " steps; it ended at " + parameters_text(found.place.q),
+          "begin nearer to the answer, set `lower` and `upper` in lab.calibrate, or fit fewer parameters");
     auto next = better(found.place, at, &found.place.roots, damping);
     if (!next) {
       if (!central) {

@@ -106,9 +106,9 @@ bool is_curve(const std::vector<double>& x, const std::vector<double>& fitted,
 
 std::string calibration_text(const CalibrationReport& report) {
   const Calibration& found = report.found;
-  std::string text = (report.curve ? "fit of " + report.y + " against " + report.curve->x
-                                   : "calibration of " + report.y) +
-                     " over " + counted_as(report.numbers.size(), "row", "rows");
+  std::string text =
+      (report.curve ? "fit of " + report.y + " against " + report.curve->x : "calibration of " + report.y) +
+      " over " + counted_as(report.numbers.size(), "row", "rows");
   if (report.left_out > 0) text += " (" + std::to_string(report.left_out) + " more without numbers)";
   if (!found.specimens.empty()) text += " of " + counted_as(found.specimens.size(), "specimen", "specimens");
   text += ", " + counted_as(found.degrees, "degree", "degrees") + " of freedom";

@@ -66,10 +66,10 @@ RunsTest runs_test(std::vector<std::array<double, 2>> along) {
   found.p_value = 0;
   for (int runs = 2; runs <= found.runs; ++runs) {
     const int k = runs / 2;
-    found.p_value += (runs % 2 == 0 ? 2 * choose(a - 1, k - 1) * choose(b - 1, k - 1)
-                                    : choose(a - 1, k) * choose(b - 1, k - 1) +
-                                          choose(a - 1, k - 1) * choose(b - 1, k)) /
-                     choose(a + b, a);
+    found.p_value +=
+        (runs % 2 == 0 ? 2 * choose(a - 1, k - 1) * choose(b - 1, k - 1)
+                       : choose(a - 1, k) * choose(b - 1, k - 1) + choose(a - 1, k - 1) * choose(b - 1, k)) /
+        choose(a + b, a);
   }
   return found;
 }
@@ -120,6 +120,7 @@ class VerdictWords {
     tell_open_ends();
     tell_specimens();
     tell_scatter();
+    tell_faces();
     if (sentences_.empty() || (of_.identifiable && !doubt_))
       sentences_.insert(sentences_.begin(), "every parameter is determined by these rows");
     for (const std::string& sentence : sentences_)
@@ -385,6 +386,16 @@ class VerdictWords {
                              "and intervals are then too narrow; six or more would show it");
   }
 
+  void tell_faces() {
+    if (f_.problem.rows().replicates < 2) return;
+    std::vector<std::string> shares;
+    for (const CalibratedParameter& of : of_.parameters)
+      if (of.standard_error)
+        shares.push_back(format_short(100 * of.share_of_faces, 2) + " % of u² of " + of.name);
+    sentences_.push_back("the model is a mean over " + std::to_string(f_.problem.rows().replicates) +
+                         " replicates, whose scatter makes " + joined(shares, " and "));
+  }
+
   void tell_scatter() {
     if (of_.degrees == 0) {
       doubt_ = true;
@@ -437,23 +448,24 @@ class VerdictWords {
       distinct.insert({rows.y[k], f_.at.place.fitted[k], rows.x.empty() ? 0 : rows.x[k]});
     const std::size_t copies = rows.y.size() - distinct.size();
     if (copies > 0 && 2 * copies >= rows.y.size())
-      of_.warnings.push_back(std::to_string(copies) + " of " + std::to_string(rows.y.size()) +
-                             " rows repeat another row exactly: leave out copies, or intervals are too narrow");
+      of_.warnings.push_back(
+          std::to_string(copies) + " of " + std::to_string(rows.y.size()) +
+          " rows repeat another row exactly: leave out copies, or intervals are too narrow");
     if (!(f_.scatter > 0)) return;
     std::vector<std::array<double, 2>> along;
     for (std::size_t i = 0; i < r.size(); ++i)
       along.push_back({f_.problem.observed_mean(rows.x.empty() ? f_.at.place.fitted : rows.x, i), r[i]});
     if (const auto [p_value, runs, expected] = runs_test(std::move(along)); p_value < level_of_residuals)
-      of_.warnings.push_back("residuals keep their sign along " + std::string(rows.x.empty() ? "the fit" : "x") +
-                             ": " + std::to_string(runs) + " runs, " + number(expected) + " expected (p = " +
-                             format_short(p_value, 2) +
+      of_.warnings.push_back("residuals keep their sign along " +
+                             std::string(rows.x.empty() ? "the fit" : "x") + ": " + std::to_string(runs) +
+                             " runs, " + number(expected) + " expected (p = " + format_short(p_value, 2) +
                              "); the rows bend unlike the model, or share errors, and intervals do not hold");
     if (!of_.specimens.empty() && !of_.by_specimens) return;
     if (const auto [p_value, lag] = neighbour_test(r, f_.tangent); p_value < level_of_residuals)
-      of_.warnings.push_back("neighbouring " + std::string(of_.by_specimens ? "specimens" : "rows") +
-                             " have like residuals: correlation " + format_short(lag, 2) + " (p = " +
-                             format_short(p_value, 2) +
-                             "); intervals are too narrow unless rows that share an error are one `specimen`");
+      of_.warnings.push_back(
+          "neighbouring " + std::string(of_.by_specimens ? "specimens" : "rows") +
+          " have like residuals: correlation " + format_short(lag, 2) + " (p = " + format_short(p_value, 2) +
+          "); intervals are too narrow unless rows that share an error are one `specimen`");
   }
 
   Calibration& of_;

@@ -27,9 +27,9 @@ struct CalibrationFindings {
   const std::vector<bool>& held;   // at a bound
   const std::vector<CalibrationBound>& bounds;
   const std::vector<double>& moved;  // of each parameter by bounds, in half-widths of its own interval
-  double variance;                 // of an observation of weight 1, on which intervals rest
-  double scatter;                  // the same, as the residuals show it
-  double factor;                   // of an interval in standard errors; 0 where no scatter can be seen
+  double variance;                   // of an observation of weight 1, on which intervals rest
+  double scatter;                    // the same, as the residuals show it
+  double factor;                     // of an interval in standard errors; 0 where no scatter can be seen
   const std::vector<CalibrationProfile>& profiles;
   int begun_again;
   const CalibrationOptions& options;

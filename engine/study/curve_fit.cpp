@@ -29,12 +29,12 @@ void check_points(const CalibrationRows& rows, std::size_t parameters, const Cal
       throw Error(ErrorCode::bad_value, "x of point " + std::to_string(k + 1) + " of the fit is not finite");
   const std::size_t least = parameters + (rows.u.empty() || options.relative_u ? 1 : 0);
   if (rows.x.size() < least)
-    throw Error(ErrorCode::bad_value,
-                std::to_string(parameters) + (parameters == 1 ? " parameter" : " parameters") +
-                    " cannot be fitted with intervals to " + std::to_string(rows.x.size()) +
-                    (rows.x.size() == 1 ? " point" : " points"),
-                "give at least " + std::to_string(least) +
-                    " rows with numbers in all columns and a weight above 0");
+    throw Error(
+        ErrorCode::bad_value,
+        std::to_string(parameters) + (parameters == 1 ? " parameter" : " parameters") +
+            " cannot be fitted with intervals to " + std::to_string(rows.x.size()) +
+            (rows.x.size() == 1 ? " point" : " points"),
+        "give at least " + std::to_string(least) + " rows with numbers in all columns and a weight above 0");
 }
 
 double weight_of(const CalibrationRows& rows, std::size_t k) {
@@ -96,7 +96,8 @@ std::vector<CurvePoint> curve_of(const Calibration& found, const CurveModel& mod
 }
 
 // Two parameters q' = T q in the place of those that were fitted.
-void express(Calibration& found, const std::array<std::array<double, 2>, 2>& t, const std::array<double, 2>& values) {
+void express(Calibration& found, const std::array<std::array<double, 2>, 2>& t,
+             const std::array<double, 2>& values) {
   double covariance[2][2] = {};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A curve y = f(x, q) through measured points: a calibration (calibration.hpp) of a straight line, a power law
-// or any function of x, and the curve with its pointwise interval for drawing. Line and power law are fitted
-// about the middle of the points, where their parameters are nearly independent, and then expressed at x = 0
-// and x = 1. Here parameters that the points do not determine are an error. x is taken as exact.
+// A curve y = f(x, q) through measured points: a calibration (calibration.hpp) of a straight line, a power
+// law or any function of x, and the curve with its pointwise interval for drawing. Line and power law are
+// fitted about the middle of the points, where their parameters are nearly independent, and then expressed at
+// x = 0 and x = 1. Here parameters that the points do not determine are an error. x is taken as exact.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ struct CurveFit {
   std::vector<CurvePoint> curve;    // over the range of x, ascending, without points that have no value
 };
 
-// The points are rows.x and rows.y. All throw as calibrate() does, besides Error{bad_value} for an x that is not
-// finite and for fewer points than parameters + 1 without a known `u`, and Error{infeasible} naming the
+// The points are rows.x and rows.y. All throw as calibrate() does, besides Error{bad_value} for an x that is
+// not finite and for fewer points than parameters + 1 without a known `u`, and Error{infeasible} naming the
 // parameters that the points do not determine.
 CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options = {});
 // y = a x^b by least squares of y itself, begun from the straight line through the logarithms. Throws besides

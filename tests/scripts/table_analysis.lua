@@ -77,7 +77,7 @@ local weighted = book:fit{ x="N", y="mu", model="linear", weights="u" }
 assert(weighted.n == 11 and weighted.left_out == 1)
 refused(function() book:fit{ x="N", y="mu", model="linear", weights="u", u=0.1 } end, "`weights` and `u` both say how rows weigh")
 
--- A fit takes the scatter that a laboratory has, and prints as a calibration does.
+-- A fit takes relative scatter, u and specimens, and prints as a calibration does.
 local known = t:fit{ x="p", y="A", model="linear", u=0.5 }
 near(known.parameters.slope.u, 0.5 * line.parameters.slope.u / line.residual_sd)
 assert(tostring(known):find("warning: the rows scatter 0.32 times as far as `u` says", 1, true), tostring(known))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations against what is known of them: estimates of a certified problem, the coverage of intervals
+// Calibrations against known answers: estimates of a certified problem, the coverage of intervals
 // over many experiments of the tilt law tan θ = α + τ0 c (kinds of METROLOGY, uncertainty_calibration.csv),
 // what is said where rows do not determine every parameter, and each refusal.
 #include "engine/study/calibration.hpp"
@@ -181,7 +181,7 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
 }
 
 TEST(Calibration, FewSpecimensHideTheirScatter) {
-  // Four times the specimens of which the same scatter is seen more often.
+  // Four times as many specimens show the same scatter more often.
   const Coverage few = coverage_of(3, 4, 0.1, coverage_sets()),
                  many = coverage_of(12, 4, 0.1, coverage_sets());
   EXPECT_LT(few.by_specimens, many.by_specimens);
@@ -457,7 +457,7 @@ TEST(Calibration, AsManyRowsAsParameters) {
   EXPECT_FALSE(found.parameters[0].low || found.parameters[0].profile_low || found.fitted_low[0]);
   EXPECT_TRUE(says(found.verdict, "there are no intervals")) << found.verdict;
   const Calibration known = calibrate({{0.5, 0.8}, {0.01, 0.01}}, model, tilt_law);
-  // u(tau0) = sqrt(2) u / (c2 - c1), and 1.96 of them.
+  // The half-width is 1.96 u(tau0), with u(tau0) = sqrt(2) u / (c2 - c1).
   EXPECT_NEAR(*known.parameters[1].high - 0.3, 1.959963984540054 * std::sqrt(2) * 0.01, 1e-7);
   EXPECT_TRUE(says(known.verdict, "rest on `u` alone")) << known.verdict;
 }
@@ -482,7 +482,7 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
               1e-6);
 }
 
-// Two real areas that hardly differ determine a sum; noise often asks for a parameter below its bound.
+// Two nearly equal real areas determine a sum; noise often asks for a parameter below its bound.
 TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   int at_bound = 0;
   for (const double ratio : {1.01, 1.05, 1.1, 1.3})
@@ -505,7 +505,8 @@ TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   EXPECT_GT(at_bound, 40);
 }
 
-// The profile of the other parameter lets the one at its bound move: S at its ends, by a fit of the bound one.
+// The profile of the other parameter lets the one at its bound move: S at its ends, by a fit of the bound
+// one.
 TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
   const Experiment made = experiment(6, 4, 0, 3);
   const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
@@ -536,7 +537,8 @@ TEST(Calibration, StartAtWhichNoStepChangesARowIsRefused) {
     });
   };
   for (const double n : {3.0, 2.8, 0.0, -40.0})
-    EXPECT_TRUE(says(refused(n, 1, 1), "no row changes when `n` makes a step at its start " + format_short(n)));
+    EXPECT_TRUE(
+        says(refused(n, 1, 1), "no row changes when `n` makes a step at its start " + format_short(n)));
   EXPECT_TRUE(says(refused(3, 0, 0), "no row changes when"));
 }
 
@@ -598,7 +600,75 @@ TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
       often.c.push_back(made.c[k]);
       often.rows.y.push_back(made.rows.y[k]);
     }
-  EXPECT_TRUE(warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
+  EXPECT_TRUE(
+      warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
+}
+
+// A model with one parameter whose faces differ by a factor of 1 - d and 1 + d.
+TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
+  constexpr double d = 0.1, u = 1e-9;
+  const std::vector<CalibrationParameter> start = {{"q", 1, {}, {}}};
+  const auto error_of_q = [&](const std::vector<std::string>& specimens) {
+    CalibrationRows rows{{2, 2, 2, 2}, std::vector<double>(4, u)};
+    rows.specimens = specimens;
+    rows.replicates = 2;
+    const CalibrationBatch faces = [](std::span<const CalibrationQuery> queries, const auto& done) {
+      std::vector<double> values;
+      for (const CalibrationQuery& query : queries)
+        values.push_back(query.parameters[0] * (query.replicate == 0 ? 1 - d : 1 + d));
+      done(values.size());
+      return values;
+    };
+    const Calibration found =
+        calibrate(rows, faces, start, {.basis = CalibrationBasis::rows}, Monitor::silent());
+    EXPECT_NEAR(*found.parameters[0].value, 2, 1e-12);
+    EXPECT_NEAR(found.parameters[0].share_of_faces, 1, 1e-9);
+    EXPECT_FALSE(found.parameters[0].profile_low);
+    EXPECT_NEAR(found.cut, std::pow(12.706204736174698, 2), 1e-6);  // t for one degree
+    EXPECT_TRUE(says(found.verdict, "a mean over 2 replicates, whose scatter makes 100 % of u² of q"));
+    return *found.parameters[0].standard_error;
+  };
+  // Variances: 2 q² d² for a single face, q² d² for the mean over both.
+  EXPECT_NEAR(error_of_q({}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "A", "A", "A"}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "A", "B", "B"}), 2 * d * std::sqrt(2 / 2.0 + 1), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "B", "C", "D"}), 2 * d * std::sqrt(2 / 4.0 + 1), 1e-7);
+}
+
+// Specimens with faces of their own; the model knows other faces of the same kind.
+TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
+  constexpr int sets = 60;
+  const auto held = [](std::size_t faces) {
+    int count = 0;
+    for (std::uint64_t set = 1; set <= sets; ++set) {
+      const Stream draws(set, "faces of a calibration");
+      Experiment made;
+      for (std::uint64_t s = 0; s < 6; ++s)
+        for (std::uint64_t k = 0; k < 5; ++k) {
+          made.c.push_back(s < 3 ? 0.5 : 2);
+          made.rows.y.push_back((0.2 + 0.3 * made.c.back() * (1 + 0.1 * draws.normal(s))) *
+                                (1 + 0.05 * draws.normal(100 + 5 * s + k)));
+          made.rows.specimens.push_back("S" + std::to_string(s));
+        }
+      made.rows.replicates = faces;
+      const CalibrationBatch model = [&](std::span<const CalibrationQuery> queries, const auto& done) {
+        std::vector<double> values;
+        for (const CalibrationQuery& of : queries) {
+          const std::uint64_t face = (made.c[of.row] > 1 ? 500U : 600U) + of.replicate;
+          values.push_back(of.parameters[0] +
+                           of.parameters[1] * made.c[of.row] * (1 + 0.1 * draws.normal(face)));
+        }
+        done(values.size());
+        return values;
+      };
+      const Calibration found = calibrate(made.rows, model, tilt_law, relative, Monitor::silent());
+      const CalibratedParameter& tau0 = found.parameters[1];
+      count += *tau0.low <= 0.3 && 0.3 <= *tau0.high ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_LE(held(1), 50);
+  EXPECT_GE(held(6), 53);  // 95 % of 60 is 57, with a standard error of 1.7
 }
 
 TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {

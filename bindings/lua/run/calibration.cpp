@@ -110,6 +110,8 @@ const RecordType<ToldParameter>& calibrated_parameter_type() {
            "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
        told_number<&C::profile_high>(
            "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
+       {"share_of_faces", [](const P& p) { return p.of.share_of_faces; },
+        "share of u² that the scatter of replicates makes; 0 without `replicate`"},
        {"determined", [](const P& p) { return p.of.determined; }, "whether the rows determine it"},
        {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it stands at its lower bound"},
        {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it stands at its upper bound"},
@@ -272,11 +274,11 @@ Values chart_calibration(Call& call) {
 }  // namespace
 
 Option<CalibrationKeys> u_option() {
-  return custom<CalibrationKeys>(
-      "u", "string|number",
-      "standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and "
-      "intervals rest on u, whatever the residuals are. All alike without it",
-      read_u);
+  return custom<CalibrationKeys>("u", "string|number",
+                                 "standard uncertainty of y: a column, one number in the unit of y, or a "
+                                 "quantity; rows weigh by 1/u², and "
+                                 "intervals rest on u, whatever the residuals are. All alike without it",
+                                 read_u);
 }
 
 Option<CalibrationKeys> scatter_option() {
@@ -287,9 +289,10 @@ Option<CalibrationKeys> scatter_option() {
 }
 
 Option<CalibrationKeys> specimen_option() {
-  return text("specimen", &CalibrationKeys::specimen,
-              "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
-              "than repeats their means are what is fitted");
+  return text(
+      "specimen", &CalibrationKeys::specimen,
+      "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
+      "than repeats their means are what is fitted");
 }
 
 Option<CalibrationKeys> basis_option() {
@@ -302,14 +305,15 @@ Option<CalibrationKeys> basis_option() {
 }
 
 Option<CalibrationKeys> confidence_option() {
-  return in_options(
-      Option<CalibrationOptions>(number("confidence", &CalibrationOptions::confidence, inside(0, 1), "of the intervals")));
+  return in_options(Option<CalibrationOptions>(
+      number("confidence", &CalibrationOptions::confidence, inside(0, 1), "of the intervals")));
 }
 
 Option<CalibrationKeys> profile_option() {
-  return in_options(flag("profile", &CalibrationOptions::profile,
-                         "intervals by profile likelihood as well: two sets of parameters each where the model "
-                         "is straight, ten or more where it is curved"));
+  return in_options(
+      flag("profile", &CalibrationOptions::profile,
+           "intervals by profile likelihood as well: two sets of parameters each where the model "
+           "is straight, ten or more where it is curved"));
 }
 
 CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& keys) {
@@ -396,7 +400,8 @@ const Class& class_of<CalibrationReport>() {
     c.name = "Calibration";
     c.article_name = "a calibration";
     c.sentence =
-        "What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and warnings.";
+        "What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and "
+        "warnings.";
     c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
     c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
     c.results = {&calibrated_parameter_type(), &calibrated_specimen_type(), &curve_type()};
@@ -443,8 +448,8 @@ const Class& class_of<CalibrationReport>() {
             "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
             "direction is not seen"),
         field<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
-        field<[](const R& r) { return r.left_out; }>("left_out", "integer",
-                                                     "rows with an empty cell, no finite number or a weight of 0"),
+        field<[](const R& r) { return r.left_out; }>(
+            "left_out", "integer", "rows with an empty cell, no finite number or a weight of 0"),
         field<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
             "rows", "integer[]", "the rows that were used, counted from 1 after `where`"),
         field<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),

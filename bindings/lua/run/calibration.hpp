@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What t:fit and lab.calibrate have in common: keys, the rows that they read, and a calibration as a native
-// value with its fields and charts.
+// The common part of t:fit and lab.calibrate: keys, reading of rows, and a calibration as a native value with
+// its fields and charts.
 #pragma once
 
 #include <memory>
@@ -43,7 +43,7 @@ struct CalibrationInput {
 // number_columns() does, Error{bad_value} besides where no row matches `where` and for a weight below 0.
 CalibrationInput calibration_input(const Table& table, const CalibrationKeys& keys);
 
-// What was found, of these rows; warns of what it warns of, and of specimens that were not named.
+// A calibration with its rows; shows the warnings, and warns of a column of specimens without a key.
 CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, CalibrationInput input,
                                      Calibration found);
 

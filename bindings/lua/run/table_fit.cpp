@@ -18,7 +18,7 @@ namespace asperity::lua {
 namespace {
 
 struct FitKeys : CalibrationKeys {
-  std::string model;  // a word; empty for a function
+  std::string model;                    // a word; empty for a function
   std::map<std::string, double> start;  // in the order of names, for Lua keeps none
   bool function = false;
   std::string name;
@@ -183,16 +183,17 @@ std::optional<FittedCurve> fitted_curve_of(const Argument& value) {
 }
 
 Function fit_method() {
-  return {.name = "fit",
-          .body = fit_of_columns,
-          .sentence =
-              "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
-              "and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` "
-              "draws it with its band. Parameters that the rows do not determine are an error that names them.",
-          .options = &fit_block(),
-          .returns = "Calibration",
-          .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
-          .unknown_when_dry = true};
+  return {
+      .name = "fit",
+      .body = fit_of_columns,
+      .sentence =
+          "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
+          "and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` "
+          "draws it with its band. Parameters that the rows do not determine are an error that names them.",
+      .options = &fit_block(),
+      .returns = "Calibration",
+      .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",
+      .unknown_when_dry = true};
 }
 
 }  // namespace asperity::lua

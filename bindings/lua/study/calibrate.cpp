@@ -31,6 +31,8 @@ struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
   std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
   std::vector<Dimension> dimensions;
+  std::string replicate;  // its key
+  std::vector<double> faces;
 };
 
 // One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
@@ -117,6 +119,22 @@ void read_parameters(const Argument& value, const OptionInfo& info, CalibrateKey
   }
 }
 
+void read_replicate(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+  std::size_t count = 0;
+  if (value.is_table())
+    value.each([&](const Argument& key, const Argument& list) {
+      ++count;
+      if (key.is_text()) keys.replicate = std::string(key.text());
+      for (std::int64_t k = 1; list.is_table() && k <= list.length(); ++k)
+        list.element(k, [&](const Argument& face) {
+          if (face.is_number()) keys.faces.push_back(face.number());
+        });
+    });
+  if (count != 1 || keys.replicate.empty() || keys.faces.size() < 2)
+    detail::wrong_type(value, info, "one key with two numbers or more, as in { seed={ 1, 2, 3, 4 } }",
+                       problems);
+}
+
 void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
   if (const auto* book = value.as<Notebook>()) {
     keys.data = std::make_shared<const Rows>(book->table());
@@ -147,6 +165,11 @@ const Block<CalibrateKeys>& calibrate_block() {
            "(0.001), and wants to be larger for a model with a tolerance of its own",
            read_parameters)
            .required(),
+       custom<K>(
+           "replicate", "table",
+           "a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and "
+           "their scatter a part of u that rows of one specimen share; intervals are linearised alone",
+           read_replicate),
        u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
        where_key(&K::where)}};
   return block;
@@ -157,16 +180,17 @@ const Block<CalibrateKeys>& calibrate_block() {
 // The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
 class CalibratedFunction {
  public:
-  CalibratedFunction(const Call& call, const Argument& function, const Rows& rows,
-                     const std::vector<CalibrationParameter>& parameters,
+  CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
                      const std::vector<std::size_t>& numbers)
       : session_(call.session()),
         monitor_(session_.monitor()),
         L(function.state()),
         function_(function.index()),
-        parameters_(parameters),
+        parameters_(keys.parameters),
+        faces_(keys.faces),
         numbers_(numbers) {
-    const auto count = static_cast<int>(parameters.size());
+    if (!faces_.empty()) parameters_.push_back({keys.replicate, faces_.front(), {}, {}});
+    const auto count = static_cast<int>(parameters_.size());
     if (lua_checkstack(L, count + 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     list_ = rows_of_table(rows);
     const Value list = list_;
@@ -174,7 +198,7 @@ class CalibratedFunction {
       luaL_checkstack(s, count + 20, nullptr);
       push(s, list);
       lua_createtable(s, 0, count);
-      for (const CalibrationParameter& parameter : parameters) {
+      for (const CalibrationParameter& parameter : parameters_) {
         lua_pushlstring(s, parameter.name.data(), parameter.name.size());
         lua_pushvalue(s, -1);
         lua_pushnumber(s, parameter.start);
@@ -197,8 +221,9 @@ class CalibratedFunction {
     if (batch_ == nullptr) {
       for (const CalibrationQuery& query : queries) {
         stop_flag().check();
-        const bool known = begun_ && query.row == 0 && std::ranges::equal(query.parameters, start());
-        values.push_back(known ? *std::exchange(begun_, {}) : (*this)(query.parameters, query.row));
+        const std::vector<double> q = values_of(query);
+        const bool known = begun_ && query.row == 0 && q == start();
+        values.push_back(known ? *std::exchange(begun_, {}) : (*this)(q, query.row));
         done(values.size());
         if (!std::isfinite(values.back())) break;
       }
@@ -207,17 +232,18 @@ class CalibratedFunction {
     std::vector<Values> arguments;
     for (const CalibrationQuery& query : queries) {
       Map q;
+      const std::vector<double> given = values_of(query);
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        q.items.emplace_back(parameters_[k].name, Value(query.parameters[k]));
+        q.items.emplace_back(parameters_[k].name, Value(given[k]));
       arguments.push_back({Value(std::move(q)), list_.items[query.row]});
     }
     const Session::Reporting reporting(session_, monitor_);
     const std::vector<BatchedAnswer> answers = batch_->answers(arguments, done);
     for (std::size_t k = 0; k < answers.size(); ++k) {
       if (!answers[k].failure.empty())
-        throw failure_in(queries[k].parameters, queries[k].row, without_traceback(answers[k].failure));
+        throw failure_in(values_of(queries[k]), queries[k].row, without_traceback(answers[k].failure));
       if (!answers[k].number && !answers[k].nil)
-        throw wrong_answer(queries[k].parameters, queries[k].row, answers[k].other);
+        throw wrong_answer(values_of(queries[k]), queries[k].row, answers[k].other);
       values.push_back(answers[k].number.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     return values;
@@ -274,6 +300,12 @@ class CalibratedFunction {
     if (heavy_) batch_ = call_batch(call, function, "model");
   }
 
+  std::vector<double> values_of(const CalibrationQuery& query) const {
+    std::vector<double> q(query.parameters.begin(), query.parameters.end());
+    if (!faces_.empty()) q.push_back(faces_[query.replicate]);
+    return q;
+  }
+
   std::vector<double> start() const {
     std::vector<double> q;
     for (const CalibrationParameter& parameter : parameters_) q.push_back(parameter.start);
@@ -304,7 +336,8 @@ class CalibratedFunction {
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
-  const std::vector<CalibrationParameter>& parameters_;
+  std::vector<CalibrationParameter> parameters_;  // and the replicate, where there is one
+  std::vector<double> faces_;
   const std::vector<std::size_t>& numbers_;
 };
 
@@ -319,7 +352,13 @@ Values run_calibration(Call& call) {
   return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
     const Argument::StackGuard guard(call.L);
     check_calibration(input.rows, keys.parameters, keys.options);
-    CalibratedFunction model(call, function, input.used, keys.parameters, input.numbers);
+    if (std::ranges::find(keys.parameters, keys.replicate, &CalibrationParameter::name) !=
+        keys.parameters.end())
+      throw Error(ErrorCode::bad_value,
+                  "`replicate` names " + quoted(keys.replicate) + ", which is a parameter, too",
+                  "give one of them another name");
+    input.rows.replicates = std::max<std::size_t>(keys.faces.size(), 1);
+    CalibratedFunction model(call, function, input.used, keys, input.numbers);
     CalibrationOptions options = keys.options;
     options.sparing = model.heavy();
     const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
