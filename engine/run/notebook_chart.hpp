@@ -20,11 +20,15 @@
 #include "engine/run/expectation.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/statistics/curve_fit.hpp"
 #include "engine/statistics/table.hpp"
 #include "engine/statistics/table_filter.hpp"
 
 namespace asperity {
+
+// The curve at one x with the interval of the curve (not of a further measurement) there.
+struct CurvePoint {
+  double x = 0, y = 0, low = 0, high = 0;
+};
 
 // A fitted curve as it is drawn. Its columns must be those of the chart.
 struct FittedCurve {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The distributions of which intervals are made: Student's t and F for any degrees of freedom, whole or not,
+// The distributions behind intervals: Student's t and F for any degrees of freedom, whole or not,
 // and the normal one. Student's and F rest on the regularised incomplete beta function, by its continued
 // fraction (DiDonato & Morris 1992) with the prefactor in Loader's form (2000), which does not lose digits
 // for many degrees. Quantiles are solved for the smaller tail: relative errors are below 1e-12 for degrees

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least sum of weighted squares of any model, by Levenberg and Marquardt's method on the singular values
-// of the scaled Jacobian, with derivatives by central differences of fourth order. It has converged when the
-// residuals are orthogonal to what the parameters can do, relative to their length (Bates & Watts 1981), to
-// 1e-10 or to the rounding of the model. A direction in which the scaled Jacobian is below 1e-8 of its
-// largest is not determined by the points, and refused with the parameters that make it.
+// Singular values of a table, and linear least squares.
 //
 // Linear algebra is Eigen's, compiled for one processor alone, with sums in one order: the same bits
 // everywhere. No header shows its types.
@@ -11,8 +7,6 @@
 
 #include <span>
 #include <vector>
-
-#include "engine/statistics/curve_fit.hpp"
 
 namespace asperity {
 
@@ -40,24 +34,8 @@ struct LinearLeastSquares {
   double independence = 1;
 };
 
-// Columns of the length of y, no more of them than there are y; every entry must be finite. O(n columns²).
+// Columns as long as y, and not more columns than y has numbers; every entry must be finite. O(n columns²).
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y);
-
-struct LeastSquares {
-  std::vector<double> values;
-  std::vector<double> scales;                   // of each parameter: steps of differences are in proportion
-  std::vector<double> fitted;                   // of each point
-  std::vector<std::vector<double>> covariance;  // of the estimates, for a scatter of 1
-  int iterations = 0;
-};
-
-// Throws as fit_model does.
-LeastSquares least_squares(const UsedPoints& points, const CurveModel& model,
-                           std::span<const FitStart> start);
-
-// The derivatives of the model at x; nan where the model has no value beside `parameters`.
-std::vector<double> slopes_of(const CurveModel& model, double x, const std::vector<double>& parameters,
-                              const std::vector<double>& scales);
 
 // The root of the sum of their squares.
 double length_of(const std::vector<double>& values);

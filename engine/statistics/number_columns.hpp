@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of a table as numbers: the rows in which all of them hold a finite number, and how many rows do
+// Columns of a table as numbers: the rows in which all columns hold a finite number, and how many rows do
 // not. Empty cells, nan and infinities are left out and counted. Text is refused: what it stands for is not
 // known.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A column of dates and times of day as seconds since the first of them, or since 1970: one order of day and
+// A column of dates and times of day as seconds since the first stamp, or since 1970: one order of day and
 // month for all, all with dates or none, all with a time zone or none.
 #pragma once
 

@@ -13,7 +13,7 @@ namespace asperity {
 
 struct Condition {
   std::string column;
-  std::vector<Cell> accepted;  // any of them
+  std::vector<Cell> accepted;  // any value in this list
 };
 
 class TableFilter {

@@ -18,7 +18,7 @@ char mark_of(Separator separator) {
   return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
 }
 
-// What spreadsheets write for a cell that failed; at the beginning of a line it is no comment.
+// Spreadsheets write this for a failed cell; at the beginning of a line it is no comment.
 bool is_failed_cell(std::string_view text) {
   constexpr std::array<std::string_view, 7> failed{"#DIV/0!", "#N/A",  "#NAME?", "#NULL!",
                                                    "#NUM!",   "#REF!", "#VALUE!"};

@@ -2,7 +2,7 @@
 // The lines of a table in a text file, taken apart into cells: UTF-8, UTF-16 or one byte a character;
 // comments (#) and blank lines left out; a line of heads, or heads that were given; cells parted by
 // semicolons, tabs, commas or blanks, whichever the heads are, and quoted where need be, over several lines
-// too (RFC 4180). What the cells mean is for its users.
+// too (RFC 4180). Its users interpret the cells.
 #pragma once
 
 #include <cstddef>

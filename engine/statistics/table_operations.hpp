@@ -19,7 +19,7 @@ Table rows_of(const Table& table, std::span<const std::size_t> rows);
 // numbers of such columns become numbers. Throws Error{bad_unit} for a unit that cannot be read.
 Table in_si(const Table& table);
 
-// What becomes of rows without a partner.
+// Treatment of rows without a partner.
 enum class Unmatched { refuse, leave_out, keep };
 
 struct Join {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "engine/core/error.hpp"
@@ -19,9 +20,11 @@ namespace asperity {
 
 namespace {
 
-constexpr double level_of_specimens = 0.25;  // of the F test after which specimens are the observations
-constexpr double through_every_row = 1e-9;   // residuals, relative to the data
-constexpr double no_part = 0.01;             // of a direction that no row sees, in a parameter
+constexpr double level_of_specimens = 0.5;  // of the F test after which specimens are the observations
+constexpr double through_every_row = 1e-9;  // residuals, relative to the data
+constexpr double no_part = 0.01;            // of a direction that no row sees, in a parameter
+constexpr double moved_little = 0.2;        // half-widths by which a bound may move a linearised interval,
+constexpr double moved_far = 3;             // and those from which only a combination is known
 
 std::string row_name(const CalibrationRows& rows, std::size_t k) {
   return "row " + std::to_string(rows.numbers.empty() ? k + 1 : rows.numbers[k]);
@@ -187,7 +190,7 @@ class CalibrationWork {
 
   Calibration run() {
     const std::size_t p = problem_.parameters();
-    const auto of_profile = static_cast<std::int64_t>(options_.profile ? 2 * p : 0);
+    const auto of_profile = static_cast<std::int64_t>(options_.profile && rows_.replicates < 2 ? 2 * p : 0);
     problem_.expect(
         static_cast<std::int64_t>(options_.sparing ? 2 * p + 4 : 5 * (p + 1) + 2 * (2 * p + 1)) + of_profile,
         of_profile);
@@ -195,7 +198,7 @@ class CalibrationWork {
     for (std::size_t k = 0; k < p; ++k) start.push_back(problem_.parameter(k).start);
     fit(start);
     bool profiled = false;
-    for (int again = 0; options_.profile && scatter_known() && again < 3; ++again) {
+    for (int again = 0; options_.profile && rows_.replicates < 2 && scatter_known() && again < 3; ++again) {
       problem_.say("profile likelihood");
       profiles_.assign(p, {});
       const std::optional<std::vector<double>> lower = profile();
@@ -222,7 +225,8 @@ class CalibrationWork {
     settle(start);
     if (rows_.specimens.empty() || tangent_.rank == 0) return;
     const bool wanted = options_.basis == CalibrationBasis::specimens;
-    if (groups_.size() <= tangent_.rank) {
+    const std::size_t used = tangent_.rank + static_cast<std::size_t>(std::ranges::count(held_, true));
+    if (groups_.size() <= used) {
       if (wanted)
         throw Error(ErrorCode::infeasible,
                     "basis=\"specimens\" has " + counted(groups_.size(), "specimen", "specimens") + " for " +
@@ -232,7 +236,7 @@ class CalibrationWork {
     }
     SpecimenVariances variances;
     if (groups_.size() < rows_.y.size()) {
-      variances = variances_of(groups_, weighted_rows(rows_, at_.place), tangent_.rank);
+      variances = variances_of(groups_, weighted_rows(rows_, at_.place), used);
       test_ = variances.test;
     }
     if (options_.basis == CalibrationBasis::rows) return;
@@ -259,14 +263,70 @@ class CalibrationWork {
     // be free is measured by its own column.
     covariance_ = covariance_of(tangent_, problem_.parameters());
     determined_ = determined_parameters(tangent_, problem_.parameters());
+    moved_.assign(problem_.parameters(), 0);
+    bounds_.clear();
     const std::size_t held = static_cast<std::size_t>(std::ranges::count(held_, true));
     const std::size_t observations = problem_.groups().size(), used = tangent_.rank + held;
     degrees_ = observations > used ? observations - used : 0;
-    variance_ = degrees_ > 0 ? at_.place.sum / static_cast<double>(degrees_) : rows_.u.empty() ? 0 : 1;
-    // What is left where the model passes through every row is rounding, and no scatter.
+    // Residuals of a model that passes through every row are rounding errors.
     const double rounding = through_every_row * problem_.size_of(at_.place);
-    if (degrees_ > 0 && at_.place.sum <= rounding * rounding) variance_ = 0;
+    scatter_ = degrees_ > 0 && at_.place.sum > rounding * rounding
+                   ? at_.place.sum / static_cast<double>(degrees_)
+                   : 0;
+    variance_ = known_scatter() ? 1 : scatter_;
+    for (std::size_t p = 0; p < problem_.parameters(); ++p)
+      if (held_[p]) leave_bound(p);
   }
+
+  // How the estimates move when the observations move so.
+  std::vector<double> moves_with(const std::vector<double>& observed) const {
+    std::vector<double> moves(problem_.parameters());
+    for (std::size_t k = 0; k < tangent_.rank; ++k) {
+      const std::vector<double>&u = tangent_.svd.u[k], &v = tangent_.svd.v[k];
+      const double along =
+          std::inner_product(observed.begin(), observed.end(), u.begin(), 0.0) / tangent_.svd.values[k];
+      for (std::size_t i = 0; i < v.size(); ++i)
+        if (tangent_.lengths[i] > 0) moves[tangent_.parameters[i]] += v[i] * along / tangent_.lengths[i];
+    }
+    return moves;
+  }
+
+  std::vector<double> observed_column(std::size_t p) const {
+    std::vector<double> column(rows_.y.size());
+    for (std::size_t k = 0; k < column.size(); ++k) column[k] = at_.place.roots[k] * at_.rows_jacobian[p][k];
+    return problem_.observed(column);
+  }
+
+  // How far the parameter p can leave its bound until S meets the cut, and how far the others move with it.
+  // An interval with p held at the bound is the interval of their combination with p.
+  void leave_bound(std::size_t p) {
+    const std::vector<double> column = observed_column(p);
+    CalibrationBound bound{p, 0, moves_with(column)};
+    std::vector<double> across = column;  // less what the others can make up for
+    for (std::size_t i = 0; i < bound.moves.size(); ++i) {
+      const std::vector<double> other = observed_column(i);
+      for (std::size_t k = 0; k < across.size(); ++k) across[k] -= bound.moves[i] * other[k];
+      bound.moves[i] = i == p ? 1 : -bound.moves[i];
+    }
+    const std::vector<double>& r = at_.place.residual;
+    const double allowed = cut() * variance_, bend = length_of(across),
+                 push = std::abs(std::inner_product(column.begin(), column.end(), r.begin(), 0.0));
+    bound.range = allowed / (push + std::sqrt(push * push + bend * bend * allowed));
+    if (degrees_ == 0 && !known_scatter()) bound.range = std::numeric_limits<double>::infinity();
+    const CalibrationParameter& of = problem_.parameter(p);
+    if (of.lower && of.upper) bound.range = std::min(bound.range, *of.upper - *of.lower);
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const double move = std::abs(bound.moves[i]) * bound.range,
+                   reach = factor() * std::sqrt(variance_ * covariance_[i][i]);
+      if (i == p || !(move > 0) || (!determined_[i] && moved_[i] == 0)) continue;
+      moved_[i] += move / reach;
+      if (moved_[i] > moved_far) determined_[i] = false, bound.decides = true;
+    }
+    bounds_.push_back(std::move(bound));
+  }
+
+  // Whether `u` says how far an observation scatters.
+  bool known_scatter() const { return !rows_.u.empty() && !options_.relative_u && !by_specimens_; }
 
   // A parameter at a bound is not held there by the rows where it can leave it, together with others, and no
   // row changes. `all`: the tangent of all parameters.
@@ -306,7 +366,7 @@ class CalibrationWork {
       describe_place();
       return;
     }
-    if (!profiles_.empty()) {
+    if (!profiles_.empty() && rows_.replicates < 2) {
       profiles_.assign(problem_.parameters(), {});
       profile();
     }
@@ -314,8 +374,10 @@ class CalibrationWork {
 
   bool scatter_known() const { return variance_ > 0; }
   double factor() const {
-    return degrees_ > 0 ? student_t_factor(options_.confidence, static_cast<double>(degrees_))
-                        : student_t_factor(options_.confidence, std::numeric_limits<double>::infinity());
+    if (interval_degrees_ > 0) return student_t_factor(options_.confidence, interval_degrees_);
+    return student_t_factor(options_.confidence, degrees_ > 0 && !known_scatter()
+                                                     ? static_cast<double>(degrees_)
+                                                     : std::numeric_limits<double>::infinity());
   }
   double cut() const { return factor() * factor(); }
 
@@ -330,9 +392,10 @@ class CalibrationWork {
       std::vector<double> guide(problem_.parameters());
       double reach = 0;
       if (held_[p]) {
-        const double length = held_length(p);
-        if (!(length > 0)) continue;
-        reach = std::sqrt(allowed) / length;
+        const auto bound = std::ranges::find(bounds_, p, &CalibrationBound::parameter);
+        if (bound == bounds_.end() || bound->decides) continue;
+        guide = bound->moves;
+        reach = bound->range;
       } else {
         for (std::size_t i = 0; i < guide.size(); ++i) guide[i] = covariance_[i][p] / covariance_[p][p];
         reach = factor() * std::sqrt(variance_ * covariance_[p][p]);
@@ -345,13 +408,50 @@ class CalibrationWork {
     return {};
   }
 
-  double held_length(std::size_t p) const {
-    std::vector<bool> others(problem_.parameters(), true);
-    others[p] = false;
-    return problem_.tangent(at_.place, at_.rows_jacobian, others).lengths.front();
+  // The scatter of replicates, as it moves the estimates: that of their mean through all rows together, and,
+  // unless the means of specimens show it, that of each specimen's own face through its rows.
+  void add_faces() {
+    const std::size_t replicates = rows_.replicates;
+    faces_.assign(problem_.parameters(), std::vector<double>(problem_.parameters()));
+    if (replicates < 2) return;
+    std::vector<CalibrationGroup> faces;
+    for (const auto& [name, group] : groups_) faces.push_back(group);
+    if (faces.empty()) faces.emplace_back().rows.resize(rows_.y.size());
+    if (groups_.empty()) std::iota(faces[0].rows.begin(), faces[0].rows.end(), std::size_t{0});
+    const auto add = [&](std::vector<double> of_rows, double share) {
+      for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] *= at_.place.roots[k];
+      const std::vector<double> moves = moves_with(problem_.observed(of_rows));
+      for (std::size_t i = 0; i < moves.size(); ++i)
+        for (std::size_t j = 0; j < moves.size(); ++j) faces_[i][j] += share * moves[i] * moves[j];
+    };
+    const double share = 1 / static_cast<double>(replicates - 1);
+    for (const std::vector<double>& deviation : problem_.replicate_deviations(at_.place)) {
+      add(deviation, share / static_cast<double>(replicates));
+      for (const CalibrationGroup& face : by_specimens_ ? std::vector<CalibrationGroup>() : faces) {
+        std::vector<double> own(deviation.size());
+        for (const std::size_t row : face.rows) own[row] = deviation[row];
+        add(own, share);
+      }
+    }
+    const double scale = variance_ > 0 ? variance_ : 1;
+    double degrees =
+        known_scatter() ? std::numeric_limits<double>::infinity() : static_cast<double>(degrees_);
+    const double own_degrees = degrees;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const double rows = variance_ * covariance_[i][i], of_faces = faces_[i][i], sum = rows + of_faces;
+      if (!(sum > 0)) continue;
+      // Welch and Satterthwaite's degrees, the fewest of all parameters.
+      degrees = std::min(
+          degrees, sum * sum / ((rows > 0 ? rows * rows / own_degrees : 0) + of_faces * of_faces * share));
+      for (std::size_t j = 0; j < faces_.size(); ++j)
+        covariance_[i][j] = (variance_ * covariance_[i][j] + faces_[i][j]) / scale;
+    }
+    variance_ = scale;
+    interval_degrees_ = degrees;
   }
 
   Calibration described() {
+    add_faces();
     Calibration found;
     const std::size_t count = problem_.parameters();
     found.confidence = options_.confidence;
@@ -359,12 +459,12 @@ class CalibrationWork {
     found.degrees = degrees_;
     found.by_specimens = by_specimens_;
     found.sum_of_squares = at_.place.sum;
-    found.residual_deviation = degrees_ > 0 ? std::sqrt(variance_) : 0;
+    found.residual_deviation = std::sqrt(scatter_);
     found.cut = cut();
     found.iterations = iterations_;
     found.fitted = at_.place.fitted;
     for (std::size_t k = 0; k < rows_.y.size(); ++k) found.residuals.push_back(rows_.y[k] - found.fitted[k]);
-    const bool spread = degrees_ > 0 || !rows_.u.empty();
+    const bool spread = degrees_ > 0 || known_scatter();
     const double t = factor();
     for (std::size_t p = 0; p < count; ++p) {
       CalibratedParameter of;
@@ -374,10 +474,11 @@ class CalibrationWork {
       of.at_upper = held_[p] && !of.at_lower;
       if (of.determined) {
         of.value = at_.place.q[p];
-        if (!held_[p] && spread) {
+        if (!held_[p] && spread && moved_[p] <= moved_little) {
           of.standard_error = std::sqrt(variance_ * covariance_[p][p]);
           of.low = *of.value - t * *of.standard_error;
           of.high = *of.value + t * *of.standard_error;
+          of.share_of_faces = *of.standard_error > 0 ? faces_[p][p] / (variance_ * covariance_[p][p]) : 0;
         }
         if (p < profiles_.size()) {
           of.profile_low = profiles_[p].low;
@@ -400,8 +501,9 @@ class CalibrationWork {
     add_band(found, spread, t);
     add_specimens(found);
     found.calls = problem_.calls();
-    const CalibrationFindings findings{problem_,       at_,       tangent_,     covariance_, held_, variance_,
-                                       spread ? t : 0, profiles_, begun_again_, options_};
+    const CalibrationFindings findings{problem_,  at_,          tangent_,  covariance_, held_,
+                                       bounds_,   moved_,       variance_, scatter_,    spread ? t : 0,
+                                       profiles_, begun_again_, options_};
     add_verdict(found, findings);
     found.calls = problem_.calls();
     return found;
@@ -435,12 +537,16 @@ class CalibrationWork {
   CalibrationMinimum at_;
   CalibrationTangent tangent_;
   std::vector<bool> held_, determined_;
+  std::vector<CalibrationBound> bounds_;
+  std::vector<double> moved_;  // by parameters that leave their bounds, in half-widths of the own interval
   TableColumns covariance_;
+  TableColumns faces_;           // covariance by the scatter of replicates
+  double interval_degrees_ = 0;  // with replicates
   std::vector<std::pair<std::string, CalibrationGroup>> groups_;
   std::optional<SpecimenScatter> test_;
   std::vector<CalibrationProfile> profiles_;
   std::size_t degrees_ = 0;
-  double variance_ = 0;
+  double scatter_ = 0, variance_ = 0;  // of an observation of weight 1: seen in residuals, of intervals
   bool by_specimens_ = false;
   int iterations_ = 0, begun_again_ = 0;
 };

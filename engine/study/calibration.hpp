@@ -4,9 +4,12 @@
 // method within bounds, derivatives by differences; linearised intervals with Student's t of n - p degrees,
 // and profile likelihood with the cut of the F distribution, S(q_k) = S_min (1 + F(1, n - p)/(n - p)) (Bates
 // & Watts 1988, ch. 6). A direction in which no row changes is no estimate: its parameters are given no
-// number, and the combination that the rows do determine is told. Rows of one specimen are repeats: where
-// specimens scatter more than their repeats (one-way F test at 25 %), the means of the specimens are the
-// observations, with t of m - p degrees. What the model does not describe is not seen.
+// number, and the combination that the rows do determine is told. So is one that a parameter at its bound
+// would move far beyond its own interval if it left the bound. With `u` intervals rest on `u`, not on
+// residuals. A model may be a mean over replicates, faces of one kind: their scatter moves all rows of a
+// specimen together, and that of their mean all rows. Rows of one specimen are repeats: where specimens
+// scatter more than their repeats (one-way F test at 50 %), the means of the specimens are the observations,
+// with t of m - p degrees. What the model does not describe is not seen.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +31,7 @@ using CalibrationModel = std::function<double(std::span<const double> parameters
 struct CalibrationQuery {
   std::span<const double> parameters;
   std::size_t row = 0;
+  std::size_t replicate = 0;  // below CalibrationRows::replicates
 };
 // The values in the order of the queries, as far as the first that is not finite at least; `done` is told
 // now and then how many there are.
@@ -46,6 +50,8 @@ struct CalibrationParameter {
 struct CalibrationRows {
   std::vector<double> y;
   std::vector<double> u{};               // standard uncertainties of y, above 0; none: all alike
+  std::vector<double> x{};               // along which residuals are looked at; none: the fitted values
+  std::size_t replicates = 1;            // faces over which the model is averaged
   std::vector<std::string> specimens{};  // one a row; none: not known
   std::vector<std::size_t> numbers{};    // what sentences call the rows; none: from 1
   std::vector<std::string> alike{};      // columns that are the same in all rows: "`load` is 5 N"
@@ -61,6 +67,7 @@ struct CalibrationOptions {
   CalibrationBasis basis = CalibrationBasis::automatic;
   double confidence = 0.95;
   bool profile = true;
+  bool relative_u = false;  // `u` are known but for a common factor, which the residuals tell
   // For a model that takes seconds a row and has a tolerance of its own: the fit ends where a further step
   // would move the estimates by less than a few thousandths of their standard errors, steps of differences
   // move the model by what the rows scatter, and derivatives are corrected from step to step
@@ -76,11 +83,13 @@ struct ProfilePoint {
 struct CalibratedParameter {
   std::string name;
   bool determined = true;
-  std::optional<double> value;           // none where the rows do not determine it
-  std::optional<double> standard_error;  // none at a bound, and where no scatter can be seen
-  std::optional<double> low, high;       // linearised; not cut off at bounds
+  std::optional<double> value;  // none where the rows do not determine it
+  // None at a bound, where no scatter can be seen, and where a parameter at its bound moves this one.
+  std::optional<double> standard_error;
+  std::optional<double> low, high;  // linearised; not cut off at bounds
   // Of the profile likelihood; none where it is not asked for, and where it does not fall below the cut.
   std::optional<double> profile_low, profile_high;
+  double share_of_faces = 0;                // of the variance, with replicates
   bool at_lower = false, at_upper = false;  // the estimate stands at its bound
   std::vector<ProfilePoint> profile;        // ascending values; empty without a profile
 };

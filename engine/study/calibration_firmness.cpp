@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
 #include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration_problem.hpp"
 
@@ -22,7 +23,37 @@ constexpr double beyond_errors = 2;           // what is seen, in disagreements 
 constexpr double beyond_noise = 1.2;          // the same, where the wider hold three times as well
 constexpr double falls_by = 0.5;              // disagreement with width, where noise makes it
 
+// A model that refuses to go as far as a wide difference has been asked enough.
+bool ends_there(const Error& error) {
+  return error.code() == ErrorCode::bad_value || error.code() == ErrorCode::infeasible ||
+         error.code() == ErrorCode::not_converged;
+}
+
 }  // namespace
+
+void CalibrationProblem::refuse_still(const CalibrationMinimum& at) {
+  std::size_t still = 0;
+  const auto moves = [](const std::vector<double>& column) {
+    return std::ranges::any_of(column, [](double value) { return value != 0; });
+  };
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    if (moves(at.rows_jacobian[p])) continue;
+    ++still;
+    bool wide = false;
+    for (double share = 1; !wide && share > parameters_[p].step; share /= wider) try {
+        const auto column = slopes(at.place, p, share * at.scales[p], true);
+        wide = column && moves(*column);
+      } catch (const Error& error) {
+        if (!ends_there(error)) throw;
+      }
+    if (wide || still == parameters())
+      throw Error(ErrorCode::not_converged,
+                  "no row changes when " + quoted(parameters_[p].name) + " makes a step at its start " +
+                      format_short(at.place.q[p]) + (wide ? ", only when the step is wide" : ""),
+                  "write a model that does not answer in steps, begin elsewhere, or give the parameter a "
+                  "larger `step` in lab.calibrate, such as 0.2");
+  }
+}
 
 std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinimum& at) {
   const std::vector<bool> none(parameters(), false);
@@ -61,10 +92,7 @@ std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinim
         wide.push_back(*std::move(column));
       }
     } catch (const Error& error) {
-      // A model that refuses to go so far has been asked enough.
-      if (error.code() != ErrorCode::bad_value && error.code() != ErrorCode::infeasible &&
-          error.code() != ErrorCode::not_converged)
-        throw;
+      if (!ends_there(error)) throw;
       return best;
     }
     if (!narrow.empty()) {

@@ -20,7 +20,6 @@ constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent pl
 constexpr double near_enough_for_central = 1e-4;  // the same, from which differences are central
 constexpr double noise_of_model = 0.03;           // the same, at which a model that goes no lower has arrived
 constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
-constexpr double unseen = 1e-5;                   // a singular value relative to the largest
 constexpr double smallest_share = 1e-3;           // of the largest fitted value, as relative weights count it
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
@@ -47,6 +46,9 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
     groups_.push_back({{k}, 1});
   }
   size_ = length_of(weighted);
+  // Central differences are wrong by the square of their step.
+  for (const CalibrationParameter& of : parameters)
+    unseen_ = std::max(unseen_, std::min(10 * of.step * of.step, 1e-5));
 }
 
 // What is left is never less than what comes after the present part, so that a part which takes longer than
@@ -67,7 +69,8 @@ void CalibrationProblem::report(std::int64_t calls) {
 std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<double>>& sets) {
   std::vector<CalibrationQuery> queries;
   for (const std::vector<double>& q : sets)
-    for (std::size_t k = 0; k < rows_.y.size(); ++k) queries.push_back({q, k});
+    for (std::size_t k = 0; k < rows_.y.size(); ++k)
+      for (std::size_t r = 0; r < rows_.replicates; ++r) queries.push_back({q, k, r});
   stop_flag().check();
   const std::int64_t before = calls_;
   report(before);
@@ -77,10 +80,19 @@ std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<doub
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k])) continue;
     without_value_ = queries[k].row;
-    without_value_at_ = sets[k / rows_.y.size()];
+    without_value_at_ = sets[k / (rows_.y.size() * rows_.replicates)];
     break;
   }
   return values;
+}
+
+std::vector<std::vector<double>> CalibrationProblem::replicate_deviations(const CalibrationPlace& at) {
+  std::vector<std::vector<double>> found(rows_.replicates, std::vector<double>(rows_.y.size()));
+  const std::vector<double> values = asked({at.q});
+  if (values.size() < rows_.replicates * rows_.y.size()) refuse_place("at the least sum");
+  for (std::size_t k = 0; k < values.size(); ++k)
+    found[k % rows_.replicates][k / rows_.replicates] = values[k] - at.fitted[k / rows_.replicates];
+  return found;
 }
 
 std::optional<std::vector<double>> CalibrationProblem::fitted(const std::vector<double>& q) {
@@ -103,11 +115,12 @@ std::vector<std::optional<std::vector<double>>> CalibrationProblem::fitted_all(
     }
   }
   if (unknown.empty()) return found;
-  const std::size_t rows = rows_.y.size();
+  const std::size_t rows = rows_.y.size(), all = rows * rows_.replicates;
   const std::vector<double> values = asked(unknown);
-  for (std::size_t j = 0; j < unknown.size() && (j + 1) * rows <= values.size(); ++j) {
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(j * rows);
-    std::vector<double> of_rows(first, first + static_cast<std::ptrdiff_t>(rows));
+  for (std::size_t j = 0; j < unknown.size() && (j + 1) * all <= values.size(); ++j) {
+    std::vector<double> of_rows(rows);
+    for (std::size_t k = 0; k < all; ++k)
+      of_rows[k / rows_.replicates] += values[j * all + k] / static_cast<double>(rows_.replicates);
     if (!std::ranges::all_of(of_rows, [](double value) { return std::isfinite(value); })) continue;
     if (sparing_) known_.emplace_back(unknown[j], of_rows);
     found[places[j]] = std::move(of_rows);
@@ -115,14 +128,17 @@ std::vector<std::optional<std::vector<double>>> CalibrationProblem::fitted_all(
   return found;
 }
 
+double CalibrationProblem::observed_mean(const std::vector<double>& of_rows, std::size_t observation) const {
+  double sum = 0;
+  for (const std::size_t row : groups_[observation].rows) sum += of_rows[row];
+  return sum / static_cast<double>(groups_[observation].rows.size());
+}
+
 std::vector<double> CalibrationProblem::observed(const std::vector<double>& of_rows) const {
   std::vector<double> values;
   values.reserve(groups_.size());
-  for (const CalibrationGroup& group : groups_) {
-    double sum = 0;
-    for (const std::size_t row : group.rows) sum += of_rows[row];
-    values.push_back(group.weight * sum / static_cast<double>(group.rows.size()));
-  }
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    values.push_back(groups_[i].weight * observed_mean(of_rows, i));
   return values;
 }
 
@@ -272,7 +288,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
     found.along.push_back(product);
     // The largest counts however far the derivatives may be off.
-    const double least = (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0];
+    const double least = (sparing_ ? sparing_unseen() : unseen_) * found.svd.values[0];
     if (!(found.svd.values[k] > (k == 0 ? least : std::max(hidden, least)))) continue;
     found.rank = k + 1;
     sum += product * product;
@@ -385,6 +401,7 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
   bool central = false;
   for (found.iterations = 0;; ++found.iterations) {
     found.rows_jacobian = jacobian(found.place, found.scales, none, central);
+    if (found.iterations == 0 && before.scales.empty()) refuse_still(found);
     const CalibrationTangent at =
         tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
     const double length = length_of(found.place.residual),
@@ -396,13 +413,17 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
       central = true;
       continue;
     }
-    if (central && offset_within(calibration_orthogonal)) return found;
+    if (central && offset_within(calibration_orthogonal)) {
+      // One more full step: so near the end, sums differ by rounding alone.
+      if (auto last = place(stepped(found.place, at, 0), nullptr)) found.place = *std::move(last);
+      return found;
+    }
     if (found.iterations >= most_calibration_steps)
-      throw Error(ErrorCode::not_converged,
-                  "the calibration found no least sum of squares in " +
-                      std::to_string(most_calibration_steps) + " steps; it ended at " +
-                      parameters_text(found.place.q),
-                  "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
+      throw Error(
+          ErrorCode::not_converged,
+          "the calibration found no least sum of squares in " + std::to_string(most_calibration_steps) +
+              " steps; it ended at " + parameters_text(found.place.q),
+          "begin nearer to the answer, set `lower` and `upper` in lab.calibrate, or fit fewer parameters");
     auto next = better(found.place, at, &found.place.roots, damping);
     if (!next) {
       if (!central) {

@@ -97,6 +97,13 @@ class CalibrationProblem {
   // `hidden`: as in CalibrationMinimum.
   CalibrationTangent tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                              const std::vector<bool>& held, double hidden = 0) const;
+  // The model of rows less its mean over the replicates, of each replicate.
+  std::vector<std::vector<double>> replicate_deviations(const CalibrationPlace& at);
+  // Throws Error{not_converged} where no row changes with a parameter by its difference, but some by a wider
+  // one, or where no parameter changes any row.
+  void refuse_still(const CalibrationMinimum& at);
+  std::vector<double> observed(const std::vector<double>& of_rows) const;
+  double observed_mean(const std::vector<double>& of_rows, std::size_t observation) const;
   // Of differences of rising width, the first that tell every parameter, or else those that agree best;
   // nothing where the model has no value beside.
   std::optional<FirmSlopes> firm_slopes(const CalibrationMinimum& at);
@@ -124,7 +131,6 @@ class CalibrationProblem {
   std::optional<std::vector<double>> fitted(const std::vector<double>& q);
   std::vector<std::optional<std::vector<double>>> fitted_all(const std::vector<std::vector<double>>& sets);
   std::vector<double> asked(const std::vector<std::vector<double>>& sets);
-  std::vector<double> observed(const std::vector<double>& of_rows) const;
   std::vector<double> natural_scales(const CalibrationPlace& at);
   std::optional<std::vector<double>> slopes(const CalibrationPlace& at, std::size_t p, double step,
                                             bool central);
@@ -165,6 +171,7 @@ class CalibrationProblem {
   std::vector<CalibrationGroup> groups_;
   std::vector<double> own_;  // 1/u
   double size_ = 0;          // of the weighted y
+  double unseen_ = 1e-8;     // a singular value relative to the largest, below which no row sees a direction
   std::int64_t calls_ = 0, expected_ = 1, afterwards_ = 0;
   // Of a sparing fit, so that no set of parameters is asked for twice.
   std::vector<std::pair<std::vector<double>, std::vector<double>>> known_;

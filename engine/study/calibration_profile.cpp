@@ -129,7 +129,7 @@ class ProfileSide {
     }
     auto there = problem_.place(q, &at_.place.roots);
     if (!there) return {};
-    if (!(from.distance == 0 && straight(*there, distance))) {
+    if (!(from.distance == 0 && straight(*there, distance) && bounds_hold(*there))) {
       auto best = problem_.minimum_beside(*there, p_, at_, (problem_.sparing() ? 1e-2 : 1e-3) * cut_);
       if (!best) return {};
       there = std::move(best);
@@ -137,6 +137,16 @@ class ProfileSide {
     const double above = there->sum - at_.place.sum;
     if (above < (problem_.sparing() ? -1e-2 : -1e-3) * cut_) lower_sum_ = there->q;
     return ProfilePlace{distance, std::sqrt(std::max(above, 0.0)), std::move(there->q)};
+  }
+
+  // Whether the rows still push every other parameter at a bound against the bound.
+  bool bounds_hold(const CalibrationPlace& there) const {
+    std::vector<bool> held(there.q.size());
+    held[p_] = true;
+    held = problem_.pushed(there, at_.rows_jacobian, held);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (!held[i] && (problem_.at_lower(there.q[i], i) || problem_.at_upper(there.q[i], i))) return false;
+    return true;
   }
 
   // Whether the model there is what its derivatives at the estimate say.

@@ -107,7 +107,8 @@ bool is_curve(const std::vector<double>& x, const std::vector<double>& fitted,
 std::string calibration_text(const CalibrationReport& report) {
   const Calibration& found = report.found;
   std::string text =
-      "calibration of " + report.y + " over " + counted_as(report.numbers.size(), "row", "rows");
+      (report.curve ? "fit of " + report.y + " against " + report.curve->x : "calibration of " + report.y) +
+      " over " + counted_as(report.numbers.size(), "row", "rows");
   if (report.left_out > 0) text += " (" + std::to_string(report.left_out) + " more without numbers)";
   if (!found.specimens.empty()) text += " of " + counted_as(found.specimens.size(), "specimen", "specimens");
   text += ", " + counted_as(found.degrees, "degree", "degrees") + " of freedom";
@@ -147,7 +148,10 @@ std::string calibration_text(const CalibrationReport& report) {
   if (!between.empty()) text += "\n  correlation: " + between;
   if (found.condition)
     text += (between.empty() ? "\n  " : "; ") + ("condition " + format_short(*found.condition, 3));
-  return text + "\n  verdict: " + found.verdict;
+  if (report.r_squared) text += (found.condition ? "; R² " : "\n  R² ") + format_short(*report.r_squared, 6);
+  text += "\n  verdict: " + found.verdict;
+  for (const std::string& warning : found.warnings) text += "\n  warning: " + warning;
+  return text;
 }
 
 std::string calibration_digest(const CalibrationReport& report) {

@@ -11,6 +11,7 @@
 
 #include "engine/core/quantity.hpp"
 #include "engine/plot/chart.hpp"
+#include "engine/run/notebook_chart.hpp"
 #include "engine/statistics/table.hpp"
 #include "engine/study/calibration.hpp"
 
@@ -25,6 +26,9 @@ struct CalibrationReport {
   std::vector<Dimension> dimensions;  // of the parameters
   CalibrationScatter scatter = CalibrationScatter::absolute;
   bool known_uncertainty = false;  // rows weigh by `u`
+  // Of a curve that was fitted to two columns.
+  std::optional<FittedCurve> curve;
+  std::optional<double> r_squared;
 };
 
 // Several lines without a line end behind the last.

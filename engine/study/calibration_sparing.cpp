@@ -195,6 +195,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     found.rows_jacobian =
         sparing_jacobian(found.place, sparing_steps(found.place, {}, found.scales, 0), none);
     found.differenced_at = found.place.q;
+    if (before.scales.empty()) refuse_still(found);
   } else {
     found.rows_jacobian = before.rows_jacobian;
     found.differenced_at = before.differenced_at;

@@ -2,8 +2,11 @@
 #include "engine/study/calibration_verdict.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -18,6 +21,7 @@ constexpr double main_part = 0.01;     // of a direction that no row sees
 constexpr double seen_by_law = 1e-5;   // a singular value relative to the largest, where there is no noise
 constexpr double weak_part = 0.3;      // of the direction that the rows see least
 constexpr double weak_condition = 10;  // from which parameters may be hardly apart
+constexpr double level_of_residuals = 0.05;
 constexpr int digits = 4;
 
 std::string number(double value) { return format_short(value, digits); }
@@ -25,6 +29,84 @@ std::string number(double value) { return format_short(value, digits); }
 std::string signed_term(double factor, const std::string& name) {
   const std::string size = number(std::abs(factor));
   return std::string(factor < 0 ? " - " : " + ") + (size == "1" ? "" : size + " ") + name;
+}
+
+double choose(int n, int k) {
+  if (k < 0 || k > n) return 0;
+  double product = 1;
+  for (int i = 1; i <= k; ++i) product *= static_cast<double>(n - k + i) / i;
+  return product;
+}
+
+struct RunsTest {
+  double p_value = 1;  // how often independent residuals have as few runs of one sign
+  int runs = 0;
+  double expected = 0;
+};
+
+// Residuals in the order of x; those at one x count by their mean (Wald & Wolfowitz 1940).
+RunsTest runs_test(std::vector<std::array<double, 2>> along) {
+  std::ranges::sort(along);
+  int count[2] = {0, 0}, last = -1;
+  RunsTest found;
+  for (std::size_t k = 0; k < along.size();) {
+    double sum = 0;
+    const double x = along[k][0];
+    for (; k < along.size() && along[k][0] == x; ++k) sum += along[k][1];
+    if (sum == 0) continue;
+    const int sign = sum > 0 ? 1 : 0;
+    count[sign] += 1;
+    found.runs += sign != last ? 1 : 0;
+    last = sign;
+  }
+  const int a = count[0], b = count[1];
+  constexpr int most = 400;  // beyond, products of binomials overflow
+  if (a == 0 || b == 0 || a + b > 2 * most) return found;
+  found.expected = 1 + 2.0 * a * b / (a + b);
+  found.p_value = 0;
+  for (int runs = 2; runs <= found.runs; ++runs) {
+    const int k = runs / 2;
+    found.p_value +=
+        (runs % 2 == 0 ? 2 * choose(a - 1, k - 1) * choose(b - 1, k - 1)
+                       : choose(a - 1, k) * choose(b - 1, k - 1) + choose(a - 1, k - 1) * choose(b - 1, k)) /
+        choose(a + b, a);
+  }
+  return found;
+}
+
+struct NeighbourTest {
+  double p_value = 1, correlation = 0;
+};
+
+// The sum of products of neighbours over that of squares, with its mean and variance for independent errors
+// under this Jacobian (Durbin & Watson 1950), taken as normal.
+NeighbourTest neighbour_test(const std::vector<double>& residual, const CalibrationTangent& tangent) {
+  const std::size_t n = residual.size(), p = tangent.rank;
+  if (n < p + 6) return {};
+  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  const auto neighbours = [](const std::vector<double>& a) {  // half the sum of both neighbours
+    std::vector<double> sum(a.size());
+    for (std::size_t k = 0; k + 1 < a.size(); ++k) sum[k] += a[k + 1] / 2, sum[k + 1] += a[k] / 2;
+    return sum;
+  };
+  const auto degrees = static_cast<double>(n - p);
+  double trace = 0, square = static_cast<double>(n - 1) / 2;  // of M A and of its square
+  for (std::size_t i = 0; i < p; ++i) {
+    const std::vector<double> near = neighbours(tangent.svd.u[i]);
+    trace -= product(tangent.svd.u[i], near);
+    square -= 2 * product(near, near);
+    for (std::size_t j = 0; j < p; ++j) {
+      const double both = product(tangent.svd.u[j], near);
+      square += both * both;
+    }
+  }
+  const double mean = trace / degrees, variance = 2 * (square - trace * mean) / (degrees * (degrees + 2)),
+               lag = product(residual, neighbours(residual)) / product(residual, residual);
+  if (!(variance > 0)) return {};
+  const double z = (lag - mean) / std::sqrt(variance);
+  return {z > 0 ? (1 - f_cdf(z * z, 1, 1e9)) / 2 : 1, lag};
 }
 
 class VerdictWords {
@@ -38,6 +120,7 @@ class VerdictWords {
     tell_open_ends();
     tell_specimens();
     tell_scatter();
+    tell_faces();
     if (sentences_.empty() || (of_.identifiable && !doubt_))
       sentences_.insert(sentences_.begin(), "every parameter is determined by these rows");
     for (const std::string& sentence : sentences_)
@@ -54,9 +137,9 @@ class VerdictWords {
   }
 
   // " (tau0 in Pa)": of what a combination is made of.
-  std::string units_of(std::size_t a, std::size_t b) const {
+  std::string units_of(const std::vector<std::size_t>& parts) const {
     std::vector<std::string> list;
-    for (const std::size_t p : {a, b})
+    for (const std::size_t p : parts)
       if (const std::string& unit = f_.problem.parameter(p).unit; !unit.empty())
         list.push_back(name(p) + " in " + unit);
     return list.empty() ? "" : " with " + joined(list, " and ");
@@ -131,16 +214,16 @@ class VerdictWords {
     // Along a ratio the parameters go straight to 0, and their sum says nothing of it.
     if (like_ratio && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
       return "the ratio " + name(a) + "/" + name(b) + " = " +
-             with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of(a, b);
+             with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of({a, b});
     if (like_product && (unchanged(moved(1.25, 0.8)) || unchanged(moved(0.8, 1.25))))
       return "the product " + name(a) + " " + name(b) + " = " +
-             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}}) + units_of(a, b);
+             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}}) + units_of({a, b});
     const double step = 0.1 / std::max(std::abs(da) / scale(a), std::abs(db) / scale(b));
     for (const double side : {1.0, -1.0}) {
       std::vector<double> there = q;
       there[a] += side * step * da;
       there[b] += side * step * db;
-      if (unchanged(there)) return text + units_of(a, b);
+      if (unchanged(there)) return text + units_of({a, b});
     }
     proven_ = false;
     return text + " near " + name(a) + " = " + with_unit(q[a], a) + ", " + name(b) + " = " +
@@ -213,7 +296,7 @@ class VerdictWords {
       of_.combinations.push_back(
           name(a) + signed_term(factor, name(b)) + " = " +
           with_interval(f_.at.place.q[a] + factor * f_.at.place.q[b], {{a, 1.0}, {b, factor}}) +
-          units_of(a, b));
+          units_of({a, b}));
       sentence += " (correlation " + number(of_.correlation[a][b].value_or(0)) +
                   "): what they know best is " + of_.combinations.back();
     }
@@ -228,8 +311,29 @@ class VerdictWords {
       const CalibrationParameter& given = f_.problem.parameter(p);
       sentences_.push_back(name(p) + " stands at its " + (lower ? "lower" : "upper") + " bound " +
                            with_unit(lower ? *given.lower : *given.upper, p) + ": the rows ask for " +
-                           (lower ? "less" : "more") + ", and the other intervals hold it there");
+                           (lower ? "less" : "more"));
     }
+    for (std::size_t p = 0; p < of_.parameters.size(); ++p) tell_moved(p);
+  }
+
+  // A parameter that has no number because another one may leave its bound: what the rows do determine.
+  void tell_moved(std::size_t p) {
+    if (of_.parameters[p].determined || !(f_.moved[p] > 0)) return;
+    std::string text = name(p);
+    double value = f_.at.place.q[p];
+    std::vector<std::size_t> parts = {p};
+    for (const CalibrationBound& bound : f_.bounds) {
+      if (bound.moves[p] == 0) continue;
+      text += signed_term(-bound.moves[p], name(bound.parameter));
+      value -= bound.moves[p] * f_.at.place.q[bound.parameter];
+      parts.push_back(bound.parameter);
+    }
+    of_.identifiable = false;
+    of_.combinations.push_back(text + " = " + with_interval(value, {{p, 1.0}}) + units_of(parts));
+    std::vector<std::size_t> bounds(parts.begin() + 1, parts.end());
+    sentences_.push_back(name(p) + " is not determined, because " + names(bounds) +
+                         " may leave the bound: only " + of_.combinations.back() +
+                         " is known from these rows; " + advice(parts));
   }
 
   void tell_open_ends() {
@@ -282,6 +386,16 @@ class VerdictWords {
                              "and intervals are then too narrow; six or more would show it");
   }
 
+  void tell_faces() {
+    if (f_.problem.rows().replicates < 2) return;
+    std::vector<std::string> shares;
+    for (const CalibratedParameter& of : of_.parameters)
+      if (of.standard_error)
+        shares.push_back(format_short(100 * of.share_of_faces, 2) + " % of u² of " + of.name);
+    sentences_.push_back("the model is a mean over " + std::to_string(f_.problem.rows().replicates) +
+                         " replicates, whose scatter makes " + joined(shares, " and "));
+  }
+
   void tell_scatter() {
     if (of_.degrees == 0) {
       doubt_ = true;
@@ -315,12 +429,43 @@ class VerdictWords {
                                ": take the interval of its profile, " + number(*of.profile_low) + " to " +
                                number(*of.profile_high) + ", not the linearised one");
     }
-    if (f_.problem.rows().u.empty() || of_.degrees == 0 || of_.by_specimens) return;
+    tell_residuals();
+    const bool known = !f_.problem.rows().u.empty() && !f_.options.relative_u && !of_.by_specimens;
+    if (!known || of_.degrees == 0) return;
     // The sum of squares over its degrees is 1 where `u` is right.
-    const double ratio = f_.variance, share = f_cdf(ratio, static_cast<double>(of_.degrees), 1e9);
+    const double share = f_cdf(f_.scatter, static_cast<double>(of_.degrees), 1e9);
     if (share > 0.99 || share < 0.01)
-      of_.warnings.push_back("the rows scatter " + format_short(std::sqrt(ratio), 3) +
-                             " times as far as `u` says; intervals rest on what they do");
+      of_.warnings.push_back("the rows scatter " + format_short(std::sqrt(f_.scatter), 3) +
+                             " times as far as `u` says; intervals rest on `u`");
+  }
+
+  // Weighted residuals of observations ought to be independent: of x, of their neighbours, of copies.
+  void tell_residuals() {
+    const std::vector<double>& r = f_.at.place.residual;
+    const CalibrationRows& rows = f_.problem.rows();
+    std::set<std::array<double, 3>> distinct;
+    for (std::size_t k = 0; k < rows.y.size(); ++k)
+      distinct.insert({rows.y[k], f_.at.place.fitted[k], rows.x.empty() ? 0 : rows.x[k]});
+    const std::size_t copies = rows.y.size() - distinct.size();
+    if (copies > 0 && 2 * copies >= rows.y.size())
+      of_.warnings.push_back(
+          std::to_string(copies) + " of " + std::to_string(rows.y.size()) +
+          " rows repeat another row exactly: leave out copies, or intervals are too narrow");
+    if (!(f_.scatter > 0)) return;
+    std::vector<std::array<double, 2>> along;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      along.push_back({f_.problem.observed_mean(rows.x.empty() ? f_.at.place.fitted : rows.x, i), r[i]});
+    if (const auto [p_value, runs, expected] = runs_test(std::move(along)); p_value < level_of_residuals)
+      of_.warnings.push_back("residuals keep their sign along " +
+                             std::string(rows.x.empty() ? "the fit" : "x") + ": " + std::to_string(runs) +
+                             " runs, " + number(expected) + " expected (p = " + format_short(p_value, 2) +
+                             "); the rows bend unlike the model, or share errors, and intervals do not hold");
+    if (!of_.specimens.empty() && !of_.by_specimens) return;
+    if (const auto [p_value, lag] = neighbour_test(r, f_.tangent); p_value < level_of_residuals)
+      of_.warnings.push_back(
+          "neighbouring " + std::string(of_.by_specimens ? "specimens" : "rows") +
+          " have like residuals: correlation " + format_short(lag, 2) + " (p = " + format_short(p_value, 2) +
+          "); intervals are too narrow unless rows that share an error are one `specimen`");
   }
 
   Calibration& of_;

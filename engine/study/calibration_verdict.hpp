@@ -11,14 +11,25 @@
 
 namespace asperity {
 
+// A parameter that the rows push against its bound.
+struct CalibrationBound {
+  std::size_t parameter = 0;
+  double range = 0;           // how far it can leave the bound until S meets the cut
+  std::vector<double> moves;  // of all parameters at their best, per unit of this one
+  bool decides = false;       // another parameter is not determined, because this one may leave the bound
+};
+
 struct CalibrationFindings {
   CalibrationProblem& problem;
   const CalibrationMinimum& at;
   const CalibrationTangent& tangent;
   const TableColumns& covariance;  // for a variance of 1
   const std::vector<bool>& held;   // at a bound
-  double variance;                 // of an observation of weight 1
-  double factor;                   // of an interval in standard errors; 0 where no scatter can be seen
+  const std::vector<CalibrationBound>& bounds;
+  const std::vector<double>& moved;  // of each parameter by bounds, in half-widths of its own interval
+  double variance;                   // of an observation of weight 1, on which intervals rest
+  double scatter;                    // the same, as the residuals show it
+  double factor;                     // of an interval in standard errors; 0 where no scatter can be seen
   const std::vector<CalibrationProfile>& profiles;
   int begun_again;
   const CalibrationOptions& options;

@@ -57,6 +57,8 @@ TEST_F(CalibrateTest, ParametersComeInSIWithIntervals) {
 
 TEST_F(CalibrateTest, PrintsALineAParameterAndTheVerdict) {
   ASSERT_EQ(run("text = tostring(fit())"), "");
+  EXPECT_TRUE(
+      holds("tostring(fit()):find('\\n  warning: the rows have a column `specimen`', 1, true) ~= nil"));
   for (const char* part :
        {"calibration of angle over 16 rows, 14 degrees of freedom", "\\n  tau0 ", " MPa to ",
         "correlation: alpha with tau0 -0.8", "verdict: every parameter is determined"})
@@ -93,7 +95,8 @@ TEST_F(CalibrateTest, SpecimensAreTold) {
 
 TEST_F(CalibrateTest, UncertaintyIsAColumnANumberOrAQuantity) {
   ASSERT_EQ(run("plain, number, quantity = fit(), fit{ u=0.01 }, fit{ u='1 deg' }"), "");
-  EXPECT_TRUE(holds("math.abs(plain.parameters.tau0.u / number.parameters.tau0.u - 1) < 1e-6"));
+  EXPECT_TRUE(holds(
+      "math.abs(plain.parameters.tau0.u / number.parameters.tau0.u / plain.residual_sd * 0.01 - 1) < 1e-6"));
   EXPECT_TRUE(holds("math.abs(number.residual_sd * 0.01 / (quantity.residual_sd * math.rad(1)) - 1) < 1e-6"));
   ASSERT_EQ(
       run("rows = t:rows() for _, r in ipairs(rows) do r.u = 0.02 * r.angle end rows = lab.table.from(rows) "
@@ -153,6 +156,20 @@ TEST_F(CalibrateTest, WhatIsAskedWronglyIsRefused) {
   EXPECT_TRUE(refuses("fit{ parameters={ a=1, b=1, c=1, d=1, e=1 }, where={ specimen='S1' } }",
                       "4 rows for 5 parameters"));
   EXPECT_TRUE(refuses("lab.calibrate()", "model"));
+}
+
+TEST_F(CalibrateTest, ModelIsTheMeanOverReplicates) {
+  ASSERT_EQ(
+      run("f = fit{ specimen='specimen', replicate={ seed={ 1, 2, 3 } }, model=function(q, row) return "
+          "math.atan(q.alpha + q.tau0 * row.c * (1 + 0.05 * (q.seed - 2))) end } tau0 = f.parameters.tau0"),
+      "");
+  EXPECT_TRUE(holds("tau0.low < 3e8 and 3e8 < tau0.high and tau0.profile_low == nil"));
+  EXPECT_TRUE(holds("tau0.share_of_faces > 0 and tau0.share_of_faces < 1"));
+  EXPECT_TRUE(holds("f.verdict:find('a mean over 3 replicates', 1, true) ~= nil and f.calls % 48 == 0"));
+  EXPECT_TRUE(refuses("fit{ replicate={ seed={ 1 } } }", "one key with two numbers or more"));
+  EXPECT_TRUE(
+      refuses("fit{ replicate={ seed={ 1, 2 }, cut={ 1, 2 } } }", "one key with two numbers or more"));
+  EXPECT_TRUE(refuses("fit{ replicate={ alpha={ 1, 2 } } }", "which is a parameter, too"));
 }
 
 TEST_F(CalibrateTest, StopKeepsNothing) {

@@ -58,10 +58,10 @@ refused(function() signed:mean("a", { interval="log" }) end, "a log interval nee
 local t = lab.table.from{ { p=1, A=3.1 }, { p=2, A=4.9 }, { p=3, A=7.2 }, { p=5, A=11.1 }, { p=8, A=16.8 } }
 local line = t:fit{ x="p", y="A", model="linear" }
 near(line.parameters.slope.value, 1.96818181818181818)
-near(line.parameters.slope.u, 0.0288334112462066621)
+near(line.parameters.slope.u, 0.0288334112462066621, 1e-9)
 near(line.residual_sd, 0.160018938273132553)
 assert(line.n == 5 and line.degrees == 3 and #line.residuals == 5 and line.rows[5] == 5 and line.left_out == 0)
-near(line.parameters.slope.high, 1.96818181818181818 + 3.1824463052837096 * 0.0288334112462066621)
+near(line.parameters.slope.high, 1.96818181818181818 + 3.1824463052837096 * 0.0288334112462066621, 1e-9)
 assert(line.correlation[1][2] == line.correlation[2][1] and line.names[2] == "slope")
 local own = t:fit{ x="p", y="A", model=function(x, q) return q.a + q.b * x end, start={ a=0, b=1 } }
 near(own.values.b, line.values.slope, 1e-10)
@@ -76,11 +76,26 @@ refused(function() t:fit{ x="p", y="A", model="power", start={ a=1 } } end, "`st
 refused(function() t:fit{ x="p", y="A", model=function(x, q) return q.c * x end, start={ a=1 } } end, "the function `model` failed")
 refused(function() t:fit{ x="p", y="A", model=function(x, q) return "much" end, start={ a=1 } } end, "the function `model` returned")
 refused(function() t:fit{ x="p", y="A", model=function(x, q) return (q.tau0 + q.alpha) * x end, start={ tau0=1, alpha=1 } } end,
-  "do not tell `alpha` and `tau0` apart")
+  "alpha and tau0 are not identifiable: only alpha + tau0 = ")
 refused(function() book:fit{ x="N", y="body", model="linear" } end, 'column `body` holds the text "worn"')
 refused(function() book:fit{ x="N", y="mu", model="linear", where={ N=8 } } end, "do not tell `intercept` and `slope` apart")
 local weighted = book:fit{ x="N", y="mu", model="linear", weights="u" }
 assert(weighted.n == 11 and weighted.left_out == 1)
+refused(function() book:fit{ x="N", y="mu", model="linear", weights="u", u=0.1 } end, "`weights` and `u` both say how rows weigh")
+
+-- A fit takes relative scatter, u and specimens, and prints as a calibration does.
+local known = t:fit{ x="p", y="A", model="linear", u=0.5 }
+near(known.parameters.slope.u, 0.5 * line.parameters.slope.u / line.residual_sd)
+assert(tostring(known):find("warning: the rows scatter 0.32 times as far as `u` says", 1, true), tostring(known))
+local shares = t:fit{ x="p", y="A", model="linear", scatter="relative" }
+assert(shares.residual_sd < 0.1 and shares.values.slope ~= line.values.slope)
+assert(tostring(shares):find("fit of A against p over 5 rows, 3 degrees of freedom; rows scatter by", 1, true), tostring(shares))
+local many = {}
+for s = 1, 6 do for k = 1, 4 do many[#many + 1] = { x=s, y=s + (s * s) % 4 + 0.01 * k, piece="S" .. s } end end
+local pieces = lab.table.from(many):fit{ x="x", y="y", model="linear", specimen="piece" }
+assert(pieces.by_specimens and pieces.degrees == 4 and #pieces.specimens == 6)
+assert(line.curve.x[1] == 1 and line.x == "p" and line.y == "A" and line.name == nil and power.name == "a p^b")
+line:chart{ x="p", file="line.svg" }
 
 -- Charts: a fit with its band, functions and lines across; names along; two panels.
 t:chart{ x="p", y="A", fit=power, functions={ ["2 p"]=function(x) return 2 * x end }, lines={ { y=10, name="wanted" } },

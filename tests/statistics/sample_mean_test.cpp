@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Means with intervals: known answers, how often the intervals hold the mean of simulated samples (by the
-// table of coverages from 4000 samples each), groups of a table, and what is refused.
+// table of coverages from 4000 samples each), groups of a table, and refusals.
 #include "engine/statistics/sample_mean.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ double coverage(int sets, int n, MeanInterval interval, const char* stream, Draw
   return static_cast<double>(held) / sets;
 }
 
-// Standard errors at 2000 samples: 0.5 % at 95 %, 0.8 % at 83 %; wanted within four of them and the table's
+// Standard errors at 2000 samples: 0.5 % at 95 %, 0.8 % at 83 %; wanted within four standard errors and the table's
 // own.
 TEST(SampleMean, IntervalsHoldTheirLevelAsTheyShould) {
   constexpr int sets = 2000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of tables: joins by equal cells, what both have, rows without a partner; SI; text.
+// Tables made from tables: joins by equal cells, shared columns, rows without a partner; SI; text.
 #include "engine/statistics/table_operations.hpp"
 
 #include <gtest/gtest.h>

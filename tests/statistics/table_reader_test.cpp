@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables in every form that loggers and spreadsheets write, and what is refused of them by line and column.
+// Tables in every form of loggers and spreadsheets, and refusals by line and column.
 #include "engine/statistics/table_reader.hpp"
 
 #include <cmath>
@@ -90,7 +90,7 @@ TEST(TableReader, LettersBeyondAsciiAreKept) {
             "H\xC3\xA4rte,Weg [m],phi [rad]\n2,3e-06,3.141592653589793\n");
 }
 
-// A letter behind the name may be a part of it.
+// A letter behind the name may belong to the name.
 TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
   EXPECT_EQ(csv("load kN,slip um,strain %\n1,2,3\n"), "load [N],slip [m],strain\n1000,2e-06,0.03\n");
   EXPECT_EQ(csv("Run N,time_s,T min,mu (left),Ra/Rq,a, b\n1,2,3,4,5,6,7\n"),
@@ -114,7 +114,7 @@ std::vector<std::string> warnings_of(const std::string& text, const TableForm& f
   return warnings.all;
 }
 
-// A unit that is not on our list is no error: its numbers are read, and the head says what they are of.
+// An unknown unit is no error: the numbers are read, and the head keeps the unit.
 TEST(TableReader, AnUnknownUnitStaysInTheHead) {
   EXPECT_EQ(csv("x [s],T [degC]\n1,20\n"), "x [s],T [degC]\n1,20\n");
   EXPECT_EQ(warnings_of("x [s],T [degC],U [mV]\n1,20,3\n"),
@@ -172,7 +172,7 @@ TEST(TableReader, BytesOfWindowsAreItsCharacters) {
   EXPECT_EQ(csv("n,note\n1,\x81\xE4\n"), "n,note\n1,\xEF\xBF\xBD\xC3\xA4\n");
 }
 
-// Local time goes back an hour in autumn; nothing but the key tells that from rows out of order.
+// Local time steps back an hour in autumn; only the key distinguishes it from rows out of order.
 TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
   const TableForm winter = with([](TableForm& f) { f.steps_back = StepsBack::winter_time; });
   const std::string quarters =
@@ -270,7 +270,7 @@ TEST(TableReader, ReadsBackWhatATableWrites) {
 }
 
 TEST(TableReader, ACommaIsReadWhereTheFileTellsWhatItIs) {
-  // One number that can be read in one way only tells of all.
+  // One unambiguous number decides the form of all numbers.
   EXPECT_EQ(csv("a;b\n1,250;0,5\n"), "a,b\n1.25,0.5\n");
   EXPECT_EQ(csv("a;b\n1.250,5;1.000\n"), "a,b\n1250.5,1000\n");
   EXPECT_EQ(csv("a;b\n1,250.5;1,000\n"), "a,b\n1250.5,1000\n");
@@ -327,7 +327,7 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "line 3, column 2 (b): \"#VALUE!\" is no nu");
   EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
   EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
-  // Lines above a table that look like one of one column.
+  // Lines above a table, in the form of a table with one column.
   EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
             "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
             "skip=");
@@ -347,7 +347,7 @@ TEST(TableReader, QuotedCellsGoOnOverLines) {
   const std::string all = "n,words,more\n1,\"x, \"\"y\"\"\n\n# no comment; z\",\"u\nv\"\n2,w,w\n";
   EXPECT_EQ(csv(all), all);
   EXPECT_EQ(csv("words,n\n\"x\ny\",1\n"), "words,n\n\"x\ny\",1\n");
-  // What a table writes it reads.
+  // A table reads its own output.
   EXPECT_EQ(std::get<std::string>(read(csv("a,b\n1,\"\r\n x\n\"\n")).cell(0, 1)), "\n x\n");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations against what is known of them: estimates of a certified problem, the coverage of intervals
+// Calibrations against known answers: estimates of a certified problem, the coverage of intervals
 // over many experiments of the tilt law tan θ = α + τ0 c (kinds of METROLOGY, uncertainty_calibration.csv),
 // what is said where rows do not determine every parameter, and each refusal.
 #include "engine/study/calibration.hpp"
@@ -17,7 +17,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/curve_fit.hpp"
+#include "engine/study/curve_fit.hpp"
 
 namespace asperity::calibration_test {
 namespace {
@@ -181,7 +181,7 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
 }
 
 TEST(Calibration, FewSpecimensHideTheirScatter) {
-  // Four times the specimens of which the same scatter is seen more often.
+  // Four times as many specimens show the same scatter more often.
   const Coverage few = coverage_of(3, 4, 0.1, coverage_sets()),
                  many = coverage_of(12, 4, 0.1, coverage_sets());
   EXPECT_LT(few.by_specimens, many.by_specimens);
@@ -408,7 +408,7 @@ TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
   CalibrationOptions options;
   options.basis = CalibrationBasis::specimens;
   const Calibration found = calibrate(made.rows, made.model(), tilt_law, options);
-  FitPoints means;
+  CalibrationRows means;
   for (std::size_t s = 0; s < 5; ++s) {
     double mean = 0;
     for (std::size_t k = 0; k < 5; ++k) mean += made.rows.y[5 * s + k] / 5;
@@ -417,8 +417,8 @@ TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
   }
   const CurveFit line = fit_line(means);
   for (std::size_t p = 0; p < 2; ++p) {
-    EXPECT_NEAR(*found.parameters[p].value, line.parameters[p].value, 1e-9);
-    EXPECT_NEAR(*found.parameters[p].low, line.parameters[p].low, 1e-7);
+    EXPECT_NEAR(*found.parameters[p].value, *line.found.parameters[p].value, 1e-9);
+    EXPECT_NEAR(*found.parameters[p].low, *line.found.parameters[p].low, 1e-7);
   }
 }
 
@@ -432,15 +432,16 @@ TEST(Calibration, OneRowASpecimenIsNoRepeat) {
 TEST(Calibration, UncertaintiesWeighAndAreChecked) {
   Experiment made = experiment(6, 4, 0, 3);
   made.rows.specimens.clear();
-  FitPoints points{made.c, made.rows.y, {}};
-  for (const double c : made.c) {
-    made.rows.u.push_back(0.1 + 0.05 * c);
-    points.weights.push_back(1 / (made.rows.u.back() * made.rows.u.back()));
-  }
-  const Calibration found = calibrate(made.rows, made.model(), tilt_law);
-  const CurveFit line = fit_line(points);
-  EXPECT_NEAR(*found.parameters[1].value, line.parameters[1].value, 1e-9);
-  EXPECT_NEAR(*found.parameters[1].standard_error, line.parameters[1].standard_error, 1e-9);
+  for (const double c : made.c) made.rows.u.push_back(0.1 + 0.05 * c);
+  made.rows.x = made.c;
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law),
+                    ratios = calibrate(made.rows, made.model(), tilt_law, {.relative_u = true}),
+                    line = fit_line(made.rows).found;
+  EXPECT_NEAR(*found.parameters[1].value, *line.parameters[1].value, 1e-9);
+  EXPECT_NEAR(*found.parameters[1].standard_error, *line.parameters[1].standard_error, 1e-9);
+  EXPECT_NEAR(*ratios.parameters[1].standard_error,
+              *line.parameters[1].standard_error * found.residual_deviation, 1e-9);
+  EXPECT_TRUE(warns(found, "times as far as `u` says"));
   for (double& u : made.rows.u) u /= 10;
   EXPECT_TRUE(warns(calibrate(made.rows, made.model(), tilt_law), "times as far as `u` says"));
 }
@@ -456,7 +457,7 @@ TEST(Calibration, AsManyRowsAsParameters) {
   EXPECT_FALSE(found.parameters[0].low || found.parameters[0].profile_low || found.fitted_low[0]);
   EXPECT_TRUE(says(found.verdict, "there are no intervals")) << found.verdict;
   const Calibration known = calibrate({{0.5, 0.8}, {0.01, 0.01}}, model, tilt_law);
-  // u(tau0) = sqrt(2) u / (c2 - c1), and 1.96 of them.
+  // The half-width is 1.96 u(tau0), with u(tau0) = sqrt(2) u / (c2 - c1).
   EXPECT_NEAR(*known.parameters[1].high - 0.3, 1.959963984540054 * std::sqrt(2) * 0.01, 1e-7);
   EXPECT_TRUE(says(known.verdict, "rest on `u` alone")) << known.verdict;
 }
@@ -467,8 +468,8 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   const Calibration found = calibrate(made.rows, made.model(), bounded, relative);
   EXPECT_EQ(*found.parameters[0].value, 0.35);
   EXPECT_TRUE(found.parameters[0].at_lower);
-  EXPECT_FALSE(found.parameters[0].low);
-  EXPECT_TRUE(found.parameters[1].low);
+  EXPECT_FALSE(found.parameters[0].low || found.parameters[1].low);
+  EXPECT_TRUE(found.parameters[1].profile_low);
   EXPECT_TRUE(says(found.verdict, "alpha stands at its lower bound 0.35: the rows ask for less"))
       << found.verdict;
   // The other is at its best with the bound held.
@@ -479,6 +480,195 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   };
   EXPECT_NEAR(*found.parameters[1].value, *calibrate(made.rows, held, alone, relative).parameters[0].value,
               1e-6);
+}
+
+// Two nearly equal real areas determine a sum; noise often asks for a parameter below its bound.
+TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
+  int at_bound = 0;
+  for (const double ratio : {1.01, 1.05, 1.1, 1.3})
+    for (const double lower : {-1e9, 0.0})
+      for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+        Experiment made = experiment(2, ratio, 0, seed, 7);
+        const std::vector<CalibrationParameter> law = {{"alpha", 0.1, lower, {}}, {"tau0", 0.3, 0.0, {}}};
+        const Calibration found = calibrate(made.rows, made.model(), law, relative);
+        const CalibratedParameter &alpha = found.parameters[0], &tau0 = found.parameters[1];
+        if (!alpha.at_lower && !tau0.at_lower) continue;
+        ++at_bound;
+        EXPECT_FALSE(alpha.low || tau0.low || alpha.standard_error || tau0.standard_error);
+        EXPECT_FALSE(alpha.profile_low.value_or(0) > 0.2 || alpha.profile_high.value_or(1) < 0.2);
+        EXPECT_FALSE(tau0.profile_low.value_or(0) > 0.3 || tau0.profile_high.value_or(1) < 0.3);
+        EXPECT_FALSE(alpha.value && tau0.value) << found.verdict;
+        ASSERT_EQ(found.combinations.size(), 1U) << found.verdict;
+        EXPECT_TRUE(says(found.verdict, "only " + found.combinations[0] + " is known")) << found.verdict;
+        EXPECT_FALSE(found.identifiable);
+      }
+  EXPECT_GT(at_bound, 40);
+}
+
+// The profile of the other parameter lets the one at its bound move: S at its ends, by a fit of the bound
+// one.
+TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
+  const Experiment made = experiment(6, 4, 0, 3);
+  const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
+  CalibrationRows rows = made.rows;
+  rows.specimens.clear();
+  const Calibration found = calibrate(rows, made.model(), law);
+  ASSERT_TRUE(found.parameters[0].at_lower && found.parameters[1].profile_low);
+  for (const double end : {*found.parameters[1].profile_low, *found.parameters[1].profile_high}) {
+    const CalibrationModel fixed = [&](std::span<const double> q, std::size_t row) {
+      return q[0] + end * made.c[row];
+    };
+    const Calibration there =
+        calibrate(rows, fixed, std::vector<CalibrationParameter>{{"alpha", 0.3, 0.24, 1.0}});
+    const double variance = found.sum_of_squares / static_cast<double>(found.degrees);
+    EXPECT_NEAR((there.sum_of_squares - found.sum_of_squares) / variance / found.cut, 1, 0.02);
+  }
+}
+
+TEST(Calibration, StartAtWhichNoStepChangesARowIsRefused) {
+  const std::vector<double> x = {1, 2, 3, 4, 5};
+  const CalibrationRows rows{{5.1, 10.2, 14.7, 20.3, 24.8}};
+  const auto refused = [&](double n, double factor, double shift) {
+    const CalibrationModel whole = [&](std::span<const double> q, std::size_t row) {
+      return std::floor(q[0] + 0.5) * x[row] * factor + shift * q[1];
+    };
+    return error_of([&] {
+      calibrate(rows, whole, std::vector<CalibrationParameter>{{"n", n, {}, {}}, {"b", 1, {}, {}}});
+    });
+  };
+  for (const double n : {3.0, 2.8, 0.0, -40.0})
+    EXPECT_TRUE(
+        says(refused(n, 1, 1), "no row changes when `n` makes a step at its start " + format_short(n)));
+  EXPECT_TRUE(says(refused(3, 0, 0), "no row changes when"));
+}
+
+TEST(Calibration, KnownUncertaintyGivesTheIntervalWithoutScatter) {
+  // Three points on a line with u = 1: u(slope) = 1/sqrt(2).
+  const std::vector<double> c = {1, 2, 3};
+  const CalibrationModel line = [&](std::span<const double> q, std::size_t row) {
+    return q[0] + q[1] * c[row];
+  };
+  const Calibration found = calibrate({{2, 4, 6}, {1, 1, 1}}, line, tilt_law);
+  EXPECT_NEAR(*found.parameters[1].standard_error, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(*found.parameters[1].high, 2 + 1.959963984540054 * std::sqrt(0.5), 1e-9);
+  EXPECT_TRUE(found.parameters[1].profile_high);
+}
+
+int warned(const std::string& part, int sets, auto make) {
+  int said = 0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    const Stream draws(static_cast<std::uint64_t>(seed), "rows with residuals to look at");
+    CalibrationRows rows;
+    std::vector<double> x;
+    double before = draws.normal(999);
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      x.push_back(static_cast<double>(k) / 20);
+      rows.y.push_back(make(draws, k, x.back(), before));
+    }
+    const CalibrationModel line = [&](std::span<const double> q, std::size_t row) {
+      return q[0] + q[1] * x[row];
+    };
+    said += warns(calibrate(rows, line, tilt_law, {.profile = false}), part) ? 1 : 0;
+  }
+  return said;
+}
+
+TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
+  constexpr int sets = 100;
+  const auto line = [](const Stream& draws, std::uint64_t k, double x, double&) {
+    return 1 + x + 0.1 * draws.normal(k);
+  };
+  const auto parabola = [](const Stream& draws, std::uint64_t k, double x, double&) {
+    return x * x + 0.02 * draws.normal(k);
+  };
+  const auto drift = [](const Stream& draws, std::uint64_t k, double x, double& before) {
+    before = 0.8 * before + 0.6 * draws.normal(k);
+    return 1 + x + 0.1 * before;
+  };
+  const auto copies = [](const Stream& draws, std::uint64_t k, double, double&) {
+    return static_cast<double>(k / 4 * 4) / 20 + 0.1 * draws.normal(k / 4);
+  };
+  EXPECT_LE(warned("keep their sign", sets, line), 10);  // 5 % at most
+  EXPECT_LE(warned("neighbouring rows", sets, line), 12);
+  EXPECT_GE(warned("keep their sign", sets, parabola), 95);
+  EXPECT_GE(warned("neighbouring rows", sets, drift), 60);
+  EXPECT_EQ(warned("rows repeat another row exactly", sets, copies), 0);  // x differs
+  const Experiment made = experiment(6, 4, 0, 3, 1);
+  Experiment often;
+  for (int copy = 0; copy < 4; ++copy)
+    for (std::size_t k = 0; k < 6; ++k) {
+      often.c.push_back(made.c[k]);
+      often.rows.y.push_back(made.rows.y[k]);
+    }
+  EXPECT_TRUE(
+      warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
+}
+
+// A model with one parameter whose faces differ by a factor of 1 - d and 1 + d.
+TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
+  constexpr double d = 0.1, u = 1e-9;
+  const std::vector<CalibrationParameter> start = {{"q", 1, {}, {}}};
+  const auto error_of_q = [&](const std::vector<std::string>& specimens) {
+    CalibrationRows rows{{2, 2, 2, 2}, std::vector<double>(4, u)};
+    rows.specimens = specimens;
+    rows.replicates = 2;
+    const CalibrationBatch faces = [](std::span<const CalibrationQuery> queries, const auto& done) {
+      std::vector<double> values;
+      for (const CalibrationQuery& query : queries)
+        values.push_back(query.parameters[0] * (query.replicate == 0 ? 1 - d : 1 + d));
+      done(values.size());
+      return values;
+    };
+    const Calibration found =
+        calibrate(rows, faces, start, {.basis = CalibrationBasis::rows}, Monitor::silent());
+    EXPECT_NEAR(*found.parameters[0].value, 2, 1e-12);
+    EXPECT_NEAR(found.parameters[0].share_of_faces, 1, 1e-9);
+    EXPECT_FALSE(found.parameters[0].profile_low);
+    EXPECT_NEAR(found.cut, std::pow(12.706204736174698, 2), 1e-6);  // t for one degree
+    EXPECT_TRUE(says(found.verdict, "a mean over 2 replicates, whose scatter makes 100 % of u² of q"));
+    return *found.parameters[0].standard_error;
+  };
+  // Variances: 2 q² d² for a single face, q² d² for the mean over both.
+  EXPECT_NEAR(error_of_q({}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "A", "A", "A"}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "A", "B", "B"}), 2 * d * std::sqrt(2 / 2.0 + 1), 1e-7);
+  EXPECT_NEAR(error_of_q({"A", "B", "C", "D"}), 2 * d * std::sqrt(2 / 4.0 + 1), 1e-7);
+}
+
+// Specimens with faces of their own; the model knows other faces of the same kind.
+TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
+  constexpr int sets = 60;
+  const auto held = [](std::size_t faces) {
+    int count = 0;
+    for (std::uint64_t set = 1; set <= sets; ++set) {
+      const Stream draws(set, "faces of a calibration");
+      Experiment made;
+      for (std::uint64_t s = 0; s < 6; ++s)
+        for (std::uint64_t k = 0; k < 5; ++k) {
+          made.c.push_back(s < 3 ? 0.5 : 2);
+          made.rows.y.push_back((0.2 + 0.3 * made.c.back() * (1 + 0.1 * draws.normal(s))) *
+                                (1 + 0.05 * draws.normal(100 + 5 * s + k)));
+          made.rows.specimens.push_back("S" + std::to_string(s));
+        }
+      made.rows.replicates = faces;
+      const CalibrationBatch model = [&](std::span<const CalibrationQuery> queries, const auto& done) {
+        std::vector<double> values;
+        for (const CalibrationQuery& of : queries) {
+          const std::uint64_t face = (made.c[of.row] > 1 ? 500U : 600U) + of.replicate;
+          values.push_back(of.parameters[0] +
+                           of.parameters[1] * made.c[of.row] * (1 + 0.1 * draws.normal(face)));
+        }
+        done(values.size());
+        return values;
+      };
+      const Calibration found = calibrate(made.rows, model, tilt_law, relative, Monitor::silent());
+      const CalibratedParameter& tau0 = found.parameters[1];
+      count += *tau0.low <= 0.3 && 0.3 <= *tau0.high ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_LE(held(1), 50);
+  EXPECT_GE(held(6), 53);  // 95 % of 60 is 57, with a standard error of 1.7
 }
 
 TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {

@@ -27,14 +27,14 @@ std::vector<Function> table_methods();
 std::vector<Function> table_analysis_methods();
 std::vector<const RecordInfo*> table_analysis_results();
 
+// The methods one by one.
 Function mean_method();
 Function histogram_method();
 Function fit_method();
 Function chart_method();
 const RecordInfo& histogram_type();
-std::vector<const RecordInfo*> fit_types();
 
-// A fit as a record of t:fit holds it; nothing for any other value.
+// The curve of a fit; nothing for any other value.
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 }  // namespace asperity::lua

@@ -260,10 +260,6 @@ std::vector<Function> table_analysis_methods() {
   return {mean_method(), fit_method(), histogram_method(), chart_method()};
 }
 
-std::vector<const RecordInfo*> table_analysis_results() {
-  std::vector<const RecordInfo*> types = fit_types();
-  types.push_back(&histogram_type());
-  return types;
-}
+std::vector<const RecordInfo*> table_analysis_results() { return {&histogram_type()}; }
 
 }  // namespace asperity::lua

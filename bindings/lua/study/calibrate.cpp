@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: what is asked for, the rows as the model gets them, and the model, a function of the script
+// lab.calibrate: its parameters, and the model, a function of the script
 // that is called with the table q of the parameters in SI and one row as rows() gives it.
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_values.hpp"
@@ -18,8 +18,6 @@
 #include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/statistics/number_columns.hpp"
-#include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
 
@@ -29,16 +27,12 @@ using Rows = asperity::Table;
 
 // --- what is asked for
 
-struct CalibrateKeys {
+struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::string y;
   std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
   std::vector<Dimension> dimensions;
-  std::optional<double> u_number;
-  std::optional<std::string> u_text;  // a column, or a quantity
-  std::optional<std::string> specimen;
-  TableFilter where;
-  CalibrationOptions options;
+  std::string replicate;  // its key
+  std::vector<double> faces;
 };
 
 // One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
@@ -125,6 +119,22 @@ void read_parameters(const Argument& value, const OptionInfo& info, CalibrateKey
   }
 }
 
+void read_replicate(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+  std::size_t count = 0;
+  if (value.is_table())
+    value.each([&](const Argument& key, const Argument& list) {
+      ++count;
+      if (key.is_text()) keys.replicate = std::string(key.text());
+      for (std::int64_t k = 1; list.is_table() && k <= list.length(); ++k)
+        list.element(k, [&](const Argument& face) {
+          if (face.is_number()) keys.faces.push_back(face.number());
+        });
+    });
+  if (count != 1 || keys.replicate.empty() || keys.faces.size() < 2)
+    detail::wrong_type(value, info, "one key with two numbers or more, as in { seed={ 1, 2, 3, 4 } }",
+                       problems);
+}
+
 void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
   if (const auto* book = value.as<Notebook>()) {
     keys.data = std::make_shared<const Rows>(book->table());
@@ -135,29 +145,8 @@ void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& key
   }
 }
 
-void read_u(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
-  if (value.is_number())
-    keys.u_number = value.number();
-  else if (value.is_text())
-    keys.u_text = std::string(value.text());
-  else
-    detail::wrong_type(value, info, "a column, a number or a quantity", problems);
-}
-
-Option<CalibrateKeys> in_options(Option<CalibrationOptions> inner) {
-  Option<CalibrateKeys> option;
-  option.info = std::move(inner.info);
-  option.read = [read = std::move(inner.read)](const Argument& value, const OptionInfo& info,
-                                               CalibrateKeys& keys, Problems& problems) {
-    read(value, info, keys.options, problems);
-  };
-  option.show = [show = std::move(inner.show)](const CalibrateKeys& keys) { return show(keys.options); };
-  return option;
-}
-
 const Block<CalibrateKeys>& calibrate_block() {
   using K = CalibrateKeys;
-  using O = CalibrationOptions;
   static const Block<K> block{
       "lab.calibrate",
       {custom<K>("model", "function",
@@ -177,105 +166,13 @@ const Block<CalibrateKeys>& calibrate_block() {
            read_parameters)
            .required(),
        custom<K>(
-           "u", "string|number",
-           "standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by "
-           "1/u². All alike without it",
-           read_u),
-       in_options(
-           choice("scatter", &O::scatter,
-                  {{"absolute", CalibrationScatter::absolute}, {"relative", CalibrationScatter::relative}},
-                  "what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²)")),
-       text(
-           "specimen", &K::specimen,
-           "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
-           "than repeats their means are what is fitted"),
-       in_options(
-           choice("basis", &O::basis,
-                  {{"automatic", CalibrationBasis::automatic},
-                   {"rows", CalibrationBasis::rows},
-                   {"specimens", CalibrationBasis::specimens}},
-                  "what counts as an observation; automatic: rows, and specimens where they scatter (F test "
-                  "at 25 %)")),
-       in_options(Option<O>(number("confidence", &O::confidence, inside(0, 1), "of the intervals"))),
-       in_options(
-           flag("profile", &O::profile,
-                "intervals by profile likelihood as well: two sets of parameters each where the model is "
-                "straight, ten or more where it is curved")),
+           "replicate", "table",
+           "a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and "
+           "their scatter a part of u that rows of one specimen share; intervals are linearised alone",
+           read_replicate),
+       u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
        where_key(&K::where)}};
   return block;
-}
-
-// --- the rows
-
-struct CalibrationInput {
-  CalibrationRows rows;
-  Rows used;
-  std::vector<std::size_t> numbers;
-  std::size_t left_out = 0;
-};
-
-std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
-
-// "`load` is 5 N" for each column with the same number or word in all rows, beside the y.
-std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
-  std::vector<std::string> found;
-  constexpr std::size_t most = 4;
-  for (std::size_t k = 0; k < table.columns().size() && found.size() < most; ++k) {
-    if (but.contains(k) || table.rows() < 2 || is_empty(table.cell(0, k))) continue;
-    bool same = true;
-    for (std::size_t row = 1; row < table.rows() && same; ++row)
-      same = same_cell(table.cell(row, k), table.cell(0, k));
-    if (same)
-      found.push_back(quoted(table.columns()[k].name) + " is " + short_text(table.cell(0, k)) +
-                      unit_text(table.columns()[k]));
-  }
-  return found;
-}
-
-CalibrationInput input_of(const CalibrateKeys& keys) {
-  const Rows chosen = rows_of(*keys.data, keys.where.rows(*keys.data));
-  if (chosen.rows() == 0 && !keys.where.empty() && !TableFilter().rows(*keys.data).empty())
-    throw Error(ErrorCode::bad_value, "no row matches `where` " + keys.where.text(),
-                "give values that its columns hold");
-  std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
-  const std::size_t y = chosen.column(keys.y, "y");
-  std::set<std::size_t> told = {y};
-  const bool u_column = keys.u_text && chosen.find_column(*keys.u_text);
-  std::optional<double> u = keys.u_number;
-  if (u_column) {
-    named.emplace_back("u", *keys.u_text);
-    told.insert(chosen.column(*keys.u_text, "u"));
-  } else if (keys.u_text) {
-    try {
-      u = parse_quantity_in(*keys.u_text, chosen.columns()[y].unit);
-    } catch (const Error& error) {
-      throw Error(error.code(),
-                  "`u` is neither a column of " + chosen.name() + " nor a value of " + quoted(keys.y) + ": " +
-                      error.sentence(),
-                  "give a column, or a quantity such as \"0.5 deg\"");
-    }
-  }
-  std::optional<std::size_t> specimen;
-  if (keys.specimen) specimen = chosen.column(*keys.specimen, "specimen");
-  if (specimen) told.insert(*specimen);
-  const NumberColumns numbers = number_columns(chosen, named);
-  CalibrationInput found;
-  std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < numbers.rows.size(); ++k) {
-    const std::size_t row = numbers.rows[k];
-    if (specimen && is_empty(chosen.cell(row, *specimen))) continue;
-    used.push_back(row);
-    found.numbers.push_back(row + 1);
-    found.rows.y.push_back(numbers.values[0][k]);
-    if (u_column) found.rows.u.push_back(numbers.values[1][k]);
-    if (specimen) found.rows.specimens.push_back(short_text(chosen.cell(row, *specimen)));
-  }
-  if (u) found.rows.u.assign(found.rows.y.size(), *u);
-  found.left_out = chosen.rows() - used.size();
-  found.used = rows_of(chosen, used);
-  found.rows.numbers = found.numbers;
-  found.rows.alike = alike_columns(found.used, told);
-  return found;
 }
 
 // --- the model
@@ -283,16 +180,17 @@ CalibrationInput input_of(const CalibrateKeys& keys) {
 // The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
 class CalibratedFunction {
  public:
-  CalibratedFunction(const Call& call, const Argument& function, const Rows& rows,
-                     const std::vector<CalibrationParameter>& parameters,
+  CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
                      const std::vector<std::size_t>& numbers)
       : session_(call.session()),
         monitor_(session_.monitor()),
         L(function.state()),
         function_(function.index()),
-        parameters_(parameters),
+        parameters_(keys.parameters),
+        faces_(keys.faces),
         numbers_(numbers) {
-    const auto count = static_cast<int>(parameters.size());
+    if (!faces_.empty()) parameters_.push_back({keys.replicate, faces_.front(), {}, {}});
+    const auto count = static_cast<int>(parameters_.size());
     if (lua_checkstack(L, count + 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     list_ = rows_of_table(rows);
     const Value list = list_;
@@ -300,7 +198,7 @@ class CalibratedFunction {
       luaL_checkstack(s, count + 20, nullptr);
       push(s, list);
       lua_createtable(s, 0, count);
-      for (const CalibrationParameter& parameter : parameters) {
+      for (const CalibrationParameter& parameter : parameters_) {
         lua_pushlstring(s, parameter.name.data(), parameter.name.size());
         lua_pushvalue(s, -1);
         lua_pushnumber(s, parameter.start);
@@ -323,8 +221,9 @@ class CalibratedFunction {
     if (batch_ == nullptr) {
       for (const CalibrationQuery& query : queries) {
         stop_flag().check();
-        const bool known = begun_ && query.row == 0 && std::ranges::equal(query.parameters, start());
-        values.push_back(known ? *std::exchange(begun_, {}) : (*this)(query.parameters, query.row));
+        const std::vector<double> q = values_of(query);
+        const bool known = begun_ && query.row == 0 && q == start();
+        values.push_back(known ? *std::exchange(begun_, {}) : (*this)(q, query.row));
         done(values.size());
         if (!std::isfinite(values.back())) break;
       }
@@ -333,17 +232,18 @@ class CalibratedFunction {
     std::vector<Values> arguments;
     for (const CalibrationQuery& query : queries) {
       Map q;
+      const std::vector<double> given = values_of(query);
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        q.items.emplace_back(parameters_[k].name, Value(query.parameters[k]));
+        q.items.emplace_back(parameters_[k].name, Value(given[k]));
       arguments.push_back({Value(std::move(q)), list_.items[query.row]});
     }
     const Session::Reporting reporting(session_, monitor_);
     const std::vector<BatchedAnswer> answers = batch_->answers(arguments, done);
     for (std::size_t k = 0; k < answers.size(); ++k) {
       if (!answers[k].failure.empty())
-        throw failure_in(queries[k].parameters, queries[k].row, without_traceback(answers[k].failure));
+        throw failure_in(values_of(queries[k]), queries[k].row, without_traceback(answers[k].failure));
       if (!answers[k].number && !answers[k].nil)
-        throw wrong_answer(queries[k].parameters, queries[k].row, answers[k].other);
+        throw wrong_answer(values_of(queries[k]), queries[k].row, answers[k].other);
       values.push_back(answers[k].number.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     return values;
@@ -400,6 +300,12 @@ class CalibratedFunction {
     if (heavy_) batch_ = call_batch(call, function, "model");
   }
 
+  std::vector<double> values_of(const CalibrationQuery& query) const {
+    std::vector<double> q(query.parameters.begin(), query.parameters.end());
+    if (!faces_.empty()) q.push_back(faces_[query.replicate]);
+    return q;
+  }
+
   std::vector<double> start() const {
     std::vector<double> q;
     for (const CalibrationParameter& parameter : parameters_) q.push_back(parameter.start);
@@ -430,63 +336,38 @@ class CalibratedFunction {
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
-  const std::vector<CalibrationParameter>& parameters_;
+  std::vector<CalibrationParameter> parameters_;  // and the replicate, where there is one
+  std::vector<double> faces_;
   const std::vector<std::size_t>& numbers_;
 };
 
 // --- the function
 
-std::string specimen_column_hint(const CalibrateKeys& keys, const CalibrationInput& input) {
-  if (keys.specimen) return "";
-  for (const char* name : {"specimen", "specimens", "sample"}) {
-    const auto column = input.used.find_column(name);
-    if (!column) continue;
-    std::set<std::string> different;
-    for (std::size_t row = 0; row < input.used.rows(); ++row)
-      different.insert(short_text(input.used.cell(row, *column)));
-    if (different.size() > 1 && different.size() < input.used.rows())
-      return "the rows have a column " + quoted(name) +
-             ", which the calibration was not told of: repeats on one specimen are not independent; give "
-             "specimen=\"" +
-             name + "\"";
-  }
-  return "";
-}
-
 Values run_calibration(Call& call) {
   const CalibrateKeys keys = call.options(calibrate_block());
   if (keys.data == nullptr)
     throw Error(ErrorCode::bad_state, "`data` has no rows", "give a table of measured rows");
-  CalibrationInput input = input_of(keys);
+  CalibrationInput input = calibration_input(*keys.data, keys);
   Session& session = call.session();
   return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
     const Argument::StackGuard guard(call.L);
-    CalibrationReport report;
     check_calibration(input.rows, keys.parameters, keys.options);
-    {
-      CalibratedFunction model(call, function, input.used, keys.parameters, input.numbers);
-      CalibrationOptions options = keys.options;
-      options.sparing = model.heavy();
-      const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
-                                              const std::function<void(std::size_t)>& done) {
-        return model(queries, done);
-      };
-      report.found = calibrate(input.rows, batch, keys.parameters, options, session.monitor());
-    }
-    report.rows = std::move(input.used);
-    report.numbers = std::move(input.numbers);
-    report.left_out = input.left_out;
-    report.y = split_column_unit(keys.y).name;
+    if (std::ranges::find(keys.parameters, keys.replicate, &CalibrationParameter::name) !=
+        keys.parameters.end())
+      throw Error(ErrorCode::bad_value,
+                  "`replicate` names " + quoted(keys.replicate) + ", which is a parameter, too",
+                  "give one of them another name");
+    input.rows.replicates = std::max<std::size_t>(keys.faces.size(), 1);
+    CalibratedFunction model(call, function, input.used, keys, input.numbers);
+    CalibrationOptions options = keys.options;
+    options.sparing = model.heavy();
+    const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
+                                            const std::function<void(std::size_t)>& done) {
+      return model(queries, done);
+    };
+    Calibration found = calibrate(input.rows, batch, keys.parameters, options, session.monitor());
+    CalibrationReport report = calibration_report(call, keys, std::move(input), std::move(found));
     report.dimensions = keys.dimensions;
-    report.scatter = keys.options.scatter;
-    report.known_uncertainty = !input.rows.u.empty();
-    warn_of(call, report.found.warnings);
-    // `input.used` went into the report; the hint reads that.
-    const std::string hint = specimen_column_hint(keys, {{}, report.rows, {}, 0});
-    if (!hint.empty()) {
-      report.found.warnings.push_back(hint);
-      warn_of(call, {hint});
-    }
     return {object(std::move(report))};
   });
 }

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/run/calibration.hpp"
 #include "engine/study/budget.hpp"
-#include "engine/study/calibration_report.hpp"
 #include "engine/study/sensitivity.hpp"
 #include "engine/study/work_precision.hpp"
 
@@ -57,9 +57,7 @@ Function sensitivity_function();
 template <>
 const Class& class_of<Sensitivity>();
 
-// lab.calibrate: parameters of a model of the script fitted to the rows of a table, and what it returns.
+// lab.calibrate: parameters of a model of the script fitted to the rows of a table.
 Function calibrate_function();
-template <>
-const Class& class_of<CalibrationReport>();
 
 }  // namespace asperity::lua

@@ -1,19 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lab.calibrate returns: its fields, and its charts.
+#include "bindings/lua/run/calibration.hpp"
+
+#include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
-#include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "bindings/lua/study/study.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
+#include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity::lua {
 
 namespace {
+
+using Rows = asperity::Table;
+
+// --- the keys
+
+void read_u(const Argument& value, const OptionInfo& info, CalibrationKeys& keys, Problems& problems) {
+  if (value.is_number())
+    keys.u_number = value.number();
+  else if (value.is_text())
+    keys.u_text = std::string(value.text());
+  else
+    detail::wrong_type(value, info, "a column, a number or a quantity", problems);
+}
+
+Option<CalibrationKeys> in_options(Option<CalibrationOptions> inner) {
+  Option<CalibrationKeys> option;
+  option.info = std::move(inner.info);
+  option.read = [read = std::move(inner.read)](const Argument& value, const OptionInfo& info,
+                                               CalibrationKeys& keys, Problems& problems) {
+    read(value, info, keys.options, problems);
+  };
+  option.show = [show = std::move(inner.show)](const CalibrationKeys& keys) { return show(keys.options); };
+  return option;
+}
+
+// --- the rows
+
+std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
+
+// "`load` is 5 N" for each column with the same number or word in all rows, beside the y.
+std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
+  std::vector<std::string> found;
+  constexpr std::size_t most = 4;
+  for (std::size_t k = 0; k < table.columns().size() && found.size() < most; ++k) {
+    if (but.contains(k) || table.rows() < 2 || is_empty(table.cell(0, k))) continue;
+    bool same = true;
+    for (std::size_t row = 1; row < table.rows() && same; ++row)
+      same = same_cell(table.cell(row, k), table.cell(0, k));
+    if (same)
+      found.push_back(quoted(table.columns()[k].name) + " is " + short_text(table.cell(0, k)) +
+                      unit_text(table.columns()[k]));
+  }
+  return found;
+}
+
+std::string specimen_column_hint(const CalibrationKeys& keys, const Rows& used) {
+  if (keys.specimen) return "";
+  for (const char* name : {"specimen", "specimens", "sample"}) {
+    const auto column = used.find_column(name);
+    if (!column) continue;
+    std::set<std::string> different;
+    for (std::size_t row = 0; row < used.rows(); ++row) different.insert(short_text(used.cell(row, *column)));
+    if (different.size() > 1 && different.size() < used.rows())
+      return "the rows have a column " + quoted(name) +
+             ", which was not named: repeats on one specimen are not independent; give specimen=\"" + name +
+             "\"";
+  }
+  return "";
+}
 
 // --- the records
 
@@ -37,16 +100,18 @@ const RecordType<ToldParameter>& calibrated_parameter_type() {
   static const RecordType<P> type{
       "CalibratedParameter",
       "parameter",
-      "A parameter of a calibration, in SI.",
+      "A parameter of a calibration, in SI; of a fit, in the units of its columns.",
       {told_number<&C::value>("value", "its estimate; nil where the rows do not determine it"),
        told_number<&C::standard_error>(
-           "u", "its standard uncertainty; nil at a bound, and where no scatter is seen"),
+           "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
        told_number<&C::low>("low", "lower end of its linearised interval, not cut off at a bound"),
        told_number<&C::high>("high", "upper end of its linearised interval"),
        told_number<&C::profile_low>(
            "profile_low", "lower end of its interval by profile likelihood; nil where the rows give none"),
        told_number<&C::profile_high>(
            "profile_high", "upper end of its interval by profile likelihood; nil where the rows give none"),
+       {"share_of_faces", [](const P& p) { return p.of.share_of_faces; },
+        "share of u² that the scatter of replicates makes; 0 without `replicate`"},
        {"determined", [](const P& p) { return p.of.determined; }, "whether the rows determine it"},
        {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it stands at its lower bound"},
        {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it stands at its upper bound"},
@@ -119,6 +184,33 @@ Values told_correlation(Call& call) {
   return {std::move(rows)};
 }
 
+using Curve = std::vector<CurvePoint>;
+
+std::vector<double> of_points(const Curve& curve, double CurvePoint::*member) {
+  std::vector<double> values;
+  for (const CurvePoint& point : curve) values.push_back(point.*member);
+  return values;
+}
+
+const RecordType<Curve>& curve_type() {
+  static const RecordType<Curve> type{
+      "FitCurve",
+      "curve",
+      "A fitted curve over the range of its points, with the pointwise interval of the curve.",
+      {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
+       {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
+       {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
+        "lower end of its interval there"},
+       {"high", [](const Curve& c) { return of_points(c, &CurvePoint::high); },
+        "upper end of its interval there"}}};
+  return type;
+}
+
+Values told_curve(Call& call) {
+  const auto& curve = call.self<CalibrationReport>().curve;
+  return {curve ? Value(curve_type()(curve->curve)) : Value()};
+}
+
 Values told_specimens(Call& call) {
   return {calibrated_specimen_type().list(call.self<CalibrationReport>().found.specimens)};
 }
@@ -181,6 +273,125 @@ Values chart_calibration(Call& call) {
 
 }  // namespace
 
+Option<CalibrationKeys> u_option() {
+  return custom<CalibrationKeys>("u", "string|number",
+                                 "standard uncertainty of y: a column, one number in the unit of y, or a "
+                                 "quantity; rows weigh by 1/u², and "
+                                 "intervals rest on u, whatever the residuals are. All alike without it",
+                                 read_u);
+}
+
+Option<CalibrationKeys> scatter_option() {
+  return in_options(
+      choice("scatter", &CalibrationOptions::scatter,
+             {{"absolute", CalibrationScatter::absolute}, {"relative", CalibrationScatter::relative}},
+             "what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²)"));
+}
+
+Option<CalibrationKeys> specimen_option() {
+  return text(
+      "specimen", &CalibrationKeys::specimen,
+      "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
+      "than repeats their means are what is fitted");
+}
+
+Option<CalibrationKeys> basis_option() {
+  return in_options(choice("basis", &CalibrationOptions::basis,
+                           {{"automatic", CalibrationBasis::automatic},
+                            {"rows", CalibrationBasis::rows},
+                            {"specimens", CalibrationBasis::specimens}},
+                           "what counts as an observation; automatic: rows, and specimens where they scatter "
+                           "(F test at 50 %)"));
+}
+
+Option<CalibrationKeys> confidence_option() {
+  return in_options(Option<CalibrationOptions>(
+      number("confidence", &CalibrationOptions::confidence, inside(0, 1), "of the intervals")));
+}
+
+Option<CalibrationKeys> profile_option() {
+  return in_options(
+      flag("profile", &CalibrationOptions::profile,
+           "intervals by profile likelihood as well: two sets of parameters each where the model "
+           "is straight, ten or more where it is curved"));
+}
+
+CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& keys) {
+  const Rows chosen = rows_of(table, keys.where.rows(table));
+  if (chosen.rows() == 0 && !keys.where.empty() && !TableFilter().rows(table).empty())
+    throw Error(ErrorCode::bad_value, "no row matches `where` " + keys.where.text(),
+                "give values that its columns hold");
+  std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
+  const std::size_t y = chosen.column(keys.y, "y");
+  std::set<std::size_t> told = {y};
+  std::optional<double> u = keys.u_number;
+  std::optional<std::size_t> x, weights, u_column, specimen;  // places in `named`, but the specimen
+  const auto name = [&](const char* key, const std::string& column) {
+    named.emplace_back(key, column);
+    told.insert(chosen.column(column, key));
+    return named.size() - 1;
+  };
+  if (keys.x) x = name("x", *keys.x);
+  if (keys.weights) weights = name("weights", *keys.weights);
+  if (keys.u_text && chosen.find_column(*keys.u_text)) {
+    u_column = name("u", *keys.u_text);
+  } else if (keys.u_text) {
+    try {
+      u = parse_quantity_in(*keys.u_text, chosen.columns()[y].unit);
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  "`u` is neither a column of " + chosen.name() + " nor a value of " + quoted(keys.y) + ": " +
+                      error.sentence(),
+                  "give a column, or a quantity such as \"0.5 deg\"");
+    }
+  }
+  if (keys.specimen) specimen = chosen.column(*keys.specimen, "specimen");
+  if (specimen) told.insert(*specimen);
+  const NumberColumns numbers = number_columns(chosen, named);
+  CalibrationInput found;
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < numbers.rows.size(); ++k) {
+    const std::size_t row = numbers.rows[k];
+    if (specimen && is_empty(chosen.cell(row, *specimen))) continue;
+    const double weight = weights ? numbers.values[*weights][k] : 1;
+    if (weight < 0)
+      throw Error(ErrorCode::bad_value,
+                  "the weight of row " + std::to_string(row + 1) + " is " + format_short(weight),
+                  "weights are not negative; give the uncertainty of y as `u` where it is known");
+    if (weight == 0) continue;
+    used.push_back(row);
+    found.numbers.push_back(row + 1);
+    found.rows.y.push_back(numbers.values[0][k]);
+    if (x) found.rows.x.push_back(numbers.values[*x][k]);
+    if (weights) found.rows.u.push_back(1 / std::sqrt(weight));
+    if (u_column) found.rows.u.push_back(numbers.values[*u_column][k]);
+    if (specimen) found.rows.specimens.push_back(short_text(chosen.cell(row, *specimen)));
+  }
+  if (u) found.rows.u.assign(found.rows.y.size(), *u);
+  found.left_out = chosen.rows() - used.size();
+  found.used = rows_of(chosen, used);
+  found.rows.numbers = found.numbers;
+  found.rows.alike = alike_columns(found.used, told);
+  return found;
+}
+
+CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, CalibrationInput input,
+                                     Calibration found) {
+  if (std::string hint = specimen_column_hint(keys, input.used); !hint.empty())
+    found.warnings.push_back(std::move(hint));
+  warn_of(call, found.warnings);
+  CalibrationReport report;
+  report.dimensions.assign(found.parameters.size(), dimension::number);
+  report.found = std::move(found);
+  report.rows = std::move(input.used);
+  report.numbers = std::move(input.numbers);
+  report.left_out = input.left_out;
+  report.y = split_column_unit(keys.y).name;
+  report.scatter = keys.options.scatter;
+  report.known_uncertainty = !input.rows.u.empty() && !keys.weights;
+  return report;
+}
+
 template <>
 const Class& class_of<CalibrationReport>() {
   using R = CalibrationReport;
@@ -189,10 +400,11 @@ const Class& class_of<CalibrationReport>() {
     c.name = "Calibration";
     c.article_name = "a calibration";
     c.sentence =
-        "What lab.calibrate found. print() shows a line a parameter, their correlation and the verdict.";
+        "What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and "
+        "warnings.";
     c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
     c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
-    c.results = {&calibrated_parameter_type(), &calibrated_specimen_type()};
+    c.results = {&calibrated_parameter_type(), &calibrated_specimen_type(), &curve_type()};
     c.fields = {
         {"parameters",
          "table<string, CalibratedParameter>",
@@ -209,6 +421,16 @@ const Class& class_of<CalibrationReport>() {
           for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
           return names;
         }>("names", "string[]", "of the parameters, in the order of `correlation`"),
+        field<[](const R& r) { return r.y; }>("y", "string", "the column that was fitted"),
+        field<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
+            "x", "string?", "of t:fit: the column along"),
+        field<[](const R& r) {
+          return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
+        }>("name", "string?", "of t:fit: what charts call it"),
+        {"curve", "FitCurve?", "of t:fit: the curve with its band, for drawing", {}, told_curve},
+        field<[](const R& r) { return r.r_squared; }>(
+            "r_squared", "number?",
+            "of t:fit: share of the scatter of y that the curve explains; nil where every y is the same"),
         field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
                                                                "whether the rows determine every parameter"),
         field<[](const R& r) { return r.found.verdict; }>(
@@ -226,8 +448,8 @@ const Class& class_of<CalibrationReport>() {
             "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
             "direction is not seen"),
         field<[](const R& r) { return r.numbers.size(); }>("n", "integer", "rows that were used"),
-        field<[](const R& r) { return r.left_out; }>("left_out", "integer",
-                                                     "rows with an empty cell or no finite number"),
+        field<[](const R& r) { return r.left_out; }>(
+            "left_out", "integer", "rows with an empty cell, no finite number or a weight of 0"),
         field<[](const R& r) { return std::vector<std::int64_t>(r.numbers.begin(), r.numbers.end()); }>(
             "rows", "integer[]", "the rows that were used, counted from 1 after `where`"),
         field<[](const R& r) { return r.found.fitted; }>("fitted", "number[]", "the model in each row"),
