@@ -88,7 +88,8 @@ std::vector<std::string> doubts(const State& state) {
 
 std::string described(const State& state) {
   std::string of_the_cells = state.closed() ? std::string() : discretisation_text(state);
-  if (state.chosen()) of_the_cells += (of_the_cells.empty() ? "" : "; ") + state.chosen()->text();
+  if (state.chosen() && !state.closed())
+    of_the_cells += "; " + state.chosen()->values_text() + "; " + state.chosen()->text();
   std::string text = state.text(of_the_cells);
   if (state.closed()) return text;
   for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
