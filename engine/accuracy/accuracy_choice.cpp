@@ -1,34 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tolerance starts at three ten-thousandths of the error asked for. There the rigorous bound on what a
-// solve leaves undone is nearly always below the error of the cells, and what a solve costs more than at
-// three times as much is less than what a few solved twice do; where the bound is still too wide, the same
-// grid is solved again more tightly. Where areas alone are asked for it starts at a hundredth: their bound
-// counts every node that might change sides, of which a tenth or fewer do.
-//
-// A corrected area of half-spaces lies within an outline between the nodes (contact/outline_area.hpp), whose
-// doubt says how far that is from the area on ever finer cells, so that no finer grid has to confirm it. It
-// counts with a margin, from the 90 in 100 that are within it to some 95. How far the area moved from the
-// grid before counts as well: in full on cells that miss the shortest waves, where the outline is sharp and
-// wrong, seven tenths of it on others, of a grid of half the cells; of grids closer together or further
-// apart, more or less of it. The bound of the solve, three applications of the half-space, is not
-// looked at: an outline moves by so little at this tolerance that as many errors are met without it. These
-// shares met 97.1 to 100 in 100 of each of four errors of 210 scenes at little cost (bench/asked_errors.lua,
-// seeds 1201 to 1206, and six each from 1301, 1401, 1601 and 1701 on). The doubt falls as the cells a side to
-// the power 1.38, so one grid tells which may be fine enough: what lies between is left out, and half as many
-// cells again as a grid of the doubling sequence are enough where they do.
-//
-// Where there is no such outline, what the cells leave wrong in a corrected area follows the one of edges. Of
-// the correction c = A - A_c, relative to A_c, a tenth is wrong on every grid and the rest by chance, the
-// less the more edges N the outline has:
-//   |error| < c (0.1 + 4/sqrt(N))
-// in 19 of 20 scenes (balls, Weierstrass-Mandelbrot, self-affine, blasted, capped, hardening; both
-// boundaries; N from 8 to 8192; the seeds that it was fitted to are not those of tests/accuracy). Two
-// differences between successive grids count beside it, so that grids must agree before the finer of them is
-// believed.
+// Three functions and a loop: try a grid, judge it, find the next. The constants are those of
+// bench/requested_error.lua, seeds 1 to 10 of each kind; docs/accuracy.md has the shares on other seeds.
 #include "engine/accuracy/accuracy_choice.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -39,12 +14,14 @@
 
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
+#include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/part_monitor.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
@@ -53,22 +30,79 @@ namespace asperity {
 namespace {
 
 constexpr int fewest_cells_to_begin = 16;
-// Fewer are not believed; what is not an area was looked into on no fewer than the second.
+// An area is judged by one coarser grid at least, other quantities by two.
 constexpr int fewest_of_an_area = 32, fewest_of_others = 64;
-constexpr double share_of_bound = 0.1;  // of the nodes that might change sides
-constexpr double margin_of_doubt = 1.2;
 constexpr double tightest = 1e-10, tighter = 30;
+constexpr double with_coarser = 4.0 / 3;  // the work of a grid and all coarser ones
 
-double transform_work(int nx, int ny) {
-  const double n = static_cast<double>(nx) * ny;
-  return n * elementary::log2(std::max(n, 2.0));
+bool is_area(std::string_view quantity) {
+  return quantity == "corrected_area_fraction" || quantity == "area_fraction" || quantity == "area";
 }
+bool is_corrected_area(std::string_view quantity) { return quantity == "corrected_area_fraction"; }
 
 double rms_of(const Field& heights) {
   const double middle = known_mean(heights.values());
   Array<double> squares(heights.size());
   for (std::size_t k = 0; k < heights.size(); ++k) squares[k] = (heights[k] - middle) * (heights[k] - middle);
   return std::sqrt(known_mean(squares));
+}
+
+Grid doubled(Grid grid) {
+  grid.nx *= 2;
+  grid.ny *= 2;
+  return grid;
+}
+
+// --- the grids
+
+struct GridsToTry {
+  Grid first, finest;
+  std::string limit;  // why none is finer: "4096 x 4096 cells are the most within 4 GiB of memory"
+};
+
+bool can_be_made_again(const Scene& scene) {
+  const auto* const upper = std::get_if<Surface>(&scene.upper);
+  return scene.lower.recipe() && (upper == nullptr || upper->recipe());
+}
+
+// Seconds of all grids up to this one and bytes of a press on it, by the plan of the cells given.
+double seconds_up_to(const Grid& grid, const Grid& given, const Plan& plan) {
+  return with_coarser * plan.seconds * transform_work(grid) / transform_work(given);
+}
+double bytes_on(const Grid& grid, const Grid& given, const Plan& plan) {
+  return static_cast<double>(plan.bytes_grown()) * static_cast<double>(grid.nodes()) /
+         static_cast<double>(given.nodes());
+}
+
+GridsToTry grids_to_try(const Scene& scene, const Plan& plan) {
+  const AskedError& asked = *scene.accuracy.asked;
+  const Grid& given = scene.lower.grid();
+  Grid grid = given;
+  while (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::max(grid.nx, grid.ny) / 2 >= fewest_cells_to_begin &&
+         !coarser_grids({grid.nx / 2, grid.ny / 2, grid.size_x, grid.size_y}).empty()) {
+    grid.nx /= 2;
+    grid.ny /= 2;
+  }
+  GridsToTry grids{grid, grid, {}};
+  double most_bytes = asked.most_bytes;
+  if (const std::int64_t limit = memory::limit(); limit > 0)
+    most_bytes = std::min(most_bytes, 0.8 * static_cast<double>(limit - memory::held()));
+  std::string why;
+  while (why.empty()) {
+    grid = doubled(grids.finest);
+    if (std::max(grid.nx, grid.ny) > asked.most_cells)
+      why = "within " + std::to_string(asked.most_cells) + " cells a side";
+    else if (grid.nx > given.nx && !can_be_made_again(scene))
+      why = "of which the heights are known";
+    else if (bytes_on(grid, given, plan) > most_bytes)
+      why = "within " + format_bytes(static_cast<std::int64_t>(most_bytes)) + " of memory";
+    else if (seconds_up_to(grid, given, plan) > asked.most_seconds)
+      why = "within an expected " + format_quantity(asked.most_seconds, dimension::time);
+    else
+      grids.finest = grid;
+  }
+  grids.limit = cells_text(grids.finest.nx, grids.finest.ny) + " are the most " + why;
+  return grids;
 }
 
 // --- the bodies on other cells
@@ -78,8 +112,6 @@ struct Placed {
   Pose pose;
   std::string source;
 };
-
-using Node = LatticeIsometry::Node;
 
 std::string_view word(AtCells::How how) {
   switch (how) {
@@ -94,41 +126,41 @@ std::string_view word(AtCells::How how) {
   }
 }
 
-Placed placed_on(const Scene& scene, const Pose& pose, AtCells lower, Monitor& monitor) {
-  const Grid& given = scene.lower.grid();
-  const int nx = lower.surface.grid().nx, ny = lower.surface.grid().ny;
+// The upper body of two, node over node as it lies on the cells given, in its own frame of `lattice`.
+AtCells upper_on(const Surface& upper, const Grid& grid, const LatticeIsometry& given, Boundary boundary,
+                 const LatticeIsometry& lattice, Monitor& monitor) {
+  Field seen(grid.nx, grid.ny);
+  AtCells::How how = AtCells::How::sampled;
+  if (grid.nx < given.nx()) {
+    const int ratio_x = given.nx() / grid.nx, ratio_y = given.ny() / grid.ny;
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        const LatticeIsometry::Node own = given.to_upper(LatticeIsometry::Node{i * ratio_x, j * ratio_y});
+        seen(i, j) = upper.heights()(own.i, own.j);
+      }
+  } else {
+    const AtCells finer = at_cells(upper, grid.nx, grid.ny, monitor);
+    seen = over_lower(finer.surface.heights(), given, boundary);
+    how = finer.how;
+  }
+  SurfaceTraits traits = upper.traits();
+  traits.aliased_share.reset();
+  return {Surface(grid, lattice.to_upper(seen), std::move(traits)), how};
+}
+
+Placed placed_on(const Scene& scene, const Pose& pose, const Grid& grid, Monitor& monitor) {
+  AtCells lower = at_cells(scene.lower, grid.nx, grid.ny, monitor);
   if (lower.how == AtCells::How::unchanged) return {scene, pose, std::string(word(lower.how))};
   Scene there = scene;
   there.lower = std::move(lower.surface);
   std::string source(word(lower.how));
-  LatticeIsometry lattice = LatticeIsometry(nx, ny).turned(pose.lattice().quarters());
+  const LatticeIsometry lattice = LatticeIsometry(grid.nx, grid.ny).turned(pose.lattice().quarters());
   if (const auto* upper = std::get_if<Surface>(&scene.upper)) {
-    const int ratio_x = given.nx / nx, ratio_y = given.ny / ny;
-    if (pose.on_lattice() && nx * ratio_x == given.nx && ny * ratio_y == given.ny) {
-      // Of the upper body, the nodes that lie over those taken of the lower one.
-      Field heights(nx, ny);
-      for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) {
-          const Node over = lattice.to_lower(Node{i, j});
-          const Node own = pose.lattice().to_upper(Node{over.i * ratio_x, over.j * ratio_y});
-          heights(i, j) = upper->heights()(own.i, own.j);
-        }
-      SurfaceTraits traits = upper->traits();
-      traits.aliased_share.reset();
-      there.upper = Surface(there.lower.grid(), std::move(heights), std::move(traits));
-    } else {
-      AtCells own = at_cells(*upper, nx, ny, monitor);
-      if (own.how != lower.how) source += " and " + std::string(word(own.how));
-      there.upper = std::move(own.surface);
-      const int finer_x = nx / given.nx, finer_y = ny / given.ny;
-      if (scene.boundary == Boundary::periodic && pose.on_lattice() && finer_x * given.nx == nx &&
-          finer_y * given.ny == ny) {
-        // The middle of the nodes, about which it is turned over, moves with the cells.
-        const Node first = pose.lattice().to_upper(Node{0, 0});
-        const Node now = lattice.to_lower(Node{first.i * finer_x, first.j * finer_y});
-        lattice = lattice.shifted(-now.i, -now.j);
-      }
-    }
+    AtCells own = pose.on_lattice()
+                      ? upper_on(*upper, there.lower.grid(), pose.lattice(), scene.boundary, lattice, monitor)
+                      : at_cells(*upper, grid.nx, grid.ny, monitor);
+    if (own.how != lower.how) source += " and " + std::string(word(own.how));
+    there.upper = std::move(own.surface);
   }
   Pose turned = lattice;
   if (!pose.on_lattice()) turned = turned.turned(pose.rest(), there.lower.grid());
@@ -137,73 +169,59 @@ Placed placed_on(const Scene& scene, const Pose& pose, AtCells lower, Monitor& m
 
 // --- the error of a state
 
-// The bound on a quantity against the exact solution on the same grid; 0 where it has none.
-double algebraic_bound(const State& state, std::string_view name) {
-  const StateQuantity* const quantity = find_quantity(name);
-  if (quantity == nullptr || quantity->bound == nullptr) return 0;
-  return quantity->bound(state).value_or(0);
-}
-
-bool is_area(std::string_view quantity) {
-  return quantity == "corrected_area_fraction" || quantity == "area_fraction" || quantity == "area";
-}
-
-bool is_corrected_area(const std::string& quantity) { return quantity == "corrected_area_fraction"; }
-
-// Whether the combined heights have waves of fewer than seven cells, in the mean. Over two cells a wave of m
-// cells differs by 2(1 + cos(2 pi/m)) times as much as over one, in the mean square: smooth heights by 4,
-// white noise by 1.
-bool waves_are_missed(const State& state) {
-  constexpr double smooth_enough = 3.2;
+// Whether the combined heights have waves of fewer than four cells: of their slopes in the mean, or of their
+// bends, on which peaks between the nodes depend. Over two cells a wave of m cells differs by
+// c = 2(1 + cos(2 pi/m)) times as much as over one, in the mean square, and bends by c² as much. Smooth
+// heights have c = 4, white noise has c = 1, and a kink bends by 6.
+bool waves_are_missed(const State& state, bool bends) {
+  constexpr double smooth_slopes = 2.8, smooth_bends = 5;
   const Field& h = state.geometry().combined();
   const bool wraps = state.geometry().boundary() == Boundary::periodic;
+  const int nx = h.nx(), ny = h.ny();
   const auto mean_square = [&](int apart) {
     double sum = 0, count = 0;
-    const auto add = [&](double difference) {
+    const auto add = [&](double before, double here, double after) {
+      const double difference = after - here - (bends ? here - before : 0);
       if (std::isnan(difference)) return;
       sum += difference * difference;
       count += 1;
     };
-    for (int j = 0; j < h.ny(); ++j)
-      for (int i = 0; i < h.nx(); ++i) {
-        if (wraps || i + apart < h.nx()) add(h((i + apart) % h.nx(), j) - h(i, j));
-        if (wraps || j + apart < h.ny()) add(h(i, (j + apart) % h.ny()) - h(i, j));
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        if (wraps || (i >= apart && i + apart < nx))
+          add(h((i + nx - apart) % nx, j), h(i, j), h((i + apart) % nx, j));
+        if (wraps || (j >= apart && j + apart < ny))
+          add(h(i, (j + ny - apart) % ny), h(i, j), h(i, (j + apart) % ny));
       }
     return count > 0 ? sum / count : 0.0;
   };
-  return mean_square(2) < smooth_enough * mean_square(1);
+  return mean_square(2) < (bends ? smooth_bends : smooth_slopes) * mean_square(1);
 }
 
-// How much of a step from a grid of `ratio` times wider cells counts. What chance leaves falls as the cells a
-// side to the power 3/2, and a step holds that of both grids.
-double share_of_step(double ratio, bool waves_missed) {
-  constexpr double of_half_the_cells = 0.7, steeper = 3.2;
-  if (waves_missed) return std::max(1.0, 1 + steeper * (2 - ratio));
-  return of_half_the_cells * std::sqrt(9 / (1 + ratio * ratio * ratio));
-}
-
-// Of the corrected area fraction: what its error, relative, stays within in 19 scenes of 20.
-double corrected_area_error(const State& state) {
-  if (state.outline()) {
-    const CompanionGrids::Level& before = state.companion_grids()->levels().front();
-    const double of_a_step = share_of_step(before.ratio, waves_are_missed(state));
-    const double fine = state.corrected_area_fraction();
-    const double coarser = before.state.corrected_area_fraction();
-    const double least = std::min(fine, coarser);
-    if (!(least > 0)) return std::numeric_limits<double>::infinity();
-    return std::max(margin_of_doubt * state.outline()->doubt, of_a_step * std::abs(fine - coarser) / least);
-  }
-  constexpr double on_every_grid = 0.1, by_chance = 4, of_a_step = 0.7, of_the_step_before = 0.1;
+// The chance error of a corrected area, relative, covering 19 scenes in 20. It follows from the outline
+// between the nodes or, without one, from the number N of edges and the correction c = A - A_c: a tenth of c
+// is wrong on every grid.
+double chance_of_corrected_area(const State& state) {
+  constexpr double margin_of_doubt = 1.2;
+  if (state.outline()) return margin_of_doubt * state.outline()->doubt;
+  constexpr double on_every_grid = 0.1, by_chance = 4;
   constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
-  const double area = state.corrected_area_fraction();
-  if (area <= 0) return state.area_fraction() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
-  const double correction = state.area_fraction() - area;
+  const double area = state.corrected_area_fraction(), correction = state.area_fraction() - area;
   const double edges = correction / excess * static_cast<double>(state.grid().nodes());
-  double error = edges > 0 ? correction / area * (on_every_grid + by_chance / std::sqrt(edges)) : 0.0;
-  double share = of_a_step, finer = area;
+  return edges > 0 ? correction / area * (on_every_grid + by_chance / std::sqrt(edges)) : 0.0;
+}
+
+// The largest of chance and shares of the steps between the grids. One small step may be luck, so the step
+// before counts as well.
+double corrected_area_error(const State& state) {
+  constexpr double of_a_step = 0.7, of_the_step_before = 0.15;
+  double finer = state.corrected_area_fraction();
+  if (finer <= 0) return state.area_fraction() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+  double error = chance_of_corrected_area(state), share = of_a_step;
   for (const CompanionGrids::Level& level : state.companion_grids()->levels()) {
     const double coarser = level.state.corrected_area_fraction();
-    error = std::max(error, share * std::abs(finer - coarser) / (coarser > 0 ? coarser : finer));
+    const double least = std::min(finer, coarser);
+    error = std::max(error, share * std::abs(finer - coarser) / (least > 0 ? least : finer));
     finer = coarser;
     share = of_the_step_before;
   }
@@ -215,31 +233,38 @@ struct Judged {
   std::string of;
 };
 
-// Bounds cost a little, so they are looked at only where the estimates alone are good enough. `values` are
+// The counted part of the bound against the exact solution on the same grid. A tenth or fewer of the nodes
+// that might change sides do change; an outline between the nodes moves by less than its doubt.
+double algebraic_share(const State& state, std::string_view name) {
+  constexpr double of_areas = 0.1;
+  const StateQuantity* const quantity = find_quantity(name);
+  if (quantity->bound == nullptr || (state.outline() && is_corrected_area(name))) return 0;
+  return (is_area(name) ? of_areas : 1) * quantity->bound(state).value_or(0);
+}
+
+// Bounds cost a little, so they are computed only where the estimates alone are good enough. `values` are
 // those that a choice began with, or empty.
 Judged judged(const State& state, const AskedError& asked, const std::vector<double>& values = {}) {
   constexpr double no_value = 1e-9;
   std::vector<double> estimates, scales;
+  Judged result;
   for (std::size_t k = 0; k < asked.of.size(); ++k) {
     const DiscretisationEstimate estimate = discretisation_estimate(state, asked.of[k]);
     double scale = std::abs(estimate.value);
     if (k < values.size() && scale < no_value * std::abs(values[k])) scale = std::abs(values[k]);
-    const double error = estimate.margin * estimate.error;
-    if (error != 0 && is_corrected_area(asked.of[k]))
-      estimates.push_back(corrected_area_error(state) * std::abs(estimate.value) / scale);
-    else
-      estimates.push_back(error == 0 ? 0.0 : error / scale);
+    const double error = is_corrected_area(asked.of[k]) ? corrected_area_error(state) * scale
+                                                        : estimate.margin * estimate.error;
+    estimates.push_back(error == 0 ? 0.0 : error / scale);
     scales.push_back(scale);
+    if (result.of.empty() || estimates[k] > result.error) {
+      result.error = estimates[k];
+      result.of = asked.of[k];
+    }
   }
-  const auto worst =
-      static_cast<std::size_t>(std::max_element(estimates.begin(), estimates.end()) - estimates.begin());
-  Judged result{estimates[worst], 0, asked.of[worst]};
   if (!(result.error <= asked.error)) return result;
   for (std::size_t k = 0; k < asked.of.size(); ++k) {
-    if (state.outline() && is_corrected_area(asked.of[k])) continue;
-    const double bound = algebraic_bound(state, asked.of[k]);
-    const double share = is_area(asked.of[k]) ? share_of_bound : 1;
-    const double algebraic = bound == 0 ? 0.0 : share * bound / scales[k];
+    const double bound = algebraic_share(state, asked.of[k]);
+    const double algebraic = bound == 0 ? 0.0 : bound / scales[k];
     if (estimates[k] + algebraic > result.error) {
       result.error = estimates[k] + algebraic;
       result.of = asked.of[k];
@@ -249,26 +274,36 @@ Judged judged(const State& state, const AskedError& asked, const std::vector<dou
   return result;
 }
 
-// Of half-spaces that do not attract each other: where an outline between the nodes may be known.
-const HalfSpaceOperator* operator_of_outlines(const Plan& plan) {
-  const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
-  return half_spaces == nullptr || half_spaces->share || plan.attracts() ? nullptr : half_spaces;
-}
-
-// With outlines between the nodes, on the coarser grids as well, where a corrected area is asked for and such
-// an outline is known.
+// With outlines between the nodes, on the coarser grids as well, where a corrected area is requested and the
+// elasticity gives such an outline.
 State outlined(State state, const Plan& plan, const AskedError& asked) {
-  const HalfSpaceOperator* const half_spaces = operator_of_outlines(plan);
-  if (half_spaces == nullptr || std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
+  const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
+  if ((half_spaces != nullptr && half_spaces->share) || plan.attracts() ||
+      std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
     return state;
-  const double modulus = half_spaces->modulus;
+  const bool boxes = half_spaces == nullptr;
+  const double modulus = boxes ? std::get<BoxOperator>(plan.elasticity).stiffness : half_spaces->modulus;
   const CompanionGrids& coarser = *state.companion_grids();
   std::vector<CompanionGrids::Level> levels(coarser.levels().begin(), coarser.levels().end());
   for (CompanionGrids::Level& level : levels)
-    if (!level.state.outline()) level.state = level.state.with_outline(modulus);
+    if (!level.state.outline()) level.state = level.state.with_outline(modulus, boxes);
   return state.beside(std::make_shared<const CompanionGrids>(coarser.request(), std::move(levels)))
-      .with_outline(modulus);
+      .with_outline(modulus, boxes);
 }
+
+[[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {
+  const bool endless = !std::isfinite(reached.error);
+  throw Error(ErrorCode::not_converged,
+              "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
+                  " was requested, and " + where + " it comes to " + percent_text(reached.error),
+              (endless ? "it grows from grid to grid without end or is zero there: request another quantity"
+                       : "it needs some " + std::to_string(reached.cells_needed()) +
+                             " cells a side or more, and " + reached.limit + "; press a smaller piece " +
+                             "(`cropped`), request " + format_short(2 * reached.error, 1)) +
+                  ", or give on_failure=\"best\" to have what was reached");
+}
+
+// --- the choice
 
 struct Trial {
   Scene scene;
@@ -276,251 +311,215 @@ struct Trial {
   Plan plan;
   std::shared_ptr<const Solver> solver;
   std::optional<State> state;
-  std::string source;
+  Cost press{};  // without the grids before
 };
 
-Trial make_trial(Placed placed, double tolerance) {
-  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source)};
-  trial.scene.accuracy.tolerance = tolerance;
-  trial.scene.accuracy.estimate = Accuracy::Estimate::coarser;
-  trial.scene.accuracy.chosen = true;
-  trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
-  trial.plan = plan_with_estimate(trial.scene, *trial.geometry);
+class Choice {
+ public:
+  Choice(const Scene& scene, const ContactGeometry& geometry, const PressRequest& request, Monitor& monitor)
+      : scene_(scene),
+        geometry_(geometry),
+        request_(request),
+        monitor_(monitor),
+        grids_(grids_to_try(scene, plan_with_estimate(scene, geometry))),
+        rms_given_(rms_of(geometry.combined())) {
+    chosen_.asked = *scene.accuracy.asked;
+    chosen_.limit = grids_.limit;
+    chosen_.precision = scene.accuracy.precision;
+    chosen_.why_precision = scene.accuracy.precision_named               ? "as named"
+                            : !scene.elasticity.model().moves_every_node ? "boxes are solved in no other"
+                                                                         : "single saves no time";
+  }
+
+  AccuracyChoice run() {
+    std::optional<Step> step = Step{grids_.first, first_tolerance(chosen_.asked)};
+    while (step) {
+      try_grid(*step);
+      judge(*step);
+      step = next(*step);
+    }
+    if (!chosen_.met() && scene_.accuracy.on_failure == Accuracy::OnFailure::error)
+      refuse(chosen_, "on " + cells_text(chosen_.nx, chosen_.ny));
+    return result();
+  }
+
+ private:
+  struct Step {
+    Grid grid;
+    double tolerance;
+  };
+
+  void try_grid(const Step& step);
+  void judge(const Step& step);
+  std::optional<Step> next(const Step& step) const;
+  AccuracyChoice result();
+  std::string why_it_does_not_count(const Grid& grid) const;
+  // A generator that failed on these cells, such as a function with random heights.
+  bool is_interpolated(const Grid& grid) const {
+    return grid.nx > geometry_.grid().nx && chosen_.source.find("interpolated") != std::string::npos;
+  }
+
+  const Scene& scene_;
+  const ContactGeometry& geometry_;
+  const PressRequest& request_;
+  Monitor& monitor_;
+  const GridsToTry grids_;
+  const double rms_given_;
+  const CostScope scope_;
+  const PartMonitor::Clock::time_point begun_ = PartMonitor::Clock::now();
+  ChosenAccuracy chosen_;
+  std::optional<Trial> trial_;
+  std::optional<State> coarser_;  // on the grid before
+  double algebraic_ = 0;
+};
+
+// The press on this grid and, the first time, the coarser grids that its estimate needs.
+void Choice::try_grid(const Step& step) {
+  const double parts = elementary::log2(static_cast<double>(grids_.finest.nx) / grids_.first.nx) + 1;
+  const double part_now = elementary::log2(static_cast<double>(step.grid.nx) / grids_.first.nx);
+  PartMonitor part(monitor_, "choice of cells", cells_text(step.grid.nx, step.grid.ny), part_now / parts,
+                   (part_now + 1) / parts, begun_);
+  part.begin();
+  const CostScope here;
+  const std::optional<State> guess = trial_ ? trial_->state : std::nullopt;
+  if (guess && guess->grid() != step.grid) coarser_ = guess;
+  Placed placed = placed_on(scene_, geometry_.pose(), step.grid, part);
+  chosen_.source = std::move(placed.source);
+  trial_ = Trial{std::move(placed.scene), {}, {}, {}, {}};
+  Accuracy& accuracy = trial_->scene.accuracy;
+  accuracy.tolerance = step.tolerance;
+  accuracy.estimate = Accuracy::Estimate::coarser;
+  accuracy.chosen = true;
+  trial_->geometry = std::make_shared<const ContactGeometry>(trial_->scene, placed.pose);
+  trial_->plan = plan_with_estimate(trial_->scene, *trial_->geometry);
   // A coarse grid that misses its tolerance is not the last word.
-  Plan lenient = trial.plan;
+  Plan lenient = trial_->plan;
   lenient.accuracy.on_failure = Accuracy::OnFailure::best;
-  trial.solver = make_solver(lenient, trial.geometry);
-  return trial;
-}
-
-struct GridToTry {
-  Grid grid;
-  bool half_way = false;  // half as many cells again as one of the doubling sequence
-};
-
-// Coarse to fine, through the cells given, each twice the cells of the one before, and with `half_ways` those
-// half-way between.
-std::vector<GridToTry> grids_to_try(const Grid& given, const Grid& finest, bool half_ways) {
-  Grid grid = given;
-  while (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::max(grid.nx, grid.ny) / 2 >= fewest_cells_to_begin &&
-         !coarser_grids({grid.nx / 2, grid.ny / 2, grid.size_x, grid.size_y}).empty()) {
-    grid.nx /= 2;
-    grid.ny /= 2;
-  }
-  std::vector<GridToTry> grids;
-  for (; grid.nx <= finest.nx && grid.ny <= finest.ny; grid.nx *= 2, grid.ny *= 2) {
-    grids.push_back({grid});
-    const Grid between{grid.nx / 2 * 3, grid.ny / 2 * 3, grid.size_x, grid.size_y};
-    if (half_ways && grid.nx % 2 == 0 && grid.ny % 2 == 0 && between.nx < finest.nx)
-      grids.push_back({between, true});
-  }
-  return grids;
-}
-
-// On half-way cells a body under a flat alone lies as it did, and the doubt of an outline alone is known to
-// fall as it should.
-bool takes_half_ways(const Scene& scene, const Plan& plan) {
-  const std::vector<std::string>& of = scene.accuracy.asked->of;
-  return std::all_of(of.begin(), of.end(), is_corrected_area) && operator_of_outlines(plan) != nullptr &&
-         !std::holds_alternative<Surface>(scene.upper);
-}
-
-// The grid to try after that of this state, at place `k`, of which the outline, where the choice goes by it,
-// tells how many cells would do; else twice the cells. The last where none is fine enough.
-std::size_t next_to_try(const std::vector<GridToTry>& grids, std::size_t k, const State& state, double error,
-                        int fewest, bool by_outline) {
-  constexpr double falls = 1 / 1.38, most_times = 16, rounding = 0.999;
-  const int nx = grids[k].grid.nx;
-  std::size_t next = k + 1;
-  if (by_outline && state.outline()) {
-    const double times =
-        elementary::pow(std::max(1.0, margin_of_doubt * state.outline()->doubt / error), falls);
-    const double wanted = rounding * std::min(most_times, times) * nx;
-    while (next + 1 < grids.size() &&
-           (grids[next].grid.nx < wanted || std::max(grids[next].grid.nx, grids[next].grid.ny) < fewest))
-      ++next;
+  trial_->solver = make_solver(lenient, trial_->geometry);
+  const State state = press_from_coarser(*trial_->solver, guess ? &*guess : nullptr, request_, part)
+                          .costing_also(trial_->solver->preparation());
+  trial_->press = here.so_far();
+  std::shared_ptr<const CompanionGrids> levels;
+  if (!coarser_) {
+    levels = solve_coarser(trial_->scene, *trial_->geometry, trial_->plan, request_, part);
   } else {
-    while (next < grids.size() && grids[next].half_way) ++next;
+    std::vector<CompanionGrids::Level> two{{coarser_->beside(nullptr), 2.0},
+                                           coarser_->companion_grids()->levels().front()};
+    levels = std::make_shared<const CompanionGrids>(request_, std::move(two));
   }
-  return next;
+  trial_->state = outlined(state.beside(std::move(levels)), trial_->plan, chosen_.asked);
+  chosen_.tried.push_back({step.grid.nx, step.grid.ny, step.tolerance, 0, {}, {}, here.so_far()});
 }
 
-// The trial before on a grid of `nx` cells, and the finer of the two grids that it was compared with.
-std::shared_ptr<const CompanionGrids> coarser_than(int nx, const PressRequest& request, const State& before) {
-  std::vector<CompanionGrids::Level> levels{
-      {before.beside(nullptr), static_cast<double>(nx) / before.grid().nx},
-      before.companion_grids()->levels().front()};
-  return std::make_shared<const CompanionGrids>(request, std::move(levels));
+// Why a finer grid has to be tried, whatever the estimate says; empty where nothing speaks against it.
+std::string Choice::why_it_does_not_count(const Grid& grid) const {
+  constexpr double alike = 0.1;
+  const State& state = *trial_->state;
+  if (!state.converged()) return "the tolerance was missed";
+  if (is_interpolated(grid)) return "the heights are not known there";
+  if (grid.nx < geometry_.grid().nx &&
+      std::abs(rms_of(trial_->geometry->combined()) - rms_given_) > alike * rms_given_)
+    return "the heights were not carried";
+  if (grid.nx >= grids_.finest.nx) return {};
+  const bool areas = std::all_of(chosen_.asked.of.begin(), chosen_.asked.of.end(), is_area);
+  if (std::max(grid.nx, grid.ny) < (areas ? fewest_of_an_area : fewest_of_others))
+    return "too few grids to compare";
+  return waves_are_missed(state, !areas) ? "waves have fewer than four cells" : "";
 }
 
-[[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {
-  throw Error(ErrorCode::not_converged,
-              "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
-                  " was asked for, and " + where + " it comes to " + percent_text(reached.error),
-              std::isfinite(reached.error)
-                  ? "ask for " + format_short(2 * reached.error, 1) +
-                        ", or give on_failure=\"best\" to have what was reached"
-                  : "it grows from grid to grid without end or is zero there: ask for another quantity, or "
-                    "give on_failure=\"best\" to have what was reached");
+void Choice::judge(const Step& step) {
+  const Judged found = judged(*trial_->state, chosen_.asked);
+  TriedGrid& tried = chosen_.tried.back();
+  tried.error = found.error;
+  tried.of = found.of;
+  tried.note = why_it_does_not_count(step.grid);
+  chosen_.nx = step.grid.nx;
+  chosen_.ny = step.grid.ny;
+  chosen_.tolerance = step.tolerance;
+  chosen_.error = found.error;
+  chosen_.of = found.of;
+  chosen_.outline_between_nodes = trial_->state->outline().has_value();
+  algebraic_ = found.algebraic;
+}
+
+std::optional<Choice::Step> Choice::next(const Step& step) const {
+  if (chosen_.met()) return {};
+  const TriedGrid& last = chosen_.tried.back();
+  // More cells do not help where the bound of the solve is what is missing.
+  if (last.note.empty() && last.error - algebraic_ <= chosen_.asked.error && step.tolerance > tightest)
+    return Step{step.grid, std::max(step.tolerance / tighter, tightest)};
+  if (step.grid.nx >= grids_.finest.nx || is_interpolated(step.grid)) return {};
+  // All grids of a map are tried: they cost little beside another measurement.
+  if (scene_.accuracy.on_failure == Accuracy::OnFailure::error && last.note.empty() &&
+      grids_.finest.nx > geometry_.grid().nx) {
+    constexpr std::size_t in_a_row = 3;
+    std::size_t endless = 0;
+    for (const TriedGrid& tried : chosen_.tried)
+      endless = std::isinf(tried.error) && std::max(tried.nx, tried.ny) >= fewest_of_others ? endless + 1 : 0;
+    // The request of a coarse grid may be too pessimistic, but not by so much.
+    constexpr double far_beyond = 4;
+    if (endless == in_a_row ||
+        (std::isfinite(last.error) && chosen_.cells_needed() > far_beyond * grids_.finest.nx))
+      return {};
+  }
+  return Step{doubled(step.grid), step.tolerance};
+}
+
+AccuracyChoice Choice::result() {
+  // Every solver counted transforms of its own grid; they count as those of the grid chosen.
+  const Grid& grid = trial_->geometry->grid();
+  double surplus = 0;
+  for (const TriedGrid& tried : chosen_.tried)
+    surplus +=
+        (1 - transform_work({tried.nx, tried.ny, 1, 1}) / transform_work(grid)) * tried.cost.transforms;
+  cost::count_transforms(-surplus);
+  for (const std::string& quantity : chosen_.asked.of)
+    chosen_.values.push_back(discretisation_estimate(*trial_->state, quantity).value);
+  Cost others = scope_.so_far();
+  others.seconds -= trial_->press.seconds;
+  others.transforms -= trial_->press.transforms;
+  plan_choice(trial_->scene, trial_->plan);
+  trial_->solver = make_solver(trial_->plan, trial_->geometry);
+  State state = trial_->state->costing_also({others, {{"choice", others}}})
+                    .chosen_as(std::make_shared<const ChosenAccuracy>(std::move(chosen_)));
+  return {std::move(trial_->scene), std::move(trial_->geometry), std::move(trial_->plan),
+          std::move(trial_->solver), std::move(state)};
 }
 
 }  // namespace
 
 double first_tolerance(const AskedError& asked) {
-  struct Share {
-    double of_error, loosest;
-  };
+  // At these shares the bound of a solve is nearly always below the error of the cells. The bound on an area
+  // counts every node that might change sides.
   constexpr double of_areas = 1e-2, of_others = 3e-4, loosest = 1e-3;
   const bool areas = std::all_of(asked.of.begin(), asked.of.end(), is_area);
   return std::clamp((areas ? of_areas : of_others) * asked.error, tightest, loosest);
 }
 
-std::string choice_text(const Scene& scene, const Plan& plan) {
-  if (!scene.accuracy.asked) return {};
+void plan_choice(const Scene& scene, Plan& plan) {
+  if (!scene.accuracy.asked) return;
   const AskedError& asked = *scene.accuracy.asked;
   const std::string error = percent_text(asked.error) + " of " + joined(asked.of, " and ");
-  if (scene.accuracy.chosen)
-    return "cells and tolerance as the first press chose them for an error of " + error;
-  const std::vector<GridToTry> grids =
-      grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan), false);
-  return "the first press chooses cells and tolerance for an error of " + error + ", from " +
-         cells_text(grids.front().grid.nx, grids.front().grid.ny) + " up to " +
-         cells_text(grids.back().grid.nx, grids.back().grid.ny) + "; what follows is of the cells given";
-}
-
-Grid finest_grid(const Grid& given, const Plan& plan) {
-  double most = most_bytes_of_a_choice;
-  if (const std::int64_t limit = memory::limit(); limit > 0)
-    most = std::min(most, 0.8 * static_cast<double>(limit - memory::held()));
-  Grid finest = given;
-  double bytes = static_cast<double>(plan.bytes_grown());
-  while (std::max(finest.nx, finest.ny) <= max_cells / 2 && 4 * bytes <= most) {
-    finest.nx *= 2;
-    finest.ny *= 2;
-    bytes *= 4;
+  if (scene.accuracy.chosen) {
+    plan.choice = "cells and tolerance as the first press chose them for an error of " + error;
+    return;
   }
-  return finest;
+  const Grid& given = scene.lower.grid();
+  const GridsToTry grids = grids_to_try(scene, plan);
+  plan.choice = "the first press chooses cells and tolerance for an error of " + error + ", from " +
+                cells_text(grids.first.nx, grids.first.ny) + " on; " + grids.limit +
+                ", and memory and time are theirs";
+  plan.transforms *= with_coarser;
+  plan.seconds = seconds_up_to(grids.finest, given, plan);
+  plan.buffers = {
+      {"a press on the finest cells", static_cast<std::int64_t>(bytes_on(grids.finest, given, plan)), true}};
+  plan.bytes_to_flatten = 0;
 }
 
 AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
                                const PressRequest& request, Monitor& monitor) {
   laws_met().meet(Law::asked_error);
-  const AskedError& asked = *scene.accuracy.asked;
-  const Grid& given = geometry.grid();
-  const Plan plan_given = plan_with_estimate(scene, geometry);
-  const bool by_outline = takes_half_ways(scene, plan_given);
-  const std::vector<GridToTry> grids = grids_to_try(given, finest_grid(given, plan_given), by_outline);
-  const double rms_given = rms_of(geometry.combined());
-  const auto begun = std::chrono::steady_clock::now();
-
-  ChosenAccuracy chosen;
-  chosen.asked = asked;
-  chosen.precision = scene.accuracy.precision;
-  chosen.why_precision = scene.accuracy.precision_named               ? "as named"
-                         : !scene.elasticity.model().moves_every_node ? "boxes are solved in no other"
-                                                                      : "single saves no time";
-  double tolerance = first_tolerance(asked);
-  const CostScope scope;
-  Cost last;  // of the press that is kept
-  std::optional<Trial> trial;
-  const int fewest =
-      std::all_of(asked.of.begin(), asked.of.end(), is_corrected_area) ? fewest_of_an_area : fewest_of_others;
-  int endless = 0;
-  for (std::size_t k = 0; k < grids.size();) {
-    const Grid& grid = grids[k].grid;
-    const auto shares = static_cast<double>(grids.size());
-    PartMonitor part(monitor, "choice of cells", cells_text(grid.nx, grid.ny),
-                     static_cast<double>(k) / shares, static_cast<double>(k + 1) / shares, begun);
-    part.begin();
-    const std::optional<State> before = trial ? trial->state : std::nullopt;
-    std::optional<State> guess = before;
-    // Fewer cells than were measured are nodes of theirs; between these heights would be smoothed.
-    const bool known_only = grids[k].half_way && grid.nx < given.nx;
-    std::optional<AtCells> lower = known_only ? known_at_cells(scene.lower, grid.nx, grid.ny, part)
-                                              : at_cells(scene.lower, grid.nx, grid.ny, part);
-    if (!lower) {
-      ++k;
-      continue;
-    }
-    const Placed placed = placed_on(scene, geometry.pose(), *std::move(lower), part);
-    bool counts = true;  // this grid tells how many cells would do
-    for (bool again = true; again;) {
-      again = false;
-      const CostScope here;
-      trial = make_trial(placed, tolerance);
-      State state = press_from_coarser(*trial->solver, guess ? &*guess : nullptr, request, part)
-                        .costing_also(trial->solver->preparation());
-      last = here.so_far();
-      state =
-          state.beside(before ? coarser_than(grid.nx, request, *before)
-                              : solve_coarser(trial->scene, *trial->geometry, trial->plan, request, part));
-      state = outlined(std::move(state), trial->plan, asked);
-      Judged found = judged(state, asked);
-      std::string note;
-      constexpr double alike = 0.1;
-      counts = true;
-      if (grid.nx < given.nx &&
-          std::abs(rms_of(trial->geometry->combined()) - rms_given) > alike * rms_given) {
-        note = "the heights were not carried";
-        counts = false;
-      } else if (!state.converged()) {
-        note = "the tolerance was missed";
-        counts = false;
-      } else if (grid.nx < given.nx && std::max(grid.nx, grid.ny) < fewest) {
-        note = "no finer grid agreed yet";
-      }
-      if (!note.empty()) found.error = std::max(found.error, 2 * asked.error);
-      const Cost cost = here.so_far();
-      chosen.tried.push_back({grid.nx, grid.ny, tolerance, found.error, found.of, note, cost});
-      trial->state = std::move(state);
-      chosen.nx = grid.nx;
-      chosen.ny = grid.ny;
-      chosen.tolerance = tolerance;
-      chosen.error = found.error;
-      chosen.of = found.of;
-      chosen.outline_between_nodes = trial->state->outline().has_value();
-      chosen.source = trial->source;
-      // More cells would not help where the bound of the solve is what is missing.
-      if (!chosen.met() && note.empty() && found.error - found.algebraic <= asked.error &&
-          tolerance > tightest) {
-        tolerance = std::max(tolerance / tighter, tightest);
-        guess = trial->state;
-        again = true;
-      }
-      endless = std::isinf(found.error) && std::max(grid.nx, grid.ny) >= fewest_of_others ? endless + 1 : 0;
-    }
-    if (chosen.met() || endless == 3) break;
-    k = next_to_try(grids, k, *trial->state, asked.error, fewest, by_outline && counts);
-  }
-  if (!chosen.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
-    refuse(chosen, "on " + cells_text(chosen.nx, chosen.ny) +
-                       (endless == 3 ? "" : ", the finest that memory allows,"));
-
-  // Every solver counted transforms of its own grid; they count as those of the grid chosen.
-  double surplus = 0;
-  for (const TriedGrid& tried : chosen.tried)
-    surplus += (1 - transform_work(tried.nx, tried.ny) / transform_work(chosen.nx, chosen.ny)) *
-               tried.cost.transforms;
-  cost::count_transforms(-surplus);
-  for (const std::string& quantity : asked.of)
-    chosen.values.push_back(discretisation_estimate(*trial->state, quantity).value);
-  Cost others = scope.so_far();
-  others.seconds -= last.seconds;
-  others.transforms -= last.transforms;
-
-  // What later presses are compared with.
-  constexpr std::size_t most_compared = 2;
-  std::vector<Grid>& compared = trial->scene.accuracy.compared;
-  for (const TriedGrid* tried = chosen.before(); tried != nullptr && compared.size() < most_compared;
-       tried = chosen.before(tried->nx))
-    compared.push_back({tried->nx, tried->ny, given.size_x, given.size_y});
-  trial->plan = plan_with_estimate(trial->scene, *trial->geometry);
-  trial->plan.choice = choice_text(trial->scene, trial->plan);
-  trial->solver = make_solver(trial->plan, trial->geometry);
-  State state = trial->state->costing_also({others, {{"choice", others}}})
-                    .chosen_as(std::make_shared<const ChosenAccuracy>(std::move(chosen)));
-  return {std::move(trial->scene), std::move(trial->geometry), std::move(trial->plan),
-          std::move(trial->solver), std::move(state)};
+  return Choice(scene, geometry, request, monitor).run();
 }
 
 State held_to(const State& given, const ChosenAccuracy& chosen, const Scene& scene, const Plan& plan) {
@@ -530,6 +529,9 @@ State held_to(const State& given, const ChosenAccuracy& chosen, const Scene& sce
   const Judged found = judged(state, chosen.asked, chosen.values);
   now.error = found.error;
   now.of = found.of;
+  now.values.clear();
+  for (const std::string& quantity : now.asked.of)
+    now.values.push_back(discretisation_estimate(state, quantity).value);
   if (!now.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
     refuse(now, "on the " + cells_text(now.nx, now.ny) + " that the first press of this contact chose");
   return state.chosen_as(std::make_shared<const ChosenAccuracy>(std::move(now)));

@@ -33,19 +33,21 @@ struct ChosenAccuracy {
   double error = 0;           // of this state, as in TriedGrid
   std::string of;
   std::string source;                  // how the bodies were put on these cells
+  std::string limit;                   // "4096 x 4096 cells are the most within 4 GiB of memory"
   bool outline_between_nodes = false;  // the corrected area is that within contact/outline_area.hpp
   std::vector<TriedGrid> tried;
-  // Of the quantities asked for, at the press that chose. A later value below 1e-9 of it counts as zero (what
-  // has yielded once yields no more under less load), and its error against this one.
+  // The quantities requested, in this state. A later value below 1e-9 of the first press's counts as zero (a
+  // body that has yielded yields no more under less load), and its error is relative to the first value.
   std::vector<double> values;
 
-  bool met() const { return error <= asked.error; }
-  // The last grid tried before one of `cells` along x, by default the one chosen, which was compared with it;
-  // null where none was.
-  const TriedGrid* before(int cells) const;
-  const TriedGrid* before() const { return before(nx); }
-  std::string reason() const;  // one sentence
-  std::string text() const;    // one line: cells, tolerance, precision and the reason
+  bool met() const { return error <= asked.error && tried.back().note.empty(); }
+  // The grid tried before the one chosen; null where none was.
+  const TriedGrid* before() const;
+  // Cells along x that would meet the request, by the order of the error; the most of an int at most.
+  int cells_needed() const;
+  std::string reason() const;       // one sentence
+  std::string values_text() const;  // "requested: corrected_area_fraction 0.0421, within 0.9 %"
+  std::string text() const;         // one line: cells, tolerance, precision and the reason
 };
 
 // "64 x 64 cells"; "1.2 %".

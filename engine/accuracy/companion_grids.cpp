@@ -88,28 +88,6 @@ Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool 
   return heights;
 }
 
-bool divides(const Grid& coarse, const Grid& fine) {
-  return fine.nx % coarse.nx == 0 && fine.ny % coarse.ny == 0;
-}
-
-// Generated again on `grid` or, where that cannot carry the shortest waves, the nodes of the same surface on
-// twice the cells, four times, … up to more than those of the surface; none without a generator.
-std::optional<Field> heights_made_again(const Surface& surface, const Grid& grid, Monitor& monitor) {
-  for (int times = 1; times == 1 || times / 2 * grid.nx < surface.grid().nx; times *= 2)
-    if (const std::optional<Surface> again = surface.remade(times * grid.nx, times * grid.ny, monitor))
-      return at_cells(*again, grid.nx, grid.ny, monitor).surface.heights();
-  return {};
-}
-
-// On cells that a choice compared with and that share few nodes with these, as the choice made them.
-Field compared_heights(const Scene& scene, const ContactGeometry& geometry, const Grid& grid,
-                       Monitor& monitor) {
-  if (!scene.accuracy.compared.empty() && geometry.upper_is_flat() && !divides(grid, geometry.grid()))
-    if (std::optional<Field> again = heights_made_again(geometry.lower(), grid, monitor))
-      return *std::move(again);
-  return combined_on_cells(geometry, grid, periodic_together(scene));
-}
-
 }  // namespace
 
 State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
@@ -176,8 +154,7 @@ double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy) 
   if (accuracy.estimate == Accuracy::Estimate::finer)
     return transform_work(finer_grid(grid)) / transform_work(grid);
   double work = 0;
-  for (const Grid& coarser : compared_grids(geometry, accuracy))
-    work += transform_work(coarser) / transform_work(grid);
+  for (const Grid& coarser : coarser_grids(grid)) work += transform_work(coarser) / transform_work(grid);
   return work;
 }
 
@@ -190,21 +167,6 @@ std::vector<Grid> coarser_grids(const Grid& grid) {
     grids.push_back(next);
     last = next;
   }
-  return grids;
-}
-
-std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy) {
-  const Grid& fine = geometry.grid();
-  const std::vector<Grid>& compared = accuracy.compared;
-  const auto known = [&](const Grid& grid) {
-    return grid.nx < fine.nx && geometry.upper_is_flat() &&
-           (divides(grid, fine) || geometry.lower().recipe() != nullptr);
-  };
-  if (compared.empty() || !known(compared.front())) return coarser_grids(fine);
-  if (compared.size() > 1 && known(compared[1])) return {compared[0], compared[1]};
-  std::vector<Grid> grids{compared.front()};
-  if (const std::vector<Grid> coarser = coarser_grids(compared.front()); !coarser.empty())
-    grids.push_back(coarser.front());
   return grids;
 }
 
@@ -221,14 +183,14 @@ std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const Co
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor) {
   check_estimate(geometry.grid());
-  const std::vector<Grid> grids = compared_grids(geometry, scene.accuracy);
-  const bool as_tried = grids == scene.accuracy.compared;
+  const std::vector<Grid> grids = coarser_grids(geometry.grid());
+  const bool periodic = periodic_together(scene);
   std::vector<CompanionGrids::Level> levels;  // coarse to fine
   for (std::size_t k = grids.size(); k-- > 0;) {
     const Grid &grid = grids[k], &finer = k > 0 ? grids[k - 1] : geometry.grid();
-    const State* const coarser = as_tried && !levels.empty() ? &levels.back().state : nullptr;
-    State state = press_on(grid, compared_heights(scene, geometry, grid, monitor), loose_enough, scene,
-                           geometry, plan, request, monitor, coarser);
+    const State* const coarser = scene.accuracy.chosen && !levels.empty() ? &levels.back().state : nullptr;
+    State state = press_on(grid, combined_on_cells(geometry, grid, periodic), loose_enough, scene, geometry,
+                           plan, request, monitor, coarser);
     const double across = static_cast<double>(finer.nx) / grid.nx,
                  up = static_cast<double>(finer.ny) / grid.ny;
     levels.push_back({std::move(state), std::max(across, up)});
@@ -276,7 +238,7 @@ void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
     return;
   }
   std::vector<std::string> cells;
-  for (const Grid& grid : compared_grids(geometry, plan.accuracy)) {
+  for (const Grid& grid : coarser_grids(fine)) {
     kept += static_cast<double>(grid.nodes());
     cells.push_back(std::to_string(grid.nx) + " x " + std::to_string(grid.ny));
   }

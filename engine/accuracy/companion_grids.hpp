@@ -43,12 +43,6 @@ class CompanionGrids {
 // left along x or y; a side of fewer than 16 keeps its cells. Odd cells are halved upwards.
 std::vector<Grid> coarser_grids(const Grid& grid);
 
-// The coarser grids that a press of these bodies is compared with: those above, or, where cells were chosen
-// for an error, those that the choice tried before them (Accuracy::compared), where there was one alone with
-// half its cells a side. Of bodies that were measured, or changed since, these are halves where the heights
-// on that grid are no nodes of theirs.
-std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy);
-
 // `request` pressed from the pressures of the same press on coarser cells, if there is one and it is near
 // enough to save transforms; as without it otherwise. Within the tolerance the answer is the same.
 State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
@@ -56,11 +50,11 @@ State press_from_coarser(const Solver& solver, const State* coarser, const Press
 
 // Solves `request` on coarser grids for the bodies as they lie in `geometry`, with what they and `plan`,
 // which is theirs, remember of earlier events, to a tolerance of 1e-5 or that of the scene, whichever is
-// looser. Heights are those of every second node, or interpolated where the cells are odd; on cells that a
-// choice compared with, generated again where they are no nodes, and pressed each from the coarser one before
-// it, as the choice did. Costs 1/4 + 1/16 of the press, in time and in transforms of the finest grid, after a
-// choice from 1/200 to 0.8. Throws what a press throws, and Error{bad_value} naming `estimate` where there
-// are too few cells; a coarser grid that misses its tolerance counts with the best it reached.
+// looser. Heights are those of every second node, or interpolated where the cells are odd. On cells that were
+// chosen for an error each begins from the coarser one before it, as in the choice. Costs 1/4 + 1/16 of the
+// press, in time and in transforms of the finest grid. Throws what a press throws, and Error{bad_value}
+// naming `estimate` where there are too few cells; a coarser grid that misses its tolerance counts with the
+// best it reached.
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor = Monitor::silent());

@@ -19,36 +19,6 @@ namespace {
 
 using LatticeNode = LatticeIsometry::Node;
 
-// The upper body's heights over the nodes of the finer lower grid, as the lattice part of a pose lays it.
-Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary) {
-  const int nx = upper.nx(), ny = upper.ny();
-  const int factor_x = nx / lattice.nx(), factor_y = ny / lattice.ny();
-  // Without its shift the isometry is affine in the nodes.
-  const LatticeIsometry turned = LatticeIsometry(lattice.nx(), lattice.ny()).turned(lattice.quarters());
-  const LatticeNode origin = turned.to_upper(LatticeNode{0, 0});
-  const auto step = [&](LatticeNode over) {
-    const LatticeNode to = turned.to_upper(over);
-    return LatticeNode{to.i - origin.i, to.j - origin.j};
-  };
-  const LatticeNode along_x = lattice.nx() > 1 ? step({1, 0}) : LatticeNode{1, 0};
-  const LatticeNode along_y = lattice.ny() > 1 ? step({0, 1}) : LatticeNode{0, 1};
-  const int shift_x = factor_x * lattice.shift_x(), shift_y = factor_y * lattice.shift_y();
-  const auto on_grid = [&](int k, int n) {
-    return boundary == Boundary::periodic ? (k % n + n) % n : std::clamp(k, 0, n - 1);
-  };
-  Field seen(nx, ny);
-  parallel_for(ny, [&](std::int64_t row) {
-    const int j = static_cast<int>(row) - shift_y;
-    for (int column = 0; column < nx; ++column) {
-      const int i = column - shift_x;
-      const int own_i = factor_x * origin.i + along_x.i * i + along_y.i * j;
-      const int own_j = factor_y * origin.j + along_x.j * i + along_y.j * j;
-      seen(column, static_cast<int>(row)) = upper(on_grid(own_i, nx), on_grid(own_j, ny));
-    }
-  });
-  return seen;
-}
-
 // Bilinear at a place in cells, or `outside`, which the last node bounds.
 double between(const Field& field, double x, double y, int last_x, int last_y, double outside) {
   constexpr double slack = 1e-9;
@@ -98,6 +68,35 @@ void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, 
 }
 
 }  // namespace
+
+Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary) {
+  const int nx = upper.nx(), ny = upper.ny();
+  const int factor_x = nx / lattice.nx(), factor_y = ny / lattice.ny();
+  // Without its shift the isometry is affine in the nodes.
+  const LatticeIsometry turned = LatticeIsometry(lattice.nx(), lattice.ny()).turned(lattice.quarters());
+  const LatticeNode origin = turned.to_upper(LatticeNode{0, 0});
+  const auto step = [&](LatticeNode over) {
+    const LatticeNode to = turned.to_upper(over);
+    return LatticeNode{to.i - origin.i, to.j - origin.j};
+  };
+  const LatticeNode along_x = lattice.nx() > 1 ? step({1, 0}) : LatticeNode{1, 0};
+  const LatticeNode along_y = lattice.ny() > 1 ? step({0, 1}) : LatticeNode{0, 1};
+  const int shift_x = factor_x * lattice.shift_x(), shift_y = factor_y * lattice.shift_y();
+  const auto on_grid = [&](int k, int n) {
+    return boundary == Boundary::periodic ? (k % n + n) % n : std::clamp(k, 0, n - 1);
+  };
+  Field seen(nx, ny);
+  parallel_for(ny, [&](std::int64_t row) {
+    const int j = static_cast<int>(row) - shift_y;
+    for (int column = 0; column < nx; ++column) {
+      const int i = column - shift_x;
+      const int own_i = factor_x * origin.i + along_x.i * i + along_y.i * j;
+      const int own_j = factor_y * origin.j + along_x.j * i + along_y.j * j;
+      seen(column, static_cast<int>(row)) = upper(on_grid(own_i, nx), on_grid(own_j, ny));
+    }
+  });
+  return seen;
+}
 
 Grid finer_grid(const Grid& grid) {
   const std::string asked = "`estimate` = \"finer\" was asked for a tile of " + std::to_string(grid.nx) +

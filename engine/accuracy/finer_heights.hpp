@@ -20,6 +20,10 @@ inline constexpr int times_finer = 3;
 // where there is none, or more than 65536 would be needed.
 Grid finer_grid(const Grid& grid);
 
+// The upper body's heights over the nodes of a lower grid finer by whole factors, as the lattice part of a
+// pose lays it on the cells of `lattice`.
+Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary);
+
 // h on finer_grid(geometry.grid()), m. `scene` has the bodies of `geometry` as events have left them. Costs
 // what generating or interpolating the bodies costs, and no solve.
 Field finer_heights(const Scene& scene, const ContactGeometry& geometry,

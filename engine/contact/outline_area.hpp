@@ -5,7 +5,8 @@
 //   p = K sqrt(d) inside,   g = 4/3 (K/E*) d^(3/2) outside,
 // so that E* g/(p h) of the two nodes, h apart, and the pressure of the next node inside over p tell which
 // share of h lies within. What grids make of both, and outlines that turn, is fitted (head of the source). Of
-// boxes, layers and bodies that attract each other it knows nothing.
+// layers and bodies that attract each other it knows nothing. Between nodes of boxes pressure and gap are
+// linear.
 #pragma once
 
 #include <optional>
@@ -21,12 +22,12 @@ struct OutlineArea {
   double doubt = 0;
 };
 
-// Of half-spaces that do not attract each other: `pressure` in Pa, above 0 where nodes touch; `gap` in m;
-// `modulus` E* in Pa. With `wraps` the tile goes on past its rim; without, the rim is no outline. None where
-// nothing or everything touches, on cells more than 1.25 times longer than wide or wider than long, on tiles
-// of fewer than 8 cells along a side, and where most pressures rise towards the outline, as under a flat
-// punch. O(n).
+// Of half-spaces, or of `boxes`, that do not attract each other: `pressure` in Pa, above 0 where nodes touch;
+// `gap` in m; `modulus` E* in Pa, of boxes their stiffness in Pa/m. With `wraps` the tile goes on past its
+// rim; without, the rim is no outline. None where nothing or everything touches, on cells more than 1.25
+// times longer than wide or wider than long, on tiles of fewer than 8 cells along a side, and where most
+// pressures rise towards the outline, as under a flat punch. O(n).
 std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap, const Grid& grid,
-                                        double modulus, bool wraps);
+                                        double modulus, bool wraps, bool boxes = false);
 
 }  // namespace asperity

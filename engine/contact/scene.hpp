@@ -24,6 +24,9 @@ using UpperBody = std::variant<Surface, Material>;
 struct AskedError {
   double error = 0;             // in [1e-6, 1)
   std::vector<std::string> of;  // quantities by their names in a state; at least one
+  // Limits of the grids that may be tried: cells a side, memory of a solve, expected seconds of all grids.
+  int most_cells = 65536;
+  double most_bytes = 4.0 * (std::int64_t{1} << 30), most_seconds = 600;
 };
 
 struct Accuracy {
@@ -40,9 +43,6 @@ struct Accuracy {
   // read it.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance are those that were chosen for it
-  // The grid that the choice compared with the one chosen, and the one tried before that, if there was one;
-  // empty where no choice was made.
-  std::vector<Grid> compared{};
 };
 
 struct Scene {

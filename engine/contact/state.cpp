@@ -157,13 +157,13 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
   return result;
 }
 
-State State::with_outline(double modulus) const {
+State State::with_outline(double modulus, bool boxes) const {
   State result = *this;
   result.outline_.reset();
   if (!geometry().overhangs()) {
     const std::shared_ptr<const Solution> solution = shared_->now();
-    result.outline_ =
-        outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus, shared_->wraps());
+    result.outline_ = outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus,
+                                   shared_->wraps(), boxes);
   }
   return result;
 }

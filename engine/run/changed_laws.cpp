@@ -54,8 +54,8 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
     {Law::asked_error, "0.2.0", "errors that are asked for",
      "`error` of `accuracy` was judged by two grids that agree, from 64 cells on, and a corrected area was "
      "that of the nodes less the same for every edge",
-     "grids are tried from 16 cells on, and a corrected area of half-spaces lies within an outline between "
-     "the nodes, whose doubt tells which cells are tried next, half-way ones among them",
+     "grids are tried from 16 cells on, each with twice the cells of the one before, a corrected area of "
+     "half-spaces and boxes lies within an outline between the nodes, and functions are evaluated again",
      "cells, tolerance and costs of such presses, their corrected areas, and all that follows them"},
     {Law::line_order, "0.2.0", "files that store the top line first",
      "the first line of every file was j = 0, so images were upside down",

@@ -31,7 +31,7 @@ Scene checked(const Scene& scene) {
 
 Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan = plan_with_estimate(scene, geometry);
-  plan.choice = choice_text(scene, plan);
+  plan_choice(scene, plan);
   return plan;
 }
 

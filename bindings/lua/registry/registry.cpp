@@ -178,6 +178,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
   if (function.heavy) ++call.session().heavy_calls;
+  const Session::Running running(call.session(), L);
   Values results = function.body(call);
   if (call.session().run != nullptr) call.session().run->see_outputs();
   check_results(function, results);

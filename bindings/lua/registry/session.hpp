@@ -9,10 +9,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
 #include "bindings/lua/registry/script_spelling.hpp"
@@ -74,6 +76,25 @@ class Session {
     Session& session_;
     Monitor* outer_;
   };
+
+  // Is alive while a native function of a state runs, and gives the innermost one on this thread.
+  struct Running {
+    Running(const Session& of, lua_State* in) : session(of), L(in), outer(innermost) { innermost = this; }
+    ~Running() { innermost = outer; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    const Session& session;
+    lua_State* L;
+    const Running* outer;
+    static thread_local const Running* innermost;
+  };
+
+  // Functions of the script that surfaces keep; those of surfaces that are gone wait here to be released.
+  struct HeldFunctions {
+    std::mutex mutex;
+    std::vector<int> released;
+  };
+  std::shared_ptr<HeldFunctions> held_functions = std::make_shared<HeldFunctions>();
 
   std::uint64_t seed = 1;             // of math.random and of anything a script leaves to the run
   bool dry_run = false;               // asperity check: heavy calls give placeholders

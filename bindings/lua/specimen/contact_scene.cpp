@@ -114,6 +114,7 @@ struct AccuracyKeys : Accuracy {
   std::optional<Precision> given_precision;
   std::optional<double> error;
   std::vector<std::string> of;
+  std::optional<AskedError> limits;
 };
 
 std::string_view estimate_text(Accuracy::Estimate estimate) {
@@ -163,14 +164,27 @@ void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
     problems.push_back(
         "`error` and `estimate`=\"finer\" are both given; cells chosen for an `error` are compared with the "
         "coarser ones tried before, so leave one of both out");
-  if (!keys.of.empty() && !keys.error)
-    problems.push_back("`of` is given without `error`; give the relative error as well, such as error=0.01");
+  if ((!keys.of.empty() || keys.limits) && !keys.error)
+    problems.push_back(std::string(keys.limits ? "`at_most`" : "`of`") +
+                       " is given without `error`; give the relative error as well, such as error=0.01");
   if (keys.given_tolerance) keys.tolerance = *keys.given_tolerance;
   keys.precision_named = keys.given_precision.has_value();
   if (keys.given_precision) keys.precision = *keys.given_precision;
   if (!keys.error) return;
   if (keys.of.empty()) keys.of = {"corrected_area_fraction"};
-  keys.asked = AskedError{*keys.error, keys.of};
+  keys.asked = keys.limits.value_or(AskedError{});
+  keys.asked->error = *keys.error;
+  keys.asked->of = keys.of;
+}
+
+const Block<AskedError>& limits_block() {
+  using O = AskedError;
+  static const Block<O> block{"at_most",
+                              {integer("cells", &O::most_cells, between(16, max_cells), "cells a side"),
+                               number("memory", &O::most_bytes, above(0), "bytes of memory of a press"),
+                               quantity("time", &O::most_seconds, dimension::time, above(0),
+                                        "expected of all grids together, by the plan of a press")}};
+  return block;
 }
 
 const Block<AccuracyKeys>& accuracy_block() {
@@ -205,7 +219,8 @@ const Block<AccuracyKeys>& accuracy_block() {
        number("error", &K::error, {1e-6, 1, false, true, false},
               "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
        custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_effect_names)
-           .defaults_to("\"corrected_area_fraction\"")},
+           .defaults_to("\"corrected_area_fraction\""),
+       table_of<K>("at_most", &K::limits, limits_block(), "limits of the grids that `error` may try")},
       finish_accuracy};
   return block;
 }

@@ -177,17 +177,76 @@ const Block<GridKeys>& from_function_block() {
   static const Block<GridKeys> block{"lab.surface.from_function", from_function_keys()};
   return block;
 }
+
+Field heights_of(const Callback& height, const Grid& grid, Monitor& monitor) {
+  Field heights(grid.nx, grid.ny);
+  Task task(monitor, "heights from a function", grid.ny);
+  for (int j = 0; j < grid.ny; ++j, task.advance())
+    for (int i = 0; i < grid.nx; ++i) heights(i, j) = height({i * grid.hx(), j * grid.hy()}, "height");
+  return heights;
+}
+
+// A function of the script, for a recipe. It can be called within calls of its own state alone, and must give
+// the same height at the same place again.
+class HeldFunction {
+ public:
+  HeldFunction(const Argument& function, const Grid& grid, const Field& heights)
+      : held_(Session::of(function.state()).held_functions),
+        grid_(grid),
+        x_(grid.nx / 2 * grid.hx()),
+        y_(grid.ny / 2 * grid.hy()),
+        height_(heights(grid.nx / 2, grid.ny / 2)) {
+    lua_State* L = function.state();
+    const Argument::StackGuard guard(L);
+    const std::lock_guard lock(held_->mutex);
+    for (const int gone : held_->released) luaL_unref(L, LUA_REGISTRYINDEX, gone);
+    held_->released.clear();
+    lua_pushcfunction(L, [](lua_State* in) {
+      lua_pushinteger(in, luaL_ref(in, LUA_REGISTRYINDEX));
+      return 1;
+    });
+    lua_pushvalue(L, function.index());
+    if (lua_pcall(L, 1, 1, 0) != LUA_OK) throw std::bad_alloc();
+    place_ = static_cast<int>(lua_tointeger(L, -1));
+  }
+  ~HeldFunction() {
+    const std::lock_guard lock(held_->mutex);
+    held_->released.push_back(place_);
+  }
+  HeldFunction(const HeldFunction&) = delete;
+  HeldFunction& operator=(const HeldFunction&) = delete;
+
+  Surface surface(int nx, int ny, Monitor& monitor) const {
+    const Session::Running* const now = Session::Running::innermost;
+    if (now == nullptr || now->session.held_functions != held_)
+      throw Error(ErrorCode::bad_value, "a function can be called in the script that it belongs to alone");
+    const Argument::StackGuard guard(now->L);
+    lua_rawgeti(now->L, LUA_REGISTRYINDEX, place_);
+    const Callback height{Argument(now->L, -1)};
+    if (height({x_, y_}, "height") != height_)
+      throw Error(ErrorCode::bad_value, "the function `height` gave another height at the same place");
+    const Grid grid = make_grid(nx, ny, grid_.size_x, grid_.size_y);
+    return {grid, heights_of(height, grid, monitor)};
+  }
+
+ private:
+  std::shared_ptr<Session::HeldFunctions> held_;
+  Grid grid_;
+  double x_, y_, height_;
+  int place_ = 0;
+};
+
 Values from_function_body(Call& call) {
   const GridKeys keys = call.options(from_function_block());
   const Grid grid = keys.make();
-  Field heights(grid.nx, grid.ny);
-  Task task(call.session().monitor(), "heights from a function", grid.ny);
-  with_key(call.argument(1), "height", [&](const Argument& function) {
-    const Callback height(function);
-    for (int j = 0; j < grid.ny; ++j, task.advance())
-      for (int i = 0; i < grid.nx; ++i) heights(i, j) = height({i * grid.hx(), j * grid.hy()}, "height");
+  return with_key(call.argument(1), "height", [&](const Argument& function) -> Values {
+    Field heights = heights_of(Callback(function), grid, call.session().monitor());
+    const auto held = std::make_shared<const HeldFunction>(function, grid, heights);
+    return result(Surface(grid, std::move(heights)).made_by([held](int nx, int ny, Monitor& monitor) {
+      return held->surface(nx, ny, monitor);
+    }),
+                  keys.body_material);
   });
-  return result(Surface(grid, std::move(heights)), keys.body_material);
 }
 
 const Block<GridKeys>& from_table_block() {

@@ -101,10 +101,10 @@ Field along_axes(const Field& heights, int nx, int ny, bool holes) {
 
 }  // namespace
 
-std::optional<AtCells> known_at_cells(const Surface& surface, int nx, int ny, Monitor& monitor) {
+AtCells at_cells(const Surface& surface, int nx, int ny, Monitor& monitor) {
   const Grid& old = surface.grid();
   const Grid grid = make_grid(nx, ny, old.size_x, old.size_y);
-  if (grid == old) return AtCells{surface, AtCells::How::unchanged};
+  if (grid == old) return {surface, AtCells::How::unchanged};
   if (old.nx % nx == 0 && old.ny % ny == 0) {
     const int step_x = old.nx / nx, step_y = old.ny / ny;
     Field heights(nx, ny);
@@ -116,15 +116,10 @@ std::optional<AtCells> known_at_cells(const Surface& surface, int nx, int ny, Mo
     SurfaceTraits traits = surface.traits();
     traits.aliased_share.reset();
     Surface sampled(grid, std::move(heights), std::move(traits));
-    return AtCells{surface.recipe() ? sampled.made_by(*surface.recipe()) : sampled, AtCells::How::sampled};
+    return {surface.recipe() ? sampled.made_by(*surface.recipe()) : sampled, AtCells::How::sampled};
   }
   if (std::optional<Surface> again = surface.remade(nx, ny, monitor))
-    return AtCells{*std::move(again), AtCells::How::made_again};
-  return {};
-}
-
-AtCells at_cells(const Surface& surface, int nx, int ny, Monitor& monitor) {
-  if (std::optional<AtCells> known = known_at_cells(surface, nx, ny, monitor)) return *std::move(known);
+    return {*std::move(again), AtCells::How::made_again};
   return {resampled(surface, nx, ny), AtCells::How::interpolated};
 }
 

@@ -8,8 +8,6 @@
 // it then is no more, and where a new node touches a point that was not measured there is none.
 #pragma once
 
-#include <optional>
-
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
@@ -32,8 +30,5 @@ struct AtCells {
 // surface generated there. The result keeps recipe and material. Costs a copy, what the generator costs, or
 // what `resampled` costs. Throws Error{bad_value} for `cells` outside 1 … 65536.
 AtCells at_cells(const Surface& surface, int nx, int ny, Monitor& monitor = Monitor::silent());
-// The same, or none where heights would be interpolated.
-std::optional<AtCells> known_at_cells(const Surface& surface, int nx, int ny,
-                                      Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity
