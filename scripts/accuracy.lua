@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the studies of examples/accuracy share: each asks one question of work and precision, and this shows
--- the answer: the table, the chart, the cheapest setting for 10 %, 1 % and 0.1 %. It leaves a part of
+-- Functions shared by the studies of examples/accuracy. Each study has one question of work and precision; this
+-- module shows the answer: the table, the chart, the cheapest setting for 10 %, 1 % and 0.1 %. It leaves a part of
 -- docs/accuracy.md in the run directory: `section.md`. `require "asperity.accuracy"`. It computes nothing.
 local lab = require "asperity"
 local accuracy = {}
@@ -9,8 +9,8 @@ accuracy.bounds = { 0.1, 0.01, 0.001 }
 
 local function percent(share) return ("%g %%"):format(100 * share) end
 
--- Writes a part of the page: its lines, then the script and how it was run. Parts stand in the order of `number`; 0 stands
--- before all else.
+-- Writes a part of the page: its lines, then the script and how it was run. Parts are in the order of `number`; 0 is
+-- the first.
 function accuracy.write(number, lines)
   local script = ("examples/accuracy/%s.lua"):format(arg[0]:match "([^/]+)%.lua$")
   local file <close> = assert(io.open(("section_%02d.md"):format(number), "w"))
@@ -18,8 +18,8 @@ function accuracy.write(number, lines)
     #arg > 0 and " -- " .. table.concat(arg, " ") or ""))
 end
 
--- Shows a study, and writes its part of the page. `number` (where it stands there), `title`, the `question`,
--- what is taken for the `truth`, the `study` itself, and what is to be learnt from it, `finding`.
+-- Shows a study, and writes its part of the page. The keys: `number` on the page, `title`, the `question`, the
+-- assumed `truth`, the `study` itself, and its lesson, `finding`.
 function accuracy.show(given)
   for _, key in ipairs{ "number", "title", "question", "truth", "study", "finding" } do
     assert(given[key], key .. " is missing")

@@ -1,13 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the hard cases of tests/stability/cases share: each says what it sweeps and what goes wrong elsewhere,
--- then shows its evidence, and leaves its part of docs/stability.md in the run directory: `section.md`, and
+-- Functions shared by the hard cases of tests/stability/cases. Each case names the swept edge and the failures
+-- elsewhere, shows its evidence, and leaves its part of docs/stability.md in the run directory: `section.md`, and
 -- `row.md` for the contents. `require "asperity.hard_case"`. It computes nothing.
 local lab = require "asperity"
 local Case = {}
 Case.__index = Case
 
--- A case: its `number` (where it stands on the page), `title`, the `edge` swept, what goes wrong `elsewhere`,
--- and what happens `here`.
+-- A case: its `number` on the page, `title`, the swept `edge`, the failure `elsewhere`, and the behaviour `here`.
 local function hard_case(given)
   local name = arg[0]:match "([^/]+)%.lua$" or arg[0]
   local case = setmetatable({ name = name, failed = 0, lines = {}, refusals = {}, facts = {} }, Case)
@@ -22,7 +21,7 @@ local function add(case, ...)
   for _, line in ipairs{ ... } do table.insert(case.lines, line) end
 end
 
--- An expectation of a notebook's column; one that fails is told on the page too.
+-- An expectation of a notebook's column; a failed expectation is reported on the page too.
 function Case:expect(book, column, options)
   if not book:expect(column, options) then self.failed = self.failed + 1 end
 end
@@ -83,7 +82,7 @@ function Case:holds(what, found)
   self:expect(self.book_of_facts, "holds", { where = { what = what }, at_least = 1, label = what })
 end
 
--- What must be refused, with an error that holds every one of the texts. Returns the error.
+-- A call to be refused, with an error that contains every given text. Returns the error.
 function Case:refused(what, call, ...)
   self.book_of_refusals = self.book_of_refusals or lab.notebook "refusals"
   local accepted, message = pcall(call)

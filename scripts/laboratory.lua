@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the examples of the source paper's experiments share: Hanaor, Gan and Einav (2013), "Effects of
--- surface structure deformation on static friction at fractal interfaces", Geotechnique Letters 3. Two
--- blasted or self-affine aluminium specimens, the six stresses, the eight events, and what is measured
--- after each: Ra, profile length, real area on quartz. `require "asperity.laboratory"`.
+-- Functions shared by the examples of the source paper's experiments: Hanaor, Gan and Einav (2013), "Effects of
+-- surface structure deformation on static friction at fractal interfaces", Geotechnique Letters 3. Two blasted or
+-- self-affine aluminium specimens, the six stresses, the eight events, and the measurements after each: Ra, profile
+-- length, real area on quartz. `require "asperity.laboratory"`.
 local lab = require "asperity"
 local laboratory = {}
 
--- The paper's nominal stresses, and the one it repeated up to eight times. It pressed for ten minutes, which
--- is the time that hardness is given for: no creep is named, and no dwell.
+-- The paper's nominal stresses, and the one it repeated up to eight times. Each press lasted ten minutes, the
+-- reference time of hardness. So the scripts need no creep and no dwell.
 local MPa = lab.units.MPa
 laboratory.stresses = { 20.37 * MPa, 40.74 * MPa, 61.11 * MPa, 101.86 * MPa, 152.78 * MPa, 203.72 * MPa }
 laboratory.event = { pressure = 152.78 * MPa }
@@ -31,14 +31,14 @@ local function specimen(kind, cells, seed, material)
   error(("`kind` is `%s`; give self-affine or bead-blasted"):format(kind), 0)
 end
 
--- Two specimens, lower and upper, of a kind and of a material (Al-2011); pair k has seeds of its own.
+-- Two specimens, lower and upper, of a kind and of a material (Al-2011); each pair k has different seeds.
 function laboratory.specimens(given)
   local kind, cells, seed, material = given.kind, given.cells, 2 * given.pair, given.material
   return specimen(kind, cells, seed - 1, material), specimen(kind, cells, seed, material)
 end
 
--- Both on the bench: elastic half-spaces whose pressure is capped by hardness. Off its axis a disc that is
--- turned meets ground it has not touched; on one periodic tile `place` stands for it.
+-- Both on the bench: elastic half-spaces whose pressure is capped by hardness. Away from its axis a turned disc
+-- touches a fresh surface; on one periodic tile `place` represents this turn.
 function laboratory.bench(lower, upper)
   return lab.contact{
     lower = lower, upper = upper, boundary = "periodic",
@@ -78,15 +78,15 @@ function laboratory.lengths(surface)
   return steps, stretch
 end
 
--- Real area over load on quartz (1/Pa), corrected for the outlines of its spots.
+-- Real area over load on quartz (1/Pa), corrected for the outlines of the spots.
 function laboratory.area_per_load(surface, hardness)
   local st = laboratory.on_quartz(surface, hardness):press{ pressure = laboratory.probe }
   return st.corrected_area_fraction / st.pressure
 end
 
--- What the spots of an elastic touch on quartz carry at the probe pressure, in the specimen's own hardness: in the
--- mean over the real area, and at the highest node. Above 1 the specimen would yield. Then the share of the load that
--- stands on nodes above it, and how many nodes touch.
+-- Pressure in the spots of an elastic touch on quartz at the probe pressure, divided by the specimen's hardness: the
+-- mean over the real area, and the highest node. Above 1 the specimen would yield. Then the share of the load on
+-- nodes above the hardness, and the number of touching nodes.
 function laboratory.over_hardness(surface)
   local st, H = laboratory.on_quartz(surface):press{ pressure = laboratory.probe }, surface.material.hardness
   local load, above, nodes = 0, 0, 0
@@ -136,9 +136,10 @@ function laboratory.after_events(lower, upper, given)
   return found
 end
 
--- Controls, which must not show what the paper found.
+-- Controls, which must not show the paper's effect.
 
--- The lower face cut by one plane that takes as much volume as `stress` (Pa) would node by node.
+-- The lower face cut by one plane. The plane removes the same volume as plastic flow under `stress` (Pa) does node by
+-- node.
 function laboratory.cut_to_a_plane(lower, upper, stress)
   local st = laboratory.bench(lower, upper):press{ pressure = stress }
   local taken = st.plastic_volume / 2 / (lower.size[1] * lower.size[2]) -- a mean height
@@ -152,8 +153,8 @@ function laboratory.cut_to_a_plane(lower, upper, stress)
   return lower:cut{ fraction = more }
 end
 
--- The surface as a store would hold it that interpolates at every turn: moved by part of a cell, `times`
--- times, each time a mean of four neighbours.
+-- The surface after interpolation at every turn: moved by part of a cell, `times` times, each time a mean of four
+-- neighbours.
 function laboratory.interpolated(surface, times)
   local hx, hy = surface.size[1] / surface.cells[1], surface.size[2] / surface.cells[2]
   local function weighted(s, weight) return s:scaled{ amplitude = weight * s.peak_to_valley } end
@@ -186,7 +187,7 @@ function laboratory.scanned(surface, seed)
   return { Ra = Ra, excess = excess }
 end
 
--- What is made of the numbers.
+-- Evaluation of the numbers.
 
 -- Mean and standard deviation (n - 1) of a list of numbers.
 function laboratory.average(numbers)
@@ -197,7 +198,7 @@ function laboratory.average(numbers)
   return mean, #numbers > 1 and math.sqrt(squares / (#numbers - 1)) or 0
 end
 
--- What is left of every number of the first row in the last: last / first, column by column.
+-- The remaining share of every number: last row / first row, column by column.
 function laboratory.left(rows)
   local first, last, ratios = rows[1], rows[#rows], {}
   for column, number in pairs(first) do ratios[column] = last[column] / number end

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the examples of the source paper share: Hanaor, Gan and Einav (2013), "Effects of surface
--- structure deformation on static friction at fractal interfaces", Geotechnique Letters 3. Its surfaces
--- of eq. (2), its boxes on a rigid flat, the load, and the averages over seeds. `require "asperity.paper"`.
--- It measures nothing by itself: what a figure shows is computed in that figure's own script.
+-- Functions shared by the examples of the source paper: Hanaor, Gan and Einav (2013), "Effects of surface structure
+-- deformation on static friction at fractal interfaces", Geotechnique Letters 3. Its surfaces of eq. (2), its boxes
+-- on a rigid flat, the load, and the averages over seeds. `require "asperity.paper"`. It measures nothing by itself:
+-- each figure's script computes the numbers of the figure.
 local lab = require "asperity"
 local paper = {}
 
@@ -37,8 +37,8 @@ function paper.contact(surface, A)
   }
 end
 
--- The same surfaces on an elastic half-space, free, at one load (0.006 E): means over `seeds` seeds for each preset and
--- D = 2.0 and 2.9; friction is that of tau0 = 0.01 E and r = 0.1 without a cap.
+-- The same surfaces on an elastic half-space, free, at one load (0.006 E): means over `seeds` seeds for each preset
+-- and D = 2.0 and 2.9; friction is computed with tau0 = 0.01 E and r = 0.1, without a cap.
 function paper.on_half_space(seeds)
   local unit = lab.material{ young = 1, poisson = 0 }
   local rows = lab.ensemble{
@@ -73,9 +73,8 @@ function paper.where(rows, wanted)
   return found
 end
 
--- One row for each combination of the columns `keys`, in order of first appearance: the mean of every
--- other column of numbers but what names a specimen, `seed` or `pair`, and beside it, as NAME_sd, the
--- standard deviation (n - 1).
+-- One row for each combination of the columns `keys`, in order of first appearance: the mean of every other column of
+-- numbers, except `seed` and `pair`, which name a specimen, and its standard deviation (n - 1) as NAME_sd.
 function paper.means(rows, keys)
   local groups, order, is_key = {}, {}, {}
   for _, key in ipairs(keys) do is_key[key] = true end

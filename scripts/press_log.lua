@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The events of a press log, drawn and replayed: `asperity press-log FILE` runs this script.
--- Arguments: log, area, skip, columns ("load=Kraft,time=Zeit"), turn_step, specimen (a script), cells, seed, and
--- the other keys of lab.protocol.read that take a number, a quantity or a word.
+-- The events of a press log, drawn and replayed: `asperity press-log FILE` runs this script. Arguments: log, area,
+-- skip, columns ("load=Kraft,time=Zeit"), turn_step, specimen (a script), cells, seed, and other keys of
+-- lab.protocol.read with a number, a quantity or a word.
 local lab = require "asperity"
 local um, MPa, deg = lab.units.um, lab.units.MPa, lab.units.deg
 

@@ -40,8 +40,8 @@ for _, event in ipairs{ "__add", "__sub", "__mul", "__div", "__mod", "__pow", "_
   end
 end
 
--- Script files are read by the host: a run records them and copies them, and one that is replayed or resumed
--- loads its copies. What is no file that can be read is left to Lua, which says so.
+-- The host reads script files: a run records and copies them, and a replayed or resumed run loads its copies. Lua
+-- itself reports a file that cannot be read.
 local load_any, loadfile_original, searchpath, path_of = load, loadfile, package.searchpath, package
 local all_modes = trusted and "bt" or "t" -- bytecode can be made to crash the interpreter
 local function load_script(path, is_module, mode, ...)
@@ -55,7 +55,7 @@ end
 function loadfile(path, mode, ...) return load_script(path, false, trusted and mode or all_modes, ...) end
 function dofile(path)
   local chunk, message = load_script(path, false, all_modes)
-  -- A mistake in the file has its own place.
+  -- An error in the file has its own place.
   if not chunk and find(message, "cannot open", 1, true) then fail(message) end
   if not chunk then error(message, 0) end
   return chunk()
@@ -83,7 +83,7 @@ end
 local lab = require "asperity"
 function help(topic) print(lab.help(topic)) end
 
--- lab.materials.steel is a material of the list; a name that is none is an error with the nearest one.
+-- lab.materials.steel is a material of the list; an unknown name is an error with the nearest name.
 setmetatable(lab.materials, {
   __index = function(_, name) if type(name) == "string" then return lab.material(name) end end })
 
@@ -175,8 +175,7 @@ if not trusted then
   package.loadlib, package.cpath = nil, ""
   package.searchers = { package.searchers[1], package.searchers[2] } -- package.preload, and script files
 
-  -- What is known of a running function, less the function itself: the originals of what was taken
-  -- away can be met on the stack.
+  -- Facts about a running function without the function itself, because the removed originals may be on the stack.
   local running = coroutine.running
   local function getinfo_without_functions(thread, of, what)
     if type(thread) ~= "thread" then thread, of, what = running(), thread, of end

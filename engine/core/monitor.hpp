@@ -53,25 +53,25 @@ class Monitor {
   }
   // A sentence the experimenter should see; shown once, kept in the journal.
   virtual void warn(std::string_view sentence) = 0;
-  // A sentence that is neither, such as what work about to begin will take. Dropped unless overridden.
+  // Any other sentence, such as the expected time of the next work. Dropped unless overridden.
   virtual void inform(std::string_view /*sentence*/) {}
-  // Where heavy calls keep what they find (result_store.hpp); null unless overridden. From any thread.
+  // The store for results of heavy calls (result_store.hpp); null unless overridden. From any thread.
   virtual ResultStore* results() { return nullptr; }
 
   // Neither shows nor keeps anything.
   static Monitor& silent();
 };
 
-// The sentence without its numbers and their units, names and quoted texts apart. Warnings of one kind have
-// the same.
+// The sentence without its numbers and their units; numbers in names and quoted texts stay. Equal results are
+// warnings of the same kind.
 std::string kind_of_warning(std::string_view sentence);
 
-// Counts warnings of one kind.
+// Counts the warnings of each kind.
 class WarningKinds {
  public:
-  // Whether no warning of its kind came before.
+  // Whether this warning is the first of the same kind.
   bool is_first(std::string_view sentence);
-  // A line for each kind of which more came, once.
+  // A line for each kind with further warnings. The counts begin again at zero.
   std::vector<std::string> rest();
 
  private:

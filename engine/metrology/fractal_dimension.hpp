@@ -51,8 +51,8 @@ struct FractalDimensionOptions {
 
 struct FractalDimension {
   double D = 1;
-  // Standard deviation of D over profiles; of one profile, standard error of the fit. Of `box`, the root of
-  // its square and that of the bias of box counting.
+  // Standard deviation of D over profiles; of one profile, standard error of the fit. For `box`, the root of
+  // the sum of its square and the squared bias of box counting.
   double error = 0;
   // The statistic at every step, averaged over profiles (psd: by its logarithm), and the steps
   // (psd: wavelengths) in samples. structure and psd in m², madogram in m, the others plain.
@@ -64,12 +64,13 @@ struct FractalDimension {
   std::string reason;                    // why not, else empty
 };
 
-// `resolved` is false, with a reason, where heights are equal to rounding, fewer than three steps
-// (psd: three bands) fit, some profiles are flat, heights repeat, D falls outside 1 … 2 by more than its
-// error, where a few jumps make most of the heights, where D runs from step to step or small boxes find the profile smooth (dimension_scaling.hpp), where
-// steps are shorter than `tip` can show, for `psd`, where a band is empty (spectral_bands.hpp), for `box`,
-// where `structure` with its own steps is not resolved, or, for `length`, where the profile is so flat that a
-// Gaussian one of the same slopes would show less than this share of D - 1.
+// `resolved` is false, with a reason, in the following cases. All methods: heights are equal to rounding,
+// fewer than three steps (psd: three bands) fit, some profiles are flat, heights repeat, D is outside 1 … 2
+// by more than its error, D changes from step to step or small boxes find the profile smooth
+// (dimension_scaling.hpp), a few jumps make most of the heights, or steps are shorter than the resolution of
+// `tip`. `psd`: a band is empty (spectral_bands.hpp). `box`: `structure` with its own steps is not resolved.
+// `length`: the profile is so flat that a Gaussian profile of the same slopes would show less than this share
+// of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
 // With points that were not measured, `length`, `structure` and `madogram` are means over the steps of which

@@ -52,7 +52,7 @@ std::string count_sentence(std::size_t lost, std::size_t all, std::string_view w
          " not drawn: " + std::string(why);
 }
 
-// Rows left out of all series, with the reasons.
+// Counts of omitted values over all series, by reason.
 struct Losses {
   std::size_t all = 0, not_finite = 0, too_large = 0, not_positive_x = 0, not_positive_y = 0;
 
@@ -159,7 +159,7 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
   return text + "EOD\n";
 }
 
-// What is drawn of a chart, and how far it reaches.
+// The drawn values of a chart, and their range.
 struct Content {
   std::vector<std::vector<Point>> points, clouds;
   Ends ends;
@@ -259,8 +259,8 @@ std::string bar_data(const LineChart& chart, const Axes& axes, const std::string
   return text + "EOD\n";
 }
 
-// Pixels from the left at which the axis begins, so that no slanted name begins left of the canvas; 0: as
-// gnuplot finds it. Measured on text of 16 points.
+// Pixels from the left to the axis, so that no slanted name begins left of the canvas; 0: gnuplot's default.
+// Measured on text of 16 points.
 double left_rim(const LineChart& chart, const AxisLayout& x) {
   constexpr double usual = 125, character = 11.8, share_along = 0.71, reserved = 160;
   if (!x.slanted) return 0;
@@ -272,7 +272,7 @@ double left_rim(const LineChart& chart, const AxisLayout& x) {
   return rim;
 }
 
-// Pixels that the numbers along y and their label take, of text of 16 points.
+// Width in pixels of the numbers along y and their label, with text of 16 points.
 double room_for_numbers(const AxisLayout& y) {
   constexpr double label_and_gaps = 74, character = 12.5;
   std::size_t longest = 0;
@@ -280,8 +280,8 @@ double room_for_numbers(const AxisLayout& y) {
   return label_and_gaps + character * static_cast<double>(longest);
 }
 
-// Where the key stands: beside the plot, whose right rim all panels share; of a chart alone below the plot
-// where the longest name would take more than a third of the width.
+// Place of the key: right of the plot, with the same right rim in all panels. The key of a single chart is
+// below the plot if the longest name needs more than a third of the width.
 std::string key_command(const LineChart& chart, std::size_t longest_name,
                         const std::optional<double>& right_rim) {
   constexpr double sample = 70, character = 8.5, widest = 1.0 / 3;
@@ -319,7 +319,7 @@ std::string title_of(const std::string& name) {
   return name.empty() ? " notitle" : " title " + gnuplot_text(name);
 }
 
-// Layers of one series, in front of the others and behind.
+// Layers behind and in front of the other series.
 struct Layers {
   std::vector<std::string> behind, front;
 };

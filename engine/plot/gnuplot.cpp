@@ -56,8 +56,8 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The environment less what could change the picture: the language, the time zone (of the date in a PDF) and
-// gnuplot's own variables.
+// The environment without variables that could change the picture: the language, the time zone (of the date
+// in a PDF) and gnuplot's own variables.
 std::vector<char*> plain_environment() {
   static char language[] = "LC_ALL=C.UTF-8", zone[] = "TZ=UTC0";
   std::vector<char*> kept;

@@ -27,7 +27,7 @@ enum class PictureFormat { svg, png, pdf };
 // By the ending of the name. Throws Error{bad_value} for any other ending.
 PictureFormat picture_format(const std::filesystem::path& file);
 
-// The line that opens the canvas, of `width` × `height` pixels, with text of `font_size` points; in a PDF a
+// The opening line of the canvas, of `width` × `height` pixels, with text of `font_size` points; in a PDF a
 // hundred pixels are an inch, and text keeps its share of the width.
 std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size);
 
@@ -39,14 +39,14 @@ struct GnuplotData {
 
 struct GnuplotResult {
   std::string picture;   // the bytes of the file
-  std::string messages;  // what gnuplot said on its standard error; empty when all was well
+  std::string messages;  // gnuplot's standard error; empty without problems
 };
 
-// What gnuplot said though it drew, as warnings that name the file: the picture may look otherwise than it
-// should (a font or a file that could not be opened).
+// Warnings from gnuplot's messages about a finished picture, with the name of the file: the picture may look
+// wrong (for example, gnuplot could not open a font or a file).
 std::vector<std::string> complaints_of(const GnuplotResult& result, const std::filesystem::path& file);
 
-// Who draws instead of a program started here: a process that may start none asks another for its pictures.
+// The drawer for a process without permission to start programs: another process draws its pictures.
 using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const GnuplotData> data);
 // From now on, in the whole process; not while a picture is drawn.
 void draw_pictures_by(std::function<GnuplotDrawer> drawer);
@@ -55,13 +55,13 @@ void draw_pictures_by(std::function<GnuplotDrawer> drawer);
 // the same bytes; any other picture as it is.
 std::string without_date(std::string picture);
 
-// The script as gnuplot reads it, to leave its picture in the file `picture` of its working directory.
+// The script for gnuplot, with the picture in the file `picture` of the working directory.
 std::string script_for_file(std::string_view script);
 
-// Runs the script, whose canvas must be the first line, in a temporary directory of its own. Checks
-// the stop flag while waiting. Thread-safe. Throws Error{bad_state} when gnuplot is not installed,
-// Error{bad_file} when the temporary directory cannot be written, Error{internal} with gnuplot's own
-// words when it fails or draws nothing.
+// Runs the script, whose canvas must be the first line, in a new temporary directory. Checks the stop flag
+// while waiting. Thread-safe. Throws Error{bad_state} when gnuplot is not installed, Error{bad_file} when the
+// temporary directory cannot be written, Error{internal} with gnuplot's own words when it fails or draws
+// nothing.
 GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data = {});
 
 }  // namespace asperity

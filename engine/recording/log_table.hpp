@@ -57,9 +57,8 @@ class LogTable {
   // The column of that meaning.
   std::optional<std::size_t> find(int meaning) const;
   bool has(int meaning) const { return find(meaning).has_value(); }
-  // Titles of the columns that are left out, each with the title that may have been meant; "" if there are
-  // none. Those whose title begins with "result " do not count: they are what was measured, beside what was
-  // done.
+  // Titles of the ignored columns, each with the known title nearest to it; "" if there are none. Columns
+  // with measured results, whose titles begin with "result ", do not count.
   std::string others() const;
   void warn_of_others(Monitor& monitor) const;
   // A problem unless one of both is given, and one alone; the meanings are those of `pressure` and `load`.
@@ -70,10 +69,10 @@ class LogTable {
   // The same without a problem where it holds none: a number in SI, to a rounding or two, or what else it
   // holds.
   TextCell number(std::size_t k, const LogCell& cell);
-  // Why a cell that is no number of column k is none, and what to write: for problem().
+  // The error of a cell without a number of column k, and its cure: for problem().
   std::string complaint(std::size_t k, const LogCell& cell) const;
-  // What was read in one of several ways: columns in which every comma stands before three digits, as it does
-  // where it parts thousands; days of a spreadsheet; lines below the table.
+  // Ambiguous readings: columns in which three digits follow every comma, as in numbers with separated
+  // thousands; days of a spreadsheet; lines below the table.
   std::vector<std::string> warnings() const;
 
   void problem(const std::string& place, const std::string& finding) { problems_.add(place, finding); }
@@ -146,13 +145,14 @@ LogTitle log_title(std::string_view title);
 // Cells of a line at its semicolons, else its tabs, else its commas, as they stand and without their quotes.
 std::vector<std::string> log_cells(std::string_view line);
 
-// The heads of a table that begins below other lines.
+// The heads of a table below other lines.
 struct FoundHeads {
   std::size_t line;  // of the file, from 1
   std::string text;
 };
-// The first line of words below which a table begins: three rows, or all that follow, of as many cells, two
-// of them numbers or times, after a line of units if there is one. Nothing where none of 300 lines is so.
+// The first line of words above a table, among 300 lines; else nothing. A line of units may follow. The table
+// has three rows, or fewer at the end of the file; each row has as many cells as the line of words, and its
+// first cell and another are numbers or times.
 std::optional<FoundHeads> find_heads(TableLines lines);
 
 // Whether a word may mean the column: its own name, or what others call it ("kraft" for load, "angle" for
@@ -164,8 +164,8 @@ bool surely_means(std::string_view word, std::string_view column);
 // What a time that runs backwards by so many seconds asks for where it may be a time of day: its date.
 std::string past_midnight(double seconds_back);
 
-// The sign that may part thousands in a text that is no number only because of it ("1.234,5", "1'234",
-// "1 234"): a key `thousands` takes it. "" where there is none.
+// The sign that may separate thousands ("1.234,5", "1'234", "1 234") and alone keeps the text from being a
+// number: a key `thousands` takes the sign. "" if there is no such sign.
 std::string_view thousands_in(std::string_view text);
 
 }  // namespace asperity

@@ -23,16 +23,16 @@
 
 namespace asperity {
 
-// Where the stream "placement" of `seed` puts the upper body down afresh, exact on the lattice, so that
+// The new placement of the upper body by the stream "placement" of `seed`. It is exact on the lattice, so
 // nothing is resampled: turned by 0, 90, 180 or 270 deg (0 or 180 when cells or sizes differ in x and y),
-// then shifted by whole cells along x and y; on a free boundary not shifted at all, for a body moved past the
-// rim would meet nothing there. Off the axis of a disc a turn brings statistically fresh ground, which on one
-// tile a shift stands for.
+// then shifted by whole cells along x and y; on a free boundary not shifted at all, because a body beyond the
+// rim would touch nothing. Away from the axis of a disc, a turn brings a statistically new surface; on one
+// tile, a shift represents this turn.
 LatticeIsometry draw_placement(const Grid& grid, Boundary boundary, std::uint64_t seed);
 
 class SpecimenPair {
  public:
-  // History of the pair and the measured values of its presses.
+  // One event in the history of the pair, with the measured values of a press.
   struct Done {
     struct Measured {
       double load, pressure, approach, area_fraction, peak_pressure;
@@ -42,17 +42,17 @@ class SpecimenPair {
     std::optional<Measured> measured{};
   };
 
-  // Turned over and laid down without turn or shift. Throws the errors of check(Scene) and make_plan; O(n)
-  // for two rough bodies, no solve.
+  // The upper body is turned over and placed without turn or shift. Throws the errors of check(Scene) and
+  // make_plan; O(n) for two rough bodies, no solve.
   explicit SpecimenPair(const Scene& scene);
 
-  // The state under this load. The bodies come back elastically at release; what yielded stays. Under a load
-  // that they have carried as they lie, or less, nothing yields again (planned_yield.hpp). Warns once where
-  // bodies that do not continue across the rim lie on a periodic half-space, where a dwell is named and creep
-  // is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to be kept). Where
-  // the scene asks for an error, the first press under load chooses cells and tolerance for it and
-  // puts the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held to the
-  // error there.
+  // The state under this load. The bodies recover elastically at release; the plastic deformation stays.
+  // Under a load that they have carried as they lie, or less, nothing yields again (planned_yield.hpp). Warns
+  // once where bodies that do not continue across the rim lie on a periodic half-space, where a dwell is
+  // named and creep is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to
+  // be kept). If the scene requests an accuracy, the first press under load chooses cells and tolerance for
+  // it and puts the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held
+  // to the error there.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
   // Frees the memory of every state pressed here that is still held; values read before stay
   // (State::close).
@@ -65,8 +65,8 @@ class SpecimenPair {
   // Takes the load off.
   void release();
   bool under_load() const { return under_load_; }
-  // The contact under its present load, pulled sideways; nothing of the pair changes. Throws what shear()
-  // throws, and Error{bad_state} without load.
+  // The contact under its present load, pulled sideways; nothing of the pair changes. Throws the errors of
+  // shear(), and Error{bad_state} without load.
   PartialSlip shear(const ShearRequest& request, Monitor& monitor = Monitor::silent());
   // The state of the last press while its load is on; kept for partial slip alone (has_tangential), null
   // without it.
@@ -82,11 +82,11 @@ class SpecimenPair {
   // Shifts the upper specimen by (x, y) m, whole cells (to 1e-9 of a cell), on a periodic boundary only.
   void shift(double x, double y);
 
-  // Throws the errors of a step that are known in advance: a turn or shift that does not fit, and a mean
-  // pressure above the capacity of all nodes. `lying` is the placement before the step, and then after it.
+  // Throws the predictable errors of a step: an impossible turn or shift, and a mean pressure above the
+  // capacity of the nodes together. `lying` is the placement before the step, and then after it.
   void check_ahead(const Protocol::Step& step, Pose& lying) const;
 
-  // The events since the pair was made, in order; a copy begins with the events of its original.
+  // The events since the pair was made, in order; a copy begins with its original's events.
   const std::vector<Done>& history() const { return history_; }
   // Gives a time to every entry of that list from number `first` on.
   void date(std::size_t first, std::optional<double> time);
@@ -106,7 +106,7 @@ class SpecimenPair {
   // the cells given.
   const Plan& plan() const { return plan_; }
   // The same with the transforms and the time of this very press, which is tried on fewer cells
-  // (expected_transforms.hpp); nothing of the pair changes. Throws the errors of such a press.
+  // (expected_transforms.hpp); nothing of the pair changes. Throws the same errors as press().
   Plan plan_of(const PressRequest& request) const;
   // The pair made ready to be pressed as it lies now; worked out once per placement.
   std::shared_ptr<const Solver> solver();

@@ -15,7 +15,7 @@ local function refused(call, ...)
   for _, part in ipairs{...} do assert(message:find(part, 1, true), message) end
 end
 
--- A pull is carried up to the pull-off; one that nothing carries leaves the contact as it was.
+-- A pull is carried up to the pull-off; a larger pull leaves the contact unchanged.
 local c = bench{ adhesion={ work=0.01, range=0.05 } }
 local held = c:press{ load=-0.03 }
 assert(held.load == -0.03 and held.contacts > 0 and held.attraction > 0.03)

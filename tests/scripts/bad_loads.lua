@@ -46,7 +46,7 @@ refused(function() c:sweep{ pressure=3 } end, "`pressure` is the number 3; give 
 refused(function() c:sweep{ pressure={} } end, "give a list of values")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=box }:rotate(0.3) end, "rotate", "place")
 refused(function() c:place{} end, "`seed` is missing")
--- Nothing that was refused has touched the bench.
+-- The refused calls have not changed the bench.
 local before = c:press{ approach="0.5 um" }
 assert(not pcall(c.press, c, { pressure=-1 }))
 assert(c:press{ approach="0.5 um" }.digest == before.digest)

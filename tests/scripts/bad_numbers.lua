@@ -40,7 +40,7 @@ refused(function() s:filtered{ short_wave=1, long_wave=0.1 } end, "`short_wave` 
 refused(function() s:levelled{ degree=9 } end, "`degree` is 9")
 refused(function() s:cut{ fraction=2 } end, "`fraction` is 2")
 refused(function() s:fractal_dimension{ steps={ 1 } } end, "`steps` is a table; give a list of two or more")
--- What lies just inside is taken.
+-- Values just inside the limits are accepted.
 W{ cells=1, D=2, n_max=3501 }
 W{ cells={ 1, 7 }, D=3, n_max=0 }
 W{ cells=8, D=2.5, gamma=1.0001, n_max=4096 }

@@ -1,4 +1,4 @@
 ﻿-- SPDX-License-Identifier: GPL-3.0-or-later
--- A script that begins with a byte-order mark, as some editors write it.
+-- A script with a byte-order mark at its beginning, as some editors write it.
 --! output: read
 print "read"

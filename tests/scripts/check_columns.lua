@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Columns that no row has are mistakes where the script spells all that it writes, and nowhere else.
+-- Missing columns are mistakes if the script spells every column name; otherwise they are not.
 --! command: check
 --! exit: 1
 --! error: check_columns.lua:22: notebook:expect: no row of the notebook has a column `mew` (did you mean `mu`?)
@@ -13,7 +13,7 @@
 local lab = require "asperity"
 local s = lab.surface.sine{ cells=64, size=1, amplitude="1 um" }
 local b = lab.notebook "b"
-b:expect("anything", { near=1 })  -- before the first row a dry run says nothing
+b:expect("anything", { near=1 })  -- a dry run ignores columns before the first row
 for event = 1, 3 do
   local r = s:roughness()
   b:write{ event=event, mu=r.Ra, ["Ra [um]"]=r.Ra }
@@ -26,7 +26,7 @@ b:mean "w"
 b:fit{ x="event", y="Rb", model="linear" }
 b:expect("Ra [um]", { near=1, within=1 }) b:expect("late", { near=1, within=1 }) b:mean("mu", { by="event" })
 b:chart{ x="event", y={ "mu", "Ra" } }
--- Names that are computed, and rows that come whole.
+-- Computed names, and rows from a table.
 local c = lab.notebook "c"
 for k, z in ipairs(s:heights()) do c:write{ ["p" .. k]=1 } end
 c:expect("p2", { near=1, within=1 })

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Errors that a script catches are notes: a script that tests a refusal is in order. They are raised, as in a run.
+-- Errors caught by a script are notes, because a script may test a refusal. They are raised as in a run.
 --! command: check
 --! error: asperity: note:
 --! error: check_pcall.lua:15: lab.surface.flat: `cells`

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The presses of a log that the script reads are counted; a log that it would write by then is not missed.
+-- The presses of an existing log are counted. A log written by the script itself may be missing.
 --! command: explain
 --! output: protocol:on: 3 times by `load`,
 --! output: together: 3 presses, about

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- pairs and next go in one order, whatever a table went through: numbers, strings by their bytes, booleans. The
--- same holds in modules and in the cases of ensembles.
+-- pairs and next have one order, whatever the history of the table: numbers, strings by their bytes, booleans. The
+-- same order holds in modules and in the cases of ensembles.
 --! output: in order
 local lab = require "asperity"
 
@@ -30,7 +30,7 @@ local bytes = keys{ ["a\0b"]=1, a=2, ["a\0"]=3, [""]=4, ["\255"]=5, ["eight by"]
 local wanted = { "", "Z", "a", "a\0", "a\0b", "eight by", "eight byt\0", "eight bytes", "\255" }
 for n, key in ipairs(wanted) do assert(bytes[n] == key, n) end
 
--- Many keys, put in and taken out in two ways.
+-- Many keys, inserted and removed in two ways.
 local one, other = {}, {}
 for k = 1, 3000 do one["key " .. k * 7919 % 10007] = k one[k] = k one[k / 2] = k end
 for k = 5000, 1, -1 do other["gone " .. k] = k other[-k] = k end
@@ -40,7 +40,7 @@ local a, b = keys(one), keys(other)
 assert(#a == 7500 and #b == #a)
 for k = 1, #a do assert(a[k] == b[k]) end
 
--- A loop may change and remove fields, and sees none that it adds.
+-- A loop may change and remove fields, and does not visit added fields.
 local t = { a=1, b=2, c=3, d=4, [1]=5 }
 local seen = {}
 for k, v in pairs(t) do
@@ -70,7 +70,7 @@ local f, u = function() end, {}
 local mixed = keys{ [f]=1, [u]=2, z=3, [io.stdout]=4 }
 assert(#mixed == 4 and mixed[1] == "z")
 
--- Values that say themselves how they are looped over, and those that cannot be.
+-- Values with their own loop (__pairs), and values without any loop.
 local odd = setmetatable({ a=1 }, { __pairs = function(self) return function(_, k) if not k then return "own", self end end, self, nil end })
 for key, value in pairs(odd) do assert(key == "own" and value == odd) end
 local yielding = setmetatable({}, { __pairs = function(self) coroutine.yield "asked" return next, { a=1 }, nil end })
@@ -86,14 +86,14 @@ local names = {}
 for name in pairs(lab) do names[#names + 1] = name end
 for n = 2, #names do assert(names[n - 1] < names[n]) end
 
--- A table with weak keys, of which a collection takes some.
+-- A table with weak keys; a collection removes some keys.
 local weak = setmetatable({}, { __mode="k" })
 for n = 1, 200 do weak[{}] = n weak[n] = n end
 local count = 0
 for key in pairs(weak) do if type(key) == "number" then count = count + 1 end collectgarbage "step" end
 assert(count == 200)
 
--- Cases of ensembles, also with functions that were taken along.
+-- Cases of ensembles, also with functions captured from the script.
 local own_pairs, own_next = pairs, next
 local rows = lab.ensemble{ over={ seed={ 1, 2 } }, run=function()
   local loads, text = { light=1, middle=2, heavy=3, full=4 }, ""

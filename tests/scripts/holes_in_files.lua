@@ -36,14 +36,14 @@ assert(missing(steps:height(2, 0)) and math.abs(steps:height(3, 2) - 12e-6) < 1e
 local p = lab.profile.read(file_of("trace.csv", "x [um],z [nm]\n0,1\n1,\n2,3\n3,5\n"))
 assert(lab.profile.read(p:write "p.csv") == p)
 
--- What needs every point says so, and how many there are not.
+-- Calls that need every point are refused, with a missing node.
 refused(function() lab.spread.read("s.npy", { size=s.size }) end, "has no height at node (2, 0)", "`fill`")
 
 -- Cases of an ensemble hand them over as they are.
 local rows = lab.ensemble{ over={ k={ 1, 2 } }, run=function() return { s=s, p=p } end }
 for k = 1, 2 do assert(rows[k].s == s and rows[k].p == p and missing(rows[k].s:height(2, 0))) end
 
--- A lattice that nobody can be sure of stays an error.
+-- An ambiguous lattice stays an error.
 refused(function() lab.surface.read(file_of("three.txt", "0 0 1\n1 0 2\n0 1 3\n"), { unit="um", unit_xy="um" }) end,
   '`format` = "xyz"', '`format` = "text"')
 local three = lab.surface.read("three.txt", { unit="um", unit_xy="um", format="xyz" })

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A file larger than the memory is refused before it is read. These have 1 TiB and take no room on the disk.
+-- A file larger than the memory is refused before it is read. These files have 1 TiB and occupy no space on the disk.
 local lab = require "asperity"
 
 local function must_refuse(read, file)

@@ -24,7 +24,7 @@ for key, value in pairs{ load=st.load, approach=st.approach, indentation=st.inde
   assert(math.abs(same.contacts - st.contacts) <= 2, key)
 end
 
--- In full contact the tangent stiffness is that of the uniform compression.
+-- In full contact the tangent stiffness equals the stiffness of uniform compression.
 local full = c:press{ pressure="5 MPa" }
 local t, nu, young = 80e-6, 0.45, 5e6
 local uniform = t * (1 + nu) * (1 - 2 * nu) / (young * (1 - nu))

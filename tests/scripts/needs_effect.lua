@@ -15,7 +15,7 @@ end
 local law = lab.friction{ tau0="50 MPa", alpha=0.2 }
 local all_of_them = { "plasticity", "creep", "ageing", "interlocking", "tangential", "estimate" }
 
--- Everything of the language that an effect alone gives: whose it is, how it is asked for, what names it.
+-- Every name of the language with a required effect: the effect, the name, and a function that uses it.
 local asked = {
   { "plasticity", "plastic_volume", function(s) return s.st.plastic_volume end },
   { "plasticity", "plastic_fraction", function(s) return s.st.plastic_fraction end },
@@ -65,7 +65,7 @@ local function refused(s, row)
   assert(message:find("needs_effect.lua:", 1, true), "the line of the script: " .. message)
 end
 
--- A bare scene has none of it. Nor does one that names everything else.
+-- A bare scene refuses every name. So does a scene with all other effects.
 local bare = scene{}
 for _, row in ipairs(asked) do refused(bare, row) end
 local others = {
@@ -82,7 +82,7 @@ for effect, effects in lab.sorted(others) do
   end
 end
 
--- Where it is named, each is given: none of the refusals above was for another reason.
+-- With the effect, each name works: so the refusals above had no other reason.
 local given = {
   plasticity = scene{ plasticity={} }, ageing = scene{ ageing={ rate=0.1, onset="1 s" } },
   interlocking = scene{ interlocking={} }, tangential = scene{ tangential={} },
@@ -96,14 +96,14 @@ for _, row in ipairs(asked) do
   if row[1] == "estimate" then assert(row[3](s) ~= nil, row[2]) end
 end
 
--- Each effect that is off is listed, by the state and by the plan.
+-- State and plan list each effect that is off.
 for _, list in ipairs{ bare.st.effects_off, bare.c:explain().effects_off } do
   local off = " " .. table.concat(list, " ") .. " "
   for _, effect in ipairs(all_of_them) do
     if effect ~= "estimate" then assert(off:find(" " .. effect .. " ", 1, true), off) end
   end
 end
--- A cost has no line of an effect that was not named.
+-- A cost has no line for an effect outside the scene.
 assert(not pcall(function() return bare.st.cost.by_effect.plasticity end))
 assert(not pcall(function() return bare.st.cost.by_effect.estimate end))
 assert(given.plasticity.st.cost.by_effect.plasticity.seconds >= 0)

@@ -72,7 +72,7 @@ local untouched = contact "periodic"
 local never = p:on(untouched)
 assert(not tostring(untouched):find "under load")
 
--- An event that does not fit is refused before the first is done.
+-- An impossible event is refused before the first event is done.
 local failing = lab.protocol{ { press={ pressure="10 MPa" } }, { rotate="45 deg" }, { release=true } }
 local f, seen = contact "periodic", 0
 local ok, message = pcall(function() for _ in failing:on(f) do seen = seen + 1 end end)
@@ -105,7 +105,7 @@ local found = {}
 for event, st in log:on(contact "periodic") do if st then found[#found + 1] = st.digest end end
 assert(#found == 2 and found[1] == first and found[2] == second)
 
--- Values that cases of an ensemble share.
+-- Values shared by the cases of an ensemble.
 local rows = lab.ensemble{ over={ seed={ 1, 2 } }, run=function(case)
   local last
   local mine = lab.contact{ lower=rough, upper=counter, boundary="periodic", effects={ elasticity="box" } }

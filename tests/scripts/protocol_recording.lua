@@ -10,7 +10,7 @@
 local lab = require "asperity"
 local MPa = lab.units.MPa
 
--- 20 s without load, a hold of 40 s, a quarter turn, a hold of 30 s; on a cell that reads 3 N without load.
+-- 20 s without load, a hold of 40 s, a quarter turn, a hold of 30 s; on a load cell with an offset of 3 N.
 local function write(name, titles, scale)
   local file = assert(io.open(name, "w"))
   file:write(titles, "\n")
@@ -46,7 +46,7 @@ assert(r.spans[1].kind == "rest" and r.spans[2].kind == "rise" and r.spans[3].ki
 assert(r.spans[3].load_error > 0 and r.spans[3].load_error < 0.1)
 assert(lab.protocol{ { release=true } }.recording == nil)
 
--- Options, and the meaning that a table of events keeps.
+-- Options, and a table of events with its usual meaning.
 local pressures = lab.protocol.read("recorded.csv", { area="2 mm^2" })
 assert(math.abs(pressures:events()[1].pressure - 50 * MPa) < 0.1 * MPa)
 local rows = lab.protocol.read("recorded.csv", { events="rows" })

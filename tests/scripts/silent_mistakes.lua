@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Slips that once gave a number without a word: each is a warning at its line.
+-- Formerly silent mistakes: each is a warning at its line.
 --! error: silent_mistakes.lua:18: lab.friction: `tau_max` of 100 MPa is below `tau0` of 500 MPa
 --! error: silent_mistakes.lua:24: cropped: `size` is not a whole number of cells, so the part is 9.375 um x 9.375 um
 --! error: silent_mistakes.lua:28: lab.ensemble: a list in `over` is empty, so there is no case
@@ -14,7 +14,7 @@
 --! not error: `given`
 local lab = require "asperity"
 
--- A cap below the strength that it caps.
+-- A cap below the capped strength.
 lab.friction{ tau0="500 MPa", alpha=0.2,
   tau_max="100 MPa" }
 lab.friction{ tau0="500 MPa", alpha=0.2, tau_max="500 MPa" } lab.friction{ tau0="500 MPa", alpha=0, yield_pressure="1 MPa" }
@@ -40,7 +40,7 @@ local rows = lab.ensemble{ over={ seed={ 1, 2, 3 } },
   end }
 assert(#rows == 3 and n == 0 and #list == 0)
 
--- A fit that is worse than none.
+-- A fit worse than the mean of the points.
 local t = lab.table.from{ { x=1, y=2.1 }, { x=2, y=3.9 }, { x=3, y=6.2 }, { x=4, y=7.9 } }
 local fit = t:fit{ x="x", y="y", model=function(x, q) return q.a ^ x end, start={ a=-1 } }
 assert(fit.r_squared < 0 and #fit.warnings == 1)

@@ -16,7 +16,7 @@ end
 lab.budget{ ask = function() return 3 end, replicate = { seed = { 1, 2, 3 } } }
 lab.budget{ ask = function() return 3 end, cells = { 16, 32 } }
 lab.budget{ ask = function() return 3 end, inputs = { a = { value = 1, u = 0.1 } } }
--- One that is used is not suspected.
+-- A used key is not suspected.
 local used = lab.budget{ ask = function(x) return x.seed + 1 / x.cells end, replicate = { seed = { 1, 2, 3, 4, 5 } }, cells = { 16, 32 } }
 assert(#used.warnings == 0, used.warnings[1])
 

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Warnings that differ in numbers alone are one line with a count, and the journal has each. A mean by groups
--- warns once of all its groups.
+-- Warnings with different numbers only are one line with a count; the journal has each warning. A mean by groups
+-- warns once for all its groups.
 --! error: warnings_of_one_kind.lua:19: surface:masked: 1 of 4096 measured points
 --! error: warning: 3 more warnings differ in numbers alone from this one: 
 --! error: warning: column `mu` where `p` = 1, and in 5 more of 6 groups: 

@@ -29,7 +29,7 @@ namespace {
 
 using namespace counted;
 
-// What may be named beside elasticity.
+// Effects besides elasticity.
 struct Effect {
   const char* name;
   std::function<void(Scene&)> add;
@@ -119,8 +119,8 @@ Scene with_effects(Scene scene, const Names& names) {
 
 struct Counted {
   Cost press;                                           // of the call
-  std::vector<std::pair<std::string, Cost>> by_effect;  // as the state tells it
-  std::int64_t kept = 0;                                // by the pair, the state gone
+  std::vector<std::pair<std::string, Cost>> by_effect;  // as the state reports it
+  std::int64_t kept = 0;                                // held by the pair after its state was destroyed
   std::size_t buffers = 0;
   std::int64_t planned = 0;
   int iterations = 0;
@@ -160,7 +160,8 @@ Counted count_once(const Scene& scene, const PressRequest& request) {
   return result;
 }
 
-// The second time: what the process keeps for every contact of a size is there by then.
+// Returns the second count. The first count includes allocations cached by the process for all contacts of
+// one size.
 Counted count(const Scene& scene, const PressRequest& request = {PressBy::pressure, pressed, {}}) {
   count_once(scene, request);
   return count_once(scene, request);
@@ -175,8 +176,8 @@ TEST_F(EffectsCounted, EveryEffectThatIsComputedHasARow) {
         << known->name << " is computed, but nothing here counts what it does when it is not named";
 }
 
-// A scene that names elasticity alone is its solver and nothing else: to the transform, and to the byte but
-// for what the solver is handed and what it hands out.
+// A scene with elasticity alone costs the same as its solver: the same transforms, and the same bytes apart
+// from the input and output of the solver.
 TEST_F(EffectsCounted, ABareHalfSpaceIsItsSolverAlone) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     SCOPED_TRACE(name(boundary));
@@ -223,7 +224,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
         SCOPED_TRACE(std::string(bench.name) + ": " + joined(named, " and "));
         const Counted found = count(with_effects(bare_scene(bench), named));
 
-        // Lines of the cost: those of what is named and no other, and together they are the whole.
+        // The cost has one line per named effect and no other; the sum of the lines is the total.
         Names expected = {"elasticity"};
         for (const std::string& name : named)
           if (effect_named(name).line != nullptr) expected.emplace_back(effect_named(name).line);
@@ -243,7 +244,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
           }
         }
 
-        // Each of them taken away again: what it did is gone, and nothing else.
+        // Removing one effect removes its contribution only.
         for (const std::string& name : named) {
           const Effect& effect = effect_named(name);
           if (effect.changes_the_normal_contact) continue;
@@ -263,7 +264,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
           EXPECT_EQ(found.press.bytes, without.press.bytes) << name;
           EXPECT_EQ(found.buffers, without.buffers) << name;
           EXPECT_EQ(found.planned, without.planned) << name;
-          // The one thing kept is the state that a pull starts from.
+          // Only `tangential` stores something: the state before a pull.
           if (name != "tangential") {
             EXPECT_EQ(found.kept, without.kept) << name;
           }
@@ -279,13 +280,13 @@ TEST_F(EffectsCounted, OnlyAPullKeepsTheStateItStartsFrom) {
     const Counted bare = count(bare_scene(bench)),
                   pulled = count(with_effects(bare_scene(bench), {"tangential"}));
     const auto nodes = static_cast<std::int64_t>(48 * 48);
-    // Nothing stays of a press without it, and with it the pressures and gaps of one state.
+    // A press without `tangential` stores nothing; with it, the pressures and gaps of one state are stored.
     EXPECT_EQ(bare.kept, 0) << bench.name;
     EXPECT_EQ(pulled.kept, 2 * 8 * nodes) << bench.name;
   }
 }
 
-// Friction is asked of a state: what the scene did not name is not worked out for it either.
+// Friction of a state: effects outside the scene are not computed here either.
 TEST_F(EffectsCounted, FrictionWorksOutWhatIsNamed) {
   const JunctionLaw law({.tau0 = 0.01, .alpha = 0.2});
   for (const Bench& bench : benches) {
@@ -310,7 +311,7 @@ TEST_F(EffectsCounted, FrictionWorksOutWhatIsNamed) {
   }
 }
 
-// An estimate solves beside the press and changes nothing of it.
+// An estimate solves separately and does not change the press.
 TEST_F(EffectsCounted, AnEstimateChangesNoBitAndShowsWhatItCost) {
   for (const Bench& bench : benches) {
     const Counted bare = count(bare_scene(bench));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What nobody reads of a state is never computed: transforms and bytes counted around the first and the
-// second reading of each lazy quantity. And a state outlives its contact: it is a value of its own, and what
-// is read of it once the contact is gone is what would have been read before.
+// Unread quantities of a state are never computed: the tests count transforms and bytes of the first and the
+// second reading of each lazy quantity. A state outlives its contact: later readings return the same values
+// as before.
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,7 +20,7 @@ namespace {
 constexpr int cells = 48;
 constexpr std::int64_t grid_bytes = 8LL * cells * cells;
 
-// What reading a quantity of a half-space state takes.
+// Cost of reading a quantity of a half-space state.
 struct LazyQuantity {
   const char* name;
   std::function<double(const State&)> read;
@@ -97,7 +97,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   for (const LazyQuantity& quantity : lazy_quantities()) {
     SCOPED_TRACE(quantity.name);
     SpecimenPair pair(plastic_scene());
-    // What the process keeps for every contact of a size is there by then.
+    // The first reading fills the caches of the process for contacts of this size.
     quantity.read(pair.press(under));
     SpecimenPair fresh(plastic_scene());
     const State state = fresh.press(under);
@@ -112,7 +112,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   }
 }
 
-// To read one is to work out that one: the others cost what they cost on a state of which nothing was read.
+// Reading one field computes this field only; the others cost the same as on an unread state.
 TEST_F(LazyState, ReadingOneWorksOutNoField) {
   const std::vector<LazyQuantity> all = lazy_quantities();
   for (const LazyQuantity& quantity : all) {
@@ -128,7 +128,7 @@ TEST_F(LazyState, ReadingOneWorksOutNoField) {
   }
 }
 
-// What is known when the solve ends costs nothing to read.
+// Results of the solve itself cost nothing to read.
 TEST_F(LazyState, WhatTheSolveFoundIsThere) {
   SpecimenPair pair(plastic_scene());
   const State state = pair.press(under);
@@ -159,7 +159,7 @@ TEST_F(LazyState, AStateOutlivesItsContact) {
     auto pair = std::make_unique<SpecimenPair>(plastic_scene());
     SpecimenPair twin(plastic_scene());
     const State state = pair->press(under), other = twin.press(under);
-    // The bodies have yielded, turned and gone since.
+    // Meanwhile the bodies yield and turn, and the pair is destroyed.
     pair->release();
     pair->place(3);
     pair->press(under);

@@ -296,7 +296,7 @@ TEST(PlasticEvents, ALongerDwellTakesMore) {
   }
   EXPECT_LT(volumes[0], volumes[1]);
   EXPECT_LT(volumes[1], volumes[2]);
-  // The reference dwell is what a press without creep does.
+  // The reference dwell gives the same result as a press without creep.
   SpecimenPair plain(scene_of());
   EXPECT_EQ(plain.press(pressure(100)).plastic_volume(), volumes[1]);
 }
@@ -320,7 +320,7 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  Field tilted = body.heights();  // M2: what continues across the rim is not warned of
+  Field tilted = body.heights();  // M2: no warning for a body that continues across the rim
   const double height = range(tilted.values()).span();
   for (int i = 0; i < body.grid().nx; ++i)
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;

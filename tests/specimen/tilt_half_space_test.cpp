@@ -112,7 +112,7 @@ TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
     const TiltResult result = raise(pair, law, options);
     ASSERT_EQ(result.at_weight.size(), 2U);
     EXPECT_NEAR(result.at_weight[0].pressure, pressure, 1e-6 * pressure);
-    // The law on what presses when it slips is what holds it then.
+    // At slip, the friction law under the remaining normal force gives the holding force.
     SpecimenPair copy = pair;
     const State state = copy.press({PressBy::pressure, pressure * std::cos(result.angle), {}});
     const FrictionResult friction = law.on(state);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables in every form of loggers and spreadsheets, and refusals by line and column.
+// Tables in every form written by loggers and spreadsheets, and the refusals by line and column.
 #include "engine/statistics/table_reader.hpp"
 
 #include <cmath>
@@ -130,14 +130,14 @@ TEST(TableReader, AnUnknownUnitStaysInTheHead) {
             "time [s],T [\xC2\xB0"
             "C]\n1,20.5\n");
   EXPECT_EQ(csv("T,U\n[K],[V]\n20,1\n"), "T [K],U [V]\n20,1\n");
-  // By its own name and by that of the file.
+  // By the new name and by the name in the file.
   EXPECT_EQ(csv("Temp [degC]\n20\n", with([](TableForm& f) { f.names = {{"T", "Temp"}}; })), "T\n20\n");
   EXPECT_EQ(csv("time,T\ns,degC\n1,20\n", with([](TableForm& f) {
                   f.units = {{"T", "1"}};
                 })),
             "time [s],T\n1,20\n");
   EXPECT_EQ(csv(csv("x [s],T [degC]\n1,20\n")), "x [s],T [degC]\n1,20\n");
-  // Words above words are rows.
+  // Words below words are rows.
   EXPECT_EQ(csv("name,kind\nAnna,m\nBea,f\n"), "name,kind\nAnna,m\nBea,f\n");
   EXPECT_EQ(csv("tag,load\nm,1 N\nf,2 N\n"), "tag,load [N]\nm,1\nf,2\n");
 }
@@ -152,7 +152,7 @@ TEST(TableReader, ARowOfDataIsNeverTheHeads) {
   EXPECT_EQ(refusal("\"08:00:01\",\"x\"\n\"08:00:02\",\"y\"\n"), "begins with \"08:00:01\"" + cure);
   EXPECT_EQ(refusal("1'250;x\n2'000;y\n"), "begins with \"1'250\"" + cure);
   EXPECT_EQ(refusal("1.5 kN,2 s\n1.6 kN,3 s\n"), "begins with \"1.5 kN\"" + cure);
-  // Heads that only begin or end as data do.
+  // Heads with the beginning or end of a number or date.
   for (const std::string heads : {"E1,e2", "slip,10 N", "day 1,95%", "x1,May", "1st,nan", "A-1,B-2"})
     EXPECT_EQ(csv(heads + "\n1,2\n").substr(0, 2), heads.substr(0, 2));
 }
@@ -172,7 +172,7 @@ TEST(TableReader, BytesOfWindowsAreItsCharacters) {
   EXPECT_EQ(csv("n,note\n1,\x81\xE4\n"), "n,note\n1,\xEF\xBF\xBD\xC3\xA4\n");
 }
 
-// Local time steps back an hour in autumn; only the key distinguishes it from rows out of order.
+// Local time steps back an hour in autumn; only the key distinguishes this step from unordered rows.
 TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
   const TableForm winter = with([](TableForm& f) { f.steps_back = StepsBack::winter_time; });
   const std::string quarters =
@@ -188,7 +188,7 @@ TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
       "t,F\n2025-10-26 01:00,1\n2025-10-26 02:00,2\n2025-10-26 02:00,3\n2025-10-26 03:00,4\n";
   EXPECT_EQ(warnings_of(hours).size(), 1u);
   EXPECT_EQ(csv(hours, winter), "t [s],F\n0,1\n3600,2\n7200,3\n10800,4\n");
-  // With their zone, out of order by more than an hour, or several rows a time: nothing happened.
+  // Times with a zone, steps back by more than an hour, and repeated times are not warned of.
   for (const std::string rows :
        {"2025-10-26 02:45+02:00,1\n2025-10-26 02:00+01:00,2\n", "2026-03-01,1\n2026-02-28,2\n",
         "2026-03-01 10:00,1\n2026-03-01 10:00,2\n2026-03-01 11:00,1\n2026-03-01 11:00,2\n",
@@ -196,7 +196,7 @@ TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
     EXPECT_TRUE(warnings_of("t,F\n" + rows).empty()) << rows;
     EXPECT_EQ(csv("t,F\n" + rows, winter), csv("t,F\n" + rows)) << rows;
   }
-  // A logger's jitter is warned of, and no hour.
+  // The jitter of a logger is warned of, and no hour is added.
   const std::string jitter = "t,F\n2026-03-01 10:00:00.2,1\n2026-03-01 10:00:00.1,2\n";
   EXPECT_EQ(warnings_of(jitter).size(), 1u);
   EXPECT_EQ(csv(jitter, winter), csv(jitter));
@@ -270,7 +270,7 @@ TEST(TableReader, ReadsBackWhatATableWrites) {
 }
 
 TEST(TableReader, ACommaIsReadWhereTheFileTellsWhatItIs) {
-  // One unambiguous number decides the form of all numbers.
+  // A single unambiguous number decides for all numbers.
   EXPECT_EQ(csv("a;b\n1,250;0,5\n"), "a,b\n1.25,0.5\n");
   EXPECT_EQ(csv("a;b\n1.250,5;1.000\n"), "a,b\n1250.5,1000\n");
   EXPECT_EQ(csv("a;b\n1,250.5;1,000\n"), "a,b\n1250.5,1000\n");
@@ -327,7 +327,7 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "line 3, column 2 (b): \"#VALUE!\" is no nu");
   EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
   EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
-  // Lines above a table, in the form of a table with one column.
+  // Lines above a table, similar to a table with one column.
   EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
             "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
             "skip=");
@@ -343,11 +343,12 @@ TEST(TableReader, QuotedCellsGoOnOverLines) {
   EXPECT_EQ(csv("a\tb\n1\t\"x\ny\"\n2\tz\n"), table);
   EXPECT_EQ(read(utf16("a,b\n1,\"x\ny\"\n2,z\n", true)).csv(), table);
   EXPECT_EQ(csv("a,b\r\r\n1,\"x\r\r\ny\"\r\r\n2,z\r\r\n"), table);
-  // Separators, doubled quotes, # and empty lines are of the cell; two such cells, and the first of its row.
+  // Separators, doubled quotes, # and empty lines belong to the cell; two such cells, and a cell at the
+  // beginning of its row.
   const std::string all = "n,words,more\n1,\"x, \"\"y\"\"\n\n# no comment; z\",\"u\nv\"\n2,w,w\n";
   EXPECT_EQ(csv(all), all);
   EXPECT_EQ(csv("words,n\n\"x\ny\",1\n"), "words,n\n\"x\ny\",1\n");
-  // A table reads its own output.
+  // A table reads its own text.
   EXPECT_EQ(std::get<std::string>(read(csv("a,b\n1,\"\r\n x\n\"\n")).cell(0, 1)), "\n x\n");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run`: a script from file to exit status; and what other commands that follow a script, or keep a
-// run directory, share with it.
+// `asperity run`: a script from file to exit status; and functions shared with other commands for scripts and
+// run directories.
 #pragma once
 
 #include <cstdint>
@@ -44,20 +44,20 @@ struct RunCommand {
   std::optional<std::string> text;    // of the script, where it is not read from its file
   std::optional<std::string> resume;  // directory of a run that was cut off
   bool anew = false;                  // of another script: its files are moved aside, its results stay
-  bool journal_lost = false;          // of the run that is resumed: its journal is begun again
-  std::vector<std::string> damages;   // of the run that is resumed, a sentence each
-  std::shared_ptr<const LoadedFiles> loaded;  // by the run that is resumed or replayed
+  bool journal_lost = false;          // the resumed run begins its journal again
+  std::vector<std::string> damages;   // of the resumed run, a sentence each
+  std::shared_ptr<const LoadedFiles> loaded;  // by the resumed or replayed run
   std::shared_ptr<RunLock> lock;              // of the directory, where it was taken already
   std::vector<std::string> reuse;             // runs, or folders of results, to take results from
-  std::optional<std::string> store;           // folder of results that several runs share, instead of its own
+  std::optional<std::string> store;           // shared folder of results instead of the run's
   std::optional<Shard> shard;                 // of the cases of ensembles; needs `store`
   std::optional<CaseNumber> one_case;  // computes this case alone; needs `store`, and leaves no directory
   bool merge_only = false;             // computes no case; needs `store`
   std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none
-  // Of a replay: from this line of the journal on nothing is taken from `reuse`.
+  // A replay takes nothing from `reuse` from this line of the journal on.
   std::optional<std::int64_t> afresh_from;
   std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
-  RunObserver* observer = nullptr;            // hears what is otherwise said on standard error; may be null
+  RunObserver* observer = nullptr;            // gets the messages instead of standard error; may be null
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
 
   std::shared_ptr<const TemporaryFolder> case_folder;  // of `one_case`: removed at the end
@@ -66,10 +66,10 @@ struct RunCommand {
   bool confined = false;
   std::vector<std::string> read;  // folders that it reads besides the script's own
   std::string without_barriers;   // which need not stand: "files,network"
-  // Bytes of all files of the run directory, and of what it adds to a store that it shares.
+  // Limit of bytes for all files of the run directory and for new results in a shared store.
   std::optional<std::int64_t> limit_disk;
-  // Of the process that carries it out behind them: what stands and what it may read, for the manifest; and
-  // whether its standard error, a pipe, ends at a terminal.
+  // In the confined process: its barriers and readable folders, for the manifest; and whether its standard
+  // error, a pipe, ends at a terminal.
   Json barriers{};
   bool terminal = false;
 };
@@ -92,7 +92,7 @@ int run(const RunCommand& command);
 // `asperity check`: the script is followed without its heavy calls. Exit statuses are those of run().
 int check(const RunCommand& command);
 
-// What the work of a run has at hand.
+// Objects for the work of a run.
 struct RunContext {
   const RunCommand& command;
   const std::string& text;  // of the script

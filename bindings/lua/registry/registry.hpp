@@ -38,7 +38,7 @@ struct Parameter {
   std::string sentence{};
 };
 
-// A table that stands below a function in help and reference: of each row the first cell is its name.
+// A table below a function in help and reference; the first cell of each row is its name.
 struct Listing {
   std::string title{};
   std::vector<std::string> columns{};
@@ -54,17 +54,17 @@ struct Function {
   bool options_optional = false;        // the table may be left out
   // "State", "number", "Profile[]", "Roughness" (a record), "iterator<State>", "number, string", "" for none
   std::string returns{};
-  std::string example{};  // required; a line that runs after example_preamble()
+  std::string example{};  // required; a line to run after example_preamble()
   bool heavy = false;     // not run by `asperity check`
-  // `asperity check` leaves the call out too, because its result follows from rows that a dry run does not
-  // know; the journal has no line of it.
+  // `asperity check` skips the call, because its result follows from rows unknown to a dry run; the journal
+  // has no line for the call.
   bool unknown_when_dry = false;
   Listing (*listing)() = nullptr;
-  // What a dry run does with arguments that hold placeholders, after it has read the options; null: nothing.
+  // A dry run calls `look` for arguments with placeholders, after reading the options; null: no action.
   void (*look)(const Call& call) = nullptr;
 };
 
-// The types that `returns` names, one for each result.
+// The types named by `returns`, one for each result.
 std::vector<std::string> result_types(const Function& function);
 // The named fields of a list, "Profile[] with tip_effect: TipEffect and lines: Traverse[]": names and types.
 std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type);
@@ -78,7 +78,7 @@ struct Getter {
   Body body = nullptr;
 };
 
-// What one of Lua's operators gives where a native value stands on either side.
+// An operator of Lua with a native value on either side.
 struct Operator {
   std::string event{};    // "__sub"
   std::string form{};     // "a - b", as it is written and as errors call it
@@ -97,18 +97,18 @@ struct Class {
   std::string drawing{};  // of lines, which the reference shows below the fields
   std::vector<Function> methods{};
   std::vector<Operator> operators{};
-  std::vector<const RecordInfo*> results{};  // types of the records that its fields and methods give
+  std::vector<const RecordInfo*> results{};  // record types returned by its fields and methods
   bool shareable = true;                     // an immutable value, which cases of an ensemble may share
   std::int64_t (*length)(const void* self) = nullptr;       // what # gives; null: nothing
   std::string (*describe)(const void* self) = nullptr;      // one line for print()
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
   bool (*equal)(const void* a, const void* b) = nullptr;
   std::string (*digest)(const void* self) = nullptr;  // of its content, for the journal
-  // Adds to the ledger, effect by effect, what computing this value has cost; called for each value that a
-  // heavy call, or a turn of an iterator, returns. Null: nothing to add.
+  // Adds the cost of this value to the ledger, effect by effect. Called for each result of a heavy call or of
+  // a turn of an iterator. Null: nothing to add.
   void (*enter)(const void* self, Ledger& ledger) = nullptr;
   void (*closing)(void* self) = nullptr;  // before it is closed by hand or by <close>
-  // What a dry run knows of the value that a call would return; null for classes of which it knows nothing.
+  // Facts known to a dry run about the result of a call; null for classes without such facts.
   std::shared_ptr<const KnownBody> (*known)(const Call& call, const Function& function) = nullptr;
   std::vector<std::string> names() const;  // fields and methods
 };
@@ -126,7 +126,7 @@ struct Module {
   std::string sentence{};
   std::vector<Function> functions{};
   std::vector<Constant> constants{};
-  std::vector<const RecordInfo*> results{};  // types of the records that its functions give
+  std::vector<const RecordInfo*> results{};  // record types returned by its functions
   // Called when the module itself is called, as lab.protocol{...} is.
   std::optional<Function> call{};
 };
@@ -187,9 +187,8 @@ class Call {
   mutable Resolved inputs_;
 };
 
-// Writes the journal's line of a heavy call: the value that it was called on (may be null), its inputs, and
-// the digest of its results. The registry calls this for every heavy function, an iterator for each of its
-// turns.
+// Writes the journal's line of a heavy call: the native value before the colon (may be null), its inputs, and
+// the digest of its results. The registry calls this for every heavy function, an iterator once per turn.
 void record_call(const Session& session, const std::string& function, const Object* self,
                  const Resolved& inputs, const Values& results);
 
@@ -204,8 +203,8 @@ const std::string& qualified_name(const Function& function);
 const std::string* name_of_entry(const void* pointer);
 // Makes the metatable of a class, if it is not there yet, and pushes it.
 void push_metatable(lua_State* L, const Class& type);
-// Ends a look-up of a field that failed, its error on the stack: raises the error, or, in a dry run that goes
-// on past mistakes, returns a placeholder for the field.
+// Ends a failed look-up of a field, with its error on the stack: raises the error, or returns a placeholder
+// for the field in a dry run that continues after mistakes.
 int mistaken_field(lua_State* L);
 // The native value at an index if it is one of ours, whatever its class; null otherwise.
 Object* native_at(lua_State* L, int index);
@@ -215,12 +214,12 @@ const Module* module_at(lua_State* L, int index);
 // Pushes this state's table of a module.
 void push_proxy(lua_State* L, const Module& module);
 
-// pairs and next in an order that is the same in every process (fixed_order.cpp): numbers, strings by their
-// bytes, booleans, then other keys in Lua's own order, of which a dry run keeps a note. A loop sees the keys
-// that a table has when the loop begins, less those that it has lost. C functions of Lua without upvalues.
+// pairs and next in the same order in every process (fixed_order.cpp): numbers, strings by their bytes,
+// booleans, then other keys in Lua's own order. A dry run notes a loop over several other keys. A loop visits
+// the keys at its beginning, except keys removed since. Both are C functions of Lua without upvalues.
 int ordered_pairs(lua_State* L);
 int ordered_next(lua_State* L);
-// Pushes the function by which such a loop goes over the table at an index. Raises.
+// Pushes the iterating function of such a loop over the table at an index. Raises.
 void push_ordered_loop(lua_State* L, int index);
 
 // Pushes `lab`, a table of everything. Raises like any luaopen function.

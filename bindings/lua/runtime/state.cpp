@@ -32,7 +32,7 @@ int open_library(lua_State* L) {
   return 1;
 }
 
-// Reading a pipe waits for whoever writes into it, perhaps for ever.
+// Reading a pipe waits for its writer, perhaps for ever.
 void refuse_pipe(const std::string& name, const std::string& place) {
   std::error_code none;
   const auto status = std::filesystem::status(place, none);
@@ -41,8 +41,8 @@ void refuse_pipe(const std::string& name, const std::string& place) {
                 "write what it gives into a file first");
 }
 
-// The text of a script file, for `require`, `dofile` and `loadfile`; none where Lua itself says what is wrong
-// with it. A module that a case finds in the folder of the script is known by its name there.
+// The text of a script file, for `require`, `dofile` and `loadfile`; none if the file cannot be read, because
+// Lua reports this error itself. A case records a module from the folder of the script by its name there.
 std::optional<std::string> loaded_text(const Session& session, const std::string& name, bool is_module) {
   const std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
   const std::string own = session.run == nullptr ? "" : session.run->own_name(place);
@@ -66,7 +66,7 @@ std::optional<std::string> loaded_text(const Session& session, const std::string
   return text.substr(begin_of_script(text));
 }
 
-// Leaves what `find` returns: a text, or nothing; where it throws, nil and why.
+// Pushes the text returned by `find`, or nothing; if `find` throws, nil and the message.
 template <class Find>
 int give_text(lua_State* L, const Find& find) {
   std::optional<std::string> text;
@@ -86,8 +86,8 @@ int give_text(lua_State* L, const Find& find) {
   return protect(L, 0, text ? 1 : 2, action) == LUA_OK ? (text ? 1 : 2) : -1;
 }
 
-// host.script_text(name, is_module) -> text; nothing where Lua's own functions are to open it; nil and why
-// not
+// host.script_text(name, is_module) -> text; nothing if Lua's own functions shall open the file; nil and a
+// message for an error
 int script_text(lua_State* L) {
   const int results = give_text(L, [L](const Session& session, const std::string& name) {
     return loaded_text(session, name, lua_toboolean(L, 2) != 0);
@@ -95,7 +95,7 @@ int script_text(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.was_loaded(name) -> whether the run that is replayed or resumed loaded a file of that name
+// host.was_loaded(name) -> whether the replayed or resumed run loaded a file of this name
 int was_loaded(lua_State* L) {
   lua_pushboolean(
       L, lua_isstring(L, 1) != 0 && recorded_copy(Session::of(L).loaded, lua_tostring(L, 1)) != nullptr);
@@ -113,7 +113,7 @@ int output_path(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.settled(removed): the script wrote files, or removed the one that output_path() gave it.
+// host.settled(removed): the script wrote files, or removed the file `removed`, a path from output_path().
 int settled(lua_State* L) {
   const auto& run = Session::of(L).run;
   if (run != nullptr && lua_isstring(L, 1) != 0) run->forget_output(lua_tostring(L, 1));
@@ -160,7 +160,7 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
-// host.mistaken(message) -> true and a placeholder in a dry run that goes on past mistakes; else false
+// host.mistaken(message) -> true and a placeholder in a dry run that continues after mistakes; else false
 int mistaken(lua_State* L) {
   const bool noted = noted_as_mistake(L);
   lua_pushboolean(L, noted ? 1 : 0);
@@ -169,7 +169,7 @@ int mistaken(lua_State* L) {
   return 2;
 }
 
-// Ends the process; where it must not, or the hook ends the script alone, why.
+// Ends the process. Returns a message if the process must not end, or if the hook ends the script alone.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return "a case of an ensemble cannot end the run";
@@ -208,7 +208,7 @@ struct Setup {
 int set_up(lua_State* L) {
   const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
   Session& session = *setup.session;
-  // What is made here stays: collecting meanwhile finds nothing.
+  // The values made here stay, so a collection meanwhile would find nothing.
   lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
   // Here, and not in the loadable module, where `pairs` is the host's: the states of the program and of
@@ -307,8 +307,7 @@ const char* stop_sentence(StopReason reason) {
   return nullptr;
 }
 
-// Whether the hook was called for the handler that is about to write the traceback of a stop: stopped in its
-// turn, it could write none.
+// Whether the hook was called for the traceback handler of a stop. A second stop would prevent the traceback.
 bool calls_the_handler(lua_State* L, lua_Debug* frame) {
   if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
   lua_getinfo(L, "f", frame);
@@ -320,7 +319,7 @@ bool calls_the_handler(lua_State* L, lua_Debug* frame) {
 void stop_hook(lua_State* L, lua_Debug* frame) {
   const char* sentence = stop_sentence(stop_flag().reason());
   if (sentence == nullptr || calls_the_handler(L, frame)) return;
-  // The line that was running; of a C function that of its caller.
+  // The running line, or the line of the caller of a C function.
   lua_Debug running;
   for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
     lua_getinfo(L, "Sl", &running);
@@ -328,7 +327,7 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
     lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
     lua_error(L);
   }
-  // No line runs: the script has ended, of this very stop it may be, whose message would be lost.
+  // No line runs: the script has ended, perhaps by this very stop. Raising an error would lose its message.
 }
 }  // namespace
 
@@ -371,7 +370,7 @@ int traceback_handler(lua_State* L) {
     lua_replace(L, 1);
   }
   lua_settop(L, 1);
-  // A stop that was raised is raised no more while its traceback is written.
+  // A stop is not raised again during its traceback.
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
   lua_sethook(L, nullptr, 0, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder for files of a moment, removed with its content at the end. Its name tells the writer, as the
-// names of parts do (atomic_file.hpp). The first folder of a process removes those that killed writers have
-// left.
+// A folder for temporary files, removed with its content by the destructor. Its name contains the writer, as
+// in the names of parts (atomic_file.hpp). Each new folder first removes the folders of killed writers from
+// the same parent.
 #pragma once
 
 #include <filesystem>

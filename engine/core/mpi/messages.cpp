@@ -38,7 +38,7 @@ void forget_what_arrived() {
 }
 
 int open_all(int* rank, int* size, char* reason, std::size_t room) {
-  // The library loads parts of its own, which look for its names among all that are loaded.
+  // The library loads plug-ins, which look for its names among all loaded symbols.
   ::dlopen("libmpi.so.40", RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD);
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||

@@ -43,7 +43,7 @@ class Team {
   }
 
   // All together: what each offers, `sums` numbers that are added and then minima of which the least counts.
-  // Throws in all of them what one of them met with.
+  // If one process failed, every process throws its error.
   template <std::size_t sums, std::size_t minima = 0>
   std::array<double, sums + minima> reduce(const std::array<double, sums + minima>& own) {
     constexpr std::size_t n = sums + minima;
@@ -56,7 +56,7 @@ class Team {
   Array<double> gather(std::span<const double> own);
   // The bytes that the first process gives, in all of them.
   std::string text_of_first(const std::string& own);
-  // Throws in all processes what one of them met with in work().
+  // If work() failed in one process, every process throws its error.
   void agree() { reduce({}, 0, {}); }
 
   // The transform of this grid, whose buffer is made.

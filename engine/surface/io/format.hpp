@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The formats of measured topographies: one record a format, one source file a record. A reader
-// recognises a file by its content and takes its numbers out as they stand; what they mean in
-// metres, and what becomes of holes, is decided in one place for all formats (read.cpp).
+// The formats of measured topographies: one record a format, one source file a record. A reader recognises a
+// file by its content and returns its numbers unchanged. For all formats, read.cpp converts them to metres
+// and treats missing points.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@
 
 namespace asperity {
 
-// The line of a map that a file stores first. Our maps have y upwards: j = 0 is the lowest line.
+// The first line of a map in a file. Our maps have y upwards: j = 0 is the lowest line.
 enum class FirstLine { bottom, top };
 struct LineOrder {
   FirstLine first = FirstLine::bottom;
-  std::string_view source;  // the specification or program that decides, a sentence
+  std::string_view source;  // the deciding specification or program, a sentence
 };
 
-// What stands in a file.
+// The content of a file.
 struct HeightMap {
   Field heights;                         // the numbers, line by line as stored; NaN: a missing point
   std::optional<double> unit;            // m per number, if the file says
@@ -32,22 +32,22 @@ struct HeightMap {
   std::optional<double> position_unit;   // m per number of a position, if the file says
   bool named_columns = false;            // the units stand in the line that names the columns
   bool pairs = false;                    // two columns, position and height, as that line says
-  bool trace = false;                    // one line of samples: ny = 1, and no size_y of its own
+  bool trace = false;                    // one line of samples: ny = 1, without size_y
   std::optional<double> spacing;         // m between the samples of a trace, where a file states it
   std::optional<double> closed_radius;   // m, of a closed outline
   std::optional<FirstLine> first_line;   // where the file's head decides, and not its format (Format::lines)
 };
 
-// What the list of formats says of one (help, docs/reference.md): a short sentence each.
+// Description of a format for help and docs/reference.md: a short sentence each.
 struct FormatAccount {
-  std::string_view read;     // whose format it is, and what of it becomes a surface
-  std::string_view refused;  // what of it is not read
+  std::string_view read;     // owner of the format, and its part that becomes a surface
+  std::string_view refused;  // unread parts of the format
   std::string_view checked;  // the public files or programs compared; where there were none, it says so
 };
 
 struct Format {
   std::string_view name;   // as in `format = "npy"`
-  std::string_view marks;  // what it is known by, for errors
+  std::string_view marks;  // its recognising marks, for errors
   FormatAccount account;
   LineOrder lines;
   std::vector<std::string_view> extensions;    // lower case, without dots
@@ -63,7 +63,7 @@ struct Format {
 // Puts the last line first.
 void turn_over(Field& field);
 
-// Those that others name.
+// Formats named elsewhere by their function.
 const Format& stylus_csv_format();
 const Format& xyz_format();
 const Format& text_format();
@@ -76,16 +76,15 @@ bool almost_triples(const SourceFile& file);
 // likelier than a map three columns wide.
 bool many_triples(const SourceFile& file);
 
-// Whether such a text could be what is left of a lattice after any of its points were taken out, by their
-// places alone: no point is given twice, and the places are those of a small lattice, of which one is met
-// again, or which come in the order of a scan. A single line could be a point too, or three heights: it is
-// not asked here.
+// Whether the places in such a text fit a lattice with missing points: no point is given twice, and the
+// places are on a small lattice and either repeat a coordinate or follow the order of a scan. Not for a
+// single line, which could be a point or three heights.
 bool may_be_triples(const SourceFile& file);
 
 // The first format with this extension (lower case, without dot); null if there is none.
 const Format* format_of_extension(std::string_view extension);
 
-// All of them, in the order in which they are tried: the most particular marks first.
+// All formats in the order of trying: the most particular marks first.
 std::span<const Format* const> formats();
 
 // The format called `forced`, or else the first that recognises the content, or else the one of the

@@ -24,7 +24,7 @@ expect(function() lab.surface.from_function{ cells=4, size=1, height=function() 
 expect(function() lab.surface.from_function{ cells=4, size=1, height=function() coroutine.yield() end } end, "yield")
 expect(coroutine.wrap(function() lab.material "stel" end), "did you mean `steel`?")
 
--- Many errors from frames that hold much: nothing may be left behind or trip over.
+-- Many errors from frames with large values: they must neither leak nor crash.
 for k = 1, 300 do
   pcall(lab.surface.from_function, { cells=128, size=1, height=function(_, y) if y > 0.3 then error(k) end return 0 end })
   pcall(coroutine.wrap(function() lab.contact{ lower=s, upper=s, effects={ elasticity="none" } } end))
@@ -35,7 +35,7 @@ local deep = select(2, pcall(function()
 end))
 assert(deep:find "stack overflow", deep)
 
--- In a coroutine that is dropped in the middle.
+-- In an unfinished coroutine.
 local co = coroutine.create(function()
   local kept <close> = s:mirrored()
   for st in lab.contact{ lower=kept, upper=lab.rigid, effects={ elasticity="box" } }:sweep{ pressure={ 1e6, 2e6 } } do
