@@ -66,10 +66,11 @@ struct FractalDimension {
 
 // `resolved` is false, with a reason, where heights are equal to rounding, fewer than three steps
 // (psd: three bands) fit, some profiles are flat, heights repeat, D falls outside 1 … 2 by more than its
-// error, where a few jumps make most of the heights, where D runs from step to step or small boxes find the profile smooth (dimension_scaling.hpp), where
-// steps are shorter than `tip` can show, for `psd`, where a band is empty (spectral_bands.hpp), for `box`,
-// where `structure` with its own steps is not resolved, or, for `length`, where the profile is so flat that a
-// Gaussian one of the same slopes would show less than this share of D - 1.
+// error, where a few jumps make most of the heights, where D runs from step to step or small boxes find the
+// profile smooth (dimension_scaling.hpp), where steps are shorter than `tip` can show, for `psd`, where a
+// band is empty (spectral_bands.hpp), for `box`, where `structure` with its own steps is not resolved, or,
+// for `length`, where the profile is so flat that a Gaussian one of the same slopes would show less than this
+// share of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
 // With points that were not measured, `length`, `structure` and `madogram` are means over the steps of which
