@@ -65,8 +65,9 @@ const StateQuantity of_every_state[] = {
                         "; most of it is the highest peak between the nodes"}},
     {.name = "displacement",
      .called = "the displacement",
-     .sentence = "travel since first touch of the unworn bodies, as a testing machine records it: `approach` and "
-                 "what earlier events took off the highest point",
+     .sentence =
+         "travel since first touch of the unworn bodies, as a testing machine records it: `approach` and "
+         "what earlier events took off the highest point",
      .dimension = dimension::length,
      .value = quantity_value<&S::displacement>,
      .bound = quantity_bound<&E::approach>,
@@ -132,8 +133,9 @@ const StateQuantity of_every_state[] = {
      .cells = CellError{1, 3, 1.5, 3, Kind::peak}},
     {.name = "separation",
      .called = "the separation",
-     .sentence = "of the mean planes of the bodies where they face each other, without elastic deformation and "
-                 "with all that has yielded, under this load too",
+     .sentence =
+         "of the mean planes of the bodies where they face each other, without elastic deformation and "
+         "with all that has yielded, under this load too",
      .dimension = dimension::length,
      .value = quantity_value<&S::separation>,
      .bound = quantity_bound<&E::separation>,

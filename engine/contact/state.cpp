@@ -232,7 +232,7 @@ double State::separation() const {
     const ContactGeometry& bodies = geometry();
     const double before = bodies.combined_range().max - known_mean(bodies.combined().values()) - approach();
     if (!(plastic_volume() > 0)) return before;
-    laws_met().meet(Law::yielded_separation);
+    laws_met().meet(Law::separation);
     return before + plastic_volume() / (static_cast<double>(bodies.facing()) * bodies.grid().cell_area());
   });
 }

@@ -46,11 +46,11 @@ class State {
   double attraction() const;
   // PressRequest::preload of the press; empty where the bodies came together from apart.
   std::vector<double> preload() const;
-  double approach() const;    // m from first touch
-  // m from first touch of the unworn bodies: approach() and what earlier events took off the highest point.
+  double approach() const;  // m from first touch
+  // m from first touch of the unworn bodies: approach() plus the wear of the highest point by earlier events.
   double displacement() const;
-  // m, of the mean planes of the bodies where they face each other, without what is elastic and with all that
-  // yielded, under this load too.
+  // m, of the mean planes of the bodies where they face each other: elastic deformation is left out, plastic
+  // deformation, also of this press, is included.
   double separation() const;
   // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have
   // none.
@@ -88,8 +88,8 @@ class State {
   const std::vector<std::string>& effects_off() const;
   // The effects of the scene, their options with the defaults filled in.
   const Effects& effects() const;
-  bool moves_every_node() const;  // ElasticModel::moves_every_node
-  const std::vector<GapTerm>& attraction_terms() const;  // those that pull
+  bool moves_every_node() const;                         // ElasticModel::moves_every_node
+  const std::vector<GapTerm>& attraction_terms() const;  // with work above zero
   bool yields() const;            // whether an effect limits the pressure, so that there is something plastic
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
   // The same state with `more` added to its cost: work that was done for it before or after the press.

@@ -59,38 +59,26 @@ SofterBody softer_body(const ContactGeometry& geometry) {
   return softer;
 }
 
-// The greatest value at the rim of the tile; values that are missing are left out.
-template <class Value>
-double greatest_at_rim(const Grid& grid, const Value& value) {
-  double greatest = 0;
-  for (int j = 0; j < grid.ny; ++j)
-    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1))
-      greatest = std::max(greatest, value(i, j));
-  return greatest;
-}
-
-// What the rim of a free tile cuts off; empty where it is nothing, and of flats, which are meant to be cut.
+// What the rim of a free tile cuts off; empty where it is nothing, and for flats, which are meant to be cut.
 std::string cut_off_at_the_rim(const State& state) {
   const ContactGeometry& geometry = state.geometry();
+  const Grid& grid = state.grid();
   if (!state.moves_every_node() || geometry.boundary() != Boundary::free || !(geometry.peak_to_valley() > 0))
     return {};
-  if (state.contacts() > 0) {
-    const auto contact = state.field("contact");
-    if (greatest_at_rim(state.grid(), [&](int i, int j) { return (*contact)(i, j); }) > 0)
-      return "the contact reaches the rim of the free tile, where the bodies end";
-  }
-  if (state.attraction_terms().empty()) return {};
-  const auto gap = state.field("gap");
+  const auto contact = state.field("contact");
+  const auto gap = state.attraction_terms().empty() ? contact : state.field("gap");
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1)) {
+      if ((*contact)(i, j) > 0) return "the contact reaches the rim of the free tile, where the bodies end";
+      if (!std::isnan((*gap)(i, j))) least = std::min(least, std::max((*gap)(i, j), 0.0));
+    }
   constexpr double noticeable = 0.01;  // of the traction at touch, and about of the whole force
-  for (const GapTerm& term : state.attraction_terms()) {
-    const double share = greatest_at_rim(state.grid(), [&](int i, int j) {
-      const double g = (*gap)(i, j);
-      return std::isnan(g) ? 0.0 : term.traction(std::max(g, 0.0)) / term.greatest();
-    });
-    if (share > noticeable)
-      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end: it pulls there by " +
-             format_short(100 * share, 2) + " % of its greatest traction; take a larger tile or a shorter range";
-  }
+  for (const GapTerm& term : state.attraction_terms())
+    if (const double share = term.traction(least) / term.greatest(); share > noticeable)
+      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end, with " +
+             format_short(100 * share, 2) +
+             " % of its greatest traction; take a larger tile or a shorter range";
   return {};
 }
 
@@ -106,9 +94,10 @@ std::vector<std::string> state_limits(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   std::vector<std::string> sentences;
   if (rests_on_few_nodes(state))
-    sentences.push_back("only " + std::to_string(state.contacts()) +
-                        (state.contacts() == 1 ? " node touches" : " nodes touch") +
-                        ", so the result depends on the cells: press harder, or take finer cells on a smaller tile");
+    sentences.push_back(
+        "only " + std::to_string(state.contacts()) +
+        (state.contacts() == 1 ? " node touches" : " nodes touch") +
+        ", so the result depends on the cells: press harder, or take finer cells on a smaller tile");
   if (std::string cut = cut_off_at_the_rim(state); !cut.empty()) sentences.push_back(std::move(cut));
   if (state.load() <= 0) return sentences;
   constexpr double steep = 1;

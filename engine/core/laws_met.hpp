@@ -29,9 +29,9 @@ enum class Law : int {
   asked_error,       // cells and tolerance chosen for an error
   line_order,        // maps from files that store the top line first
   stray_readings,    // recordings with readings that leave the line through their neighbours
-  yielded_separation,  // the separation of a press that yields
+  separation,        // the separation under plastic loading
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::yielded_separation) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::separation) + 1;
 
 // Thread-safe.
 class LawsMet {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
@@ -274,30 +273,30 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
   return running_dimension(scaling, found.D, samples, found.profiles, few_starts ? 1.2 : 0.5);
 }
 
-// Whether the heights are those of one or a few jumps, whose statistics scale as a rough profile's do: in most
-// profiles, up to four steps make more than half of the mean square. Of 64 Gaussian steps four make some 30 %.
+// Jumps scale as a rough profile does. They are found by their share: in most profiles up to four steps make
+// more than half of the mean square (four of 64 Gaussian steps make some 30 %).
 std::string made_by_jumps(const ProfileSet& set) {
-  Array<std::int64_t> by_one(static_cast<std::size_t>(set.count)), by_few = by_one;
+  constexpr std::size_t most = 4, steps_a_jump = 16;
+  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // in half of the mean square of each profile
   parallel_for(set.count, [&](std::int64_t k) {
     ProfileSet::One one;
     set.read(k, one);
     Array<double> squares;
-    for (std::size_t i = 1; i < one.heights.size(); ++i) {
-      const double step = (one.heights[i] - one.heights[i - 1]) / set.range;
-      if (!std::isnan(step)) squares.push_back(step * step);
-    }
-    constexpr std::size_t most_jumps = 4, steps_a_jump = 16;
-    const std::size_t jumps = std::clamp<std::size_t>(squares.size() / steps_a_jump, 1, most_jumps);
-    if (squares.size() < 2 * jumps) return;
-    const double half = 0.5 * block_sum(squares);
-    const auto few = squares.begin() + static_cast<std::ptrdiff_t>(jumps);
-    std::partial_sort(squares.begin(), few, squares.end(), std::greater<>());
-    by_one[static_cast<std::size_t>(k)] = squares.front() > half ? 1 : 0;
-    by_few[static_cast<std::size_t>(k)] = std::accumulate(squares.begin(), few, 0.0) > half ? 1 : 0;
+    for (std::size_t i = 1; i < one.heights.size(); ++i)
+      if (const double step = (one.heights[i] - one.heights[i - 1]) / set.range; !std::isnan(step))
+        squares.push_back(step * step);
+    double left = 0.5 * block_sum(squares);
+    std::ranges::partial_sort(squares, squares.begin() + std::min<std::ptrdiff_t>(most, std::ssize(squares)),
+                              std::greater<>());
+    const std::size_t some = std::clamp<std::size_t>(squares.size() / steps_a_jump, 1, most);
+    for (std::size_t n = 0; n < some && squares.size() > 1 && left >= 0; ++n)
+      if ((left -= squares[n]) < 0) jumps[static_cast<std::size_t>(k)] = static_cast<double>(n + 1);
   });
-  const auto most = [&](const Array<std::int64_t>& profiles) { return 2 * std::ranges::count(profiles, 1) > set.count; };
-  if (most(by_one)) return "one jump makes all of it: the heights do not scale";
-  return most(by_few) ? "a few jumps make most of it: the heights do not scale" : "";
+  std::ranges::sort(jumps);
+  const double middle = jumps[jumps.size() / 2];
+  if (middle > most) return {};
+  return (middle == 1 ? "one jump makes all" : format_short(middle) + " jumps make most") +
+         std::string(" of it: the heights do not scale");
 }
 
 // Why a tip may have made what short steps show; empty where it has not, or none was given.
@@ -400,12 +399,12 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     if (!has_logarithm(method, statistics[k]))
       result.reason =
           "heights a step of " + format_short(step_values[k]) + " apart never differ: they repeat";
+  if (result.reason.empty()) result.reason = made_by_jumps(set);
   if (result.reason.empty() && (result.D < 1 - result.error || result.D > 2 + result.error))
     result.reason = "D = " + format_short(result.D, 4) +
                     " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
   if (result.reason.empty() && is_psd)
     result.reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, pooled.line);
-  if (result.reason.empty()) result.reason = made_by_jumps(set);
   if (result.reason.empty() && options.tip)
     result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
   if (result.reason.empty() && !is_psd)

@@ -65,7 +65,7 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "a stray reading on a ramp, or several in a row, became a press or a release",
      "up to three in a row that leave the lines through their neighbours are left out",
      "events found in such recordings, their loads and dwells, and all that follows them"},
-    {Law::yielded_separation, "0.2.0", "the separation of a press that yields",
+    {Law::separation, "0.2.0", "the separation of a press that yields",
      "`separation` was that of the bodies before the press yielded",
      "what yields under the press is taken off first, so that pressing once more changes nothing",
      "separations of such presses, and all that follows them"},

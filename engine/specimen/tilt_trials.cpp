@@ -124,36 +124,27 @@ double least_pressure(std::span<const TiltProbe> probes) {
   return least;
 }
 
-// By how much area per load differs between the probes of a trial, relative, at most.
-double area_difference(std::span<const TiltProbe> probes, std::size_t a_trial) {
-  double greatest = 0;
-  for (; !probes.empty(); probes = probes.subspan(a_trial)) {
-    const auto [least, most] =
-        std::ranges::minmax_element(probes.first(a_trial), {}, &TiltProbe::area_per_load);
-    greatest = std::max(greatest, most->area_per_load / least->area_per_load - 1);
-  }
-  return greatest;
-}
-
-constexpr double noticeable_difference = 0.05;  // of area per load
-
-// Whether a trial's probes stand on one spot whose area is in no proportion to the load. Between the probes of
-// many spots chance makes as much of a difference on the grids there are, either way.
-bool grows_alone(std::span<const TiltProbe> probes) {
-  return std::ranges::all_of(probes, &TiltProbe::lone_spot) &&
-         (probes.size() == 1 || area_difference(probes, probes.size()) > noticeable_difference);
-}
-
-// Of the friction coefficients of each trial's probes from their mean, relative.
-double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial) {
+// Of a quantity of each trial's probes from its mean, relative, at most.
+double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial,
+                          double TiltProbe::*quantity) {
   double greatest = 0;
   for (std::size_t first = 0; first + a_trial <= probes.size(); first += a_trial) {
     const auto trial = probes.subspan(first, a_trial);
-    const double mean = mean_of(trial, &TiltProbe::mu);
+    const double mean = mean_of(trial, quantity);
     for (const TiltProbe& probe : trial)
-      if (mean != 0) greatest = std::max(greatest, std::abs(probe.mu / mean - 1));
+      if (mean != 0) greatest = std::max(greatest, std::abs(probe.*quantity / mean - 1));
   }
   return greatest;
+}
+
+constexpr double noticeable_departure = 0.025;  // of area per load: two probes differ by 5 %
+
+// Whether the probes of a trial rest on one spot whose area is in no proportion to the load. Between probes
+// on many spots chance makes as much of a difference on usual grids, either way.
+bool grows_alone(std::span<const TiltProbe> probes) {
+  return std::ranges::all_of(probes, &TiltProbe::lone_spot) &&
+         (probes.size() == 1 ||
+          greatest_departure(probes, probes.size(), &TiltProbe::area_per_load) > noticeable_departure);
 }
 
 void add_sentence(std::string& note, const std::string& sentence) {
@@ -200,16 +191,18 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
       add_sentence(note, "the probe pressure was raised to " +
                              format_quantity(raised->pressure, dimension::pressure) + " until " +
                              std::to_string(raised->contacts) + " nodes touched");
-    const double differ = area_difference(result.probes, options.probe_pressures.size());
-    const std::string percent = format_short(100 * differ, 2) + " %";
+    const double departs =
+        greatest_departure(result.probes, options.probe_pressures.size(), &TiltProbe::area_per_load);
+    const std::string apart = format_short(200 * departs, 2) + " % between the probes";
     if (!result.at_weight.empty()) {
       const double pressure = result.at_weight.front().pressure;
-      add_sentence(note, "the weight presses the tile with " + format_quantity(pressure, dimension::pressure) +
-                             (pressure > least_pressure(result.probes)
-                                  ? ", above the smallest probe pressure, so the contact was solved under it"
-                                  : ", solved itself because area per load of a lone spot is not constant: the "
-                                    "probes differ by " + percent) +
-                             "; tau0 is an effective, calibrated number, so only ratios of mu are predictions");
+      add_sentence(note,
+                   "the weight presses the tile with " + format_quantity(pressure, dimension::pressure) +
+                       (pressure > least_pressure(result.probes)
+                            ? ", above the smallest probe pressure, so the contact was solved under it"
+                            : " on a lone spot, whose area per load differs by " + apart +
+                                  ", so the contact was solved under it") +
+                       "; tau0 is an effective, calibrated number, so only ratios of mu are predictions");
       if (std::any_of(result.at_weight.begin(), result.at_weight.end(),
                       [](const TiltProbe& p) { return p.yields; }))
         add_sentence(note,
@@ -228,9 +221,8 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
     add_sentence(note,
                  "real area per load is taken from the probe pressures down to the weight; tau0 is an "
                  "effective, calibrated number, so only ratios of mu are predictions");
-    if (differ > noticeable_difference)
-      add_sentence(note, "area per load differs by " + percent +
-                             " between the probes, and is uncertain by as much or more: take finer cells");
+    if (departs > noticeable_departure)
+      add_sentence(note, "area per load differs by " + apart + ", and is as uncertain: take finer cells");
   }
   return note;
 }
@@ -259,7 +251,6 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   const double tile = bench.lower().grid().area();
   const double weight_pressure = options.stage.mass * options.stage.gravity * tile_share / tile;
   std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::string> limits;
   for (int trial = 0; trial < options.repeats; ++trial) {
     const auto k = static_cast<std::uint64_t>(trial);
     if (!flat) bench.place(tilt_placement(options, trial));
@@ -273,7 +264,8 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
     // What the probes resolve is solved; what is lighter follows from them.
     double resolved = half_space ? least_pressure(probes) : 0;
-    if (half_space && grows_alone(probes)) resolved = 0.01 * std::min(resolved, weight_pressure);
+    if (half_space && tile_share == 1 && grows_alone(probes))
+      resolved = 0.01 * std::min(resolved, weight_pressure);
     if (!flat) weight.reset();
     if (half_space && weight_pressure > resolved && !weight) {
       laws_met().meet(Law::tilt_weight);
@@ -287,7 +279,6 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
                normal_force;
       }
       const State state = solver->press({PressBy::load, normal_force * tile_share, {}}, monitor);
-      if (contacts == 0) std::ranges::move(state_limits(state), std::back_inserter(limits));
       contacts = std::max(contacts, state.contacts());
       return factor * std::max(0.0, law.on(state, options.rest).force) / tile_share;
     };
@@ -328,18 +319,17 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     const bool solved = !result.at_weight.empty();
     result.area_per_load = mean_of(solved ? result.at_weight : result.probes, &TiltProbe::area_per_load);
     if (!solved && options.probe_pressures.size() > 1)
-      result.probe_spread = greatest_departure(result.probes, options.probe_pressures.size());
+      result.probe_spread = greatest_departure(result.probes, options.probe_pressures.size(), &TiltProbe::mu);
   }
   result.spread = standard_deviation(coefficients);
   result.note = note_on(result, options, flat);
-  for (const TiltProbe& probe : result.at_weight.empty() ? result.probes : result.at_weight)
-    limits.insert(limits.end(), probe.limits.begin(), probe.limits.end());
   WarningKinds kinds;
-  for (const std::string& limit : limits)
-    if (kinds.is_first(limit)) {
-      add_sentence(result.note, limit);
-      monitor.warn("tilt stage: " + limit);
-    }
+  for (const TiltProbe& probe : result.at_weight.empty() ? result.probes : result.at_weight)
+    for (const std::string& limit : probe.limits)
+      if (kinds.is_first(limit)) {
+        add_sentence(result.note, limit);
+        monitor.warn("tilt stage: " + limit);
+      }
   if (fewest < std::min(enough_contacts, static_cast<std::int64_t>(bench.lower().grid().nodes())))
     add_sentence(result.note, "the weight rests on " + std::to_string(fewest) +
                                   (fewest == 1 ? " node" : " nodes") +

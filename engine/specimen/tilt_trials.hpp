@@ -6,9 +6,10 @@
 // and what a load makes of area and friction there is taken to hold down to the weight: real area grows in
 // proportion to load. A weight that presses harder than the least of the probes is solved itself, and as the
 // stage is raised the lesser loads down to that probe. So does what an attraction across the gap adds, unless
-// the bodies stick without a load (Pastewka & Robbins 2014). A lone spot grows in no such proportion (a ball's
-// as load^2/3): where the probes show it, the weight is solved itself, on however few nodes. A rough counter-body is put down afresh for
-// every trial; on a flat every placement is the same contact and trials differ only by the scatter asked for.
+// the bodies stick without a load (Pastewka & Robbins 2014). A lone spot grows in no such proportion (a
+// ball's as load^2/3): where the probes show it and the tile is the specimen, the weight is solved itself, on
+// however few nodes. A rough counter-body is put down afresh for every trial; on a flat every placement is
+// the same contact and trials differ only by the scatter asked for.
 #pragma once
 
 #include <cstdint>

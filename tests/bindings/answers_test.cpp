@@ -159,7 +159,8 @@ TEST_F(Answers, FrictionOfAStateAndTheTiltStageReportItsLimits) {
   warns("law:on(contact():press{ pressure='500 GPa' })", "script.lua:1: law:on: the mean pressure is");
   warns("law:on(contact():press{ pressure='500 GPa' })", "script.lua:1: law:on: " + hard);
   EXPECT_EQ(warned("law:on(contact():press{ pressure='1 MPa' })"), "");
-  const std::string heavy = "lab.tilt_stage{ contact=contact(), friction=law, mass='2000 kg' }:raise{ repeats=2 }";
+  const std::string heavy =
+      "lab.tilt_stage{ contact=contact(), friction=law, mass='2000 kg' }:raise{ repeats=2 }";
   warns("print(" + heavy + ")", "tilt stage: " + hard);
   EXPECT_NE(value(heavy + ".note").find(hard), std::string::npos);
   EXPECT_EQ(value("#contact():press{ pressure='1 MPa' }.warnings"), "0");

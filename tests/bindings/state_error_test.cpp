@@ -36,7 +36,8 @@ TEST_F(ErrorOfState, HasABoundForEveryQuantity) {
 }
 
 TEST_F(ErrorOfState, OfPlasticityNeedsIt) {
-  for (const char* name : {"plastic_volume", "plastic_fraction", "plastic_fraction_low", "plastic_fraction_high"})
+  for (const char* name :
+       {"plastic_volume", "plastic_fraction", "plastic_fraction_low", "plastic_fraction_high"})
     EXPECT_TRUE(holds(std::string("st.error.algebraic.") + name + " == nil")) << name;
   EXPECT_EQ(run("local e = pressed({ pressure='1.5 GPa' }, { elasticity='half_space', plasticity={} }).error"
                 ".algebraic\n"
@@ -45,13 +46,15 @@ TEST_F(ErrorOfState, OfPlasticityNeedsIt) {
 }
 
 TEST_F(ErrorOfState, EveryFieldIsANumberOrNil) {
-  for (const char* how : {"{ flatten=0.1 }", "{ pressure='500 MPa' }", "{ approach='10 nm' }", "{ pressure=0 }"})
+  for (const char* how :
+       {"{ flatten=0.1 }", "{ pressure='500 MPa' }", "{ approach='10 nm' }", "{ pressure=0 }"})
     for (const Getter& field : class_of<StateBounds>().fields) {
       if (field.name == "cost") continue;
       const std::string kind =
           value(std::string("math.type(pressed") + how + ".error.algebraic." + field.name + ")");
       const std::string of_nil = value(std::string("pressed") + how + ".error.algebraic." + field.name);
-      EXPECT_TRUE(kind == "float" || kind == "integer" || of_nil == "nil") << how << field.name << ": " << kind;
+      EXPECT_TRUE(kind == "float" || kind == "integer" || of_nil == "nil")
+          << how << field.name << ": " << kind;
     }
   EXPECT_TRUE(holds("pressed{ flatten=0.1 }.error.algebraic.load == nil"));
   EXPECT_TRUE(holds("pressed{ flatten=0.1 }.error.algebraic.approach > 0"));

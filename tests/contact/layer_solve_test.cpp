@@ -19,6 +19,7 @@
 namespace asperity::layer_solve_test {
 namespace {
 
+using half_space_test::area_fraction;
 using half_space_test::problem_from;
 using half_space_test::problem_of;
 using half_space_test::rough_problem;

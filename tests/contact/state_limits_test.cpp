@@ -59,7 +59,7 @@ TEST(StateLimits, FewNodesAreEnoughWhereAllTouchOrEachStandsAlone) {
   EXPECT_EQ(limits_of(all), "");
   const State box = test::press(test::boxes(test::random_surface(16, 16, 1), 1e9), PressBy::flatten, 0.1);
   ASSERT_LT(box.contacts(), 30);
-  EXPECT_EQ(limits_of(box), "");
+  EXPECT_EQ(limits_of(box).find("only"), std::string::npos);
 }
 
 TEST(StateLimits, AContactAtTheRimOfAFreeTileIsReported) {
@@ -68,8 +68,9 @@ TEST(StateLimits, AContactAtTheRimOfAFreeTileIsReported) {
   EXPECT_EQ(limits_of(cut), at_the_rim);
   // Along one side alone.
   Scene tilted = ball(32, 2e-5);
-  tilted.lower = test::surface_of(tilted.lower.grid(), [](int i, int) { return i == 0 ? 1e-9 : 0.0; })
-                     .with_material(test::elastic(2e11, 0.3));
+  tilted.lower = test::surface_of(tilted.lower.grid(), [](int i, int) {
+                   return i == 0 ? 1e-9 : 0.0;
+                 }).with_material(test::elastic(2e11, 0.3));
   const State edge = test::press(tilted, PressBy::load, 1e-6);
   ASSERT_EQ(edge.contacts(), 32);
   EXPECT_EQ(limits_of(edge), at_the_rim);
@@ -79,19 +80,22 @@ TEST(StateLimits, ARimIsNoneOfPeriodicTilesOfFlatsAndOfContactsWithinIt) {
   EXPECT_EQ(limits_of(test::press(ball(64, 2e-5, Boundary::periodic), PressBy::load, 0.12)), "");
   EXPECT_EQ(limits_of(test::press(ball(64, 1e-4), PressBy::load, 0.12)), "");
   Scene punch = ball(16, 1e-3);
-  punch.lower = test::surface_of(punch.lower.grid(), [](int, int) { return 0.0; })
-                    .with_material(test::elastic(2e11, 0.3));
+  punch.lower = test::surface_of(punch.lower.grid(), [](int, int) {
+                  return 0.0;
+                }).with_material(test::elastic(2e11, 0.3));
   EXPECT_EQ(limits_of(test::press(punch, PressBy::load, 1)), "");
 }
 
 TEST(StateLimits, AnAttractionThatReachesTheRimIsReported) {
   const auto pulled = [](double range) {
-    Scene scene{sphere_surface({Grid{32, 32, 1, 1}, 1, SphereShape::paraboloid}).with_material(test::elastic(1)),
-                rigid_material(), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
+    Scene scene{
+        sphere_surface({Grid{32, 32, 1, 1}, 1, SphereShape::paraboloid}).with_material(test::elastic(1)),
+        rigid_material(), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
     scene.effects.set(AdhesionOptions{.work = 0.003, .range = range});
     return limits_of(test::press(scene, PressBy::approach, 0.01));
   };
-  EXPECT_NE(pulled(0.2).find("`adhesion` reaches the rim of the free tile"), std::string::npos) << pulled(0.2);
+  EXPECT_NE(pulled(0.2).find("`adhesion` reaches the rim of the free tile"), std::string::npos)
+      << pulled(0.2);
   EXPECT_EQ(pulled(0.01).find("the rim"), std::string::npos) << pulled(0.01);
 }
 

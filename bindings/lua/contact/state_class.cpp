@@ -137,8 +137,8 @@ Values write_state(Call& call) {
   return {path};
 }
 
-// One line with what is known of the error of the cells, and below it the limits, a line each. Of a state that
-// was closed its line alone.
+// One line with the known error of the cells, and below it the limits, a line each. A closed state has its
+// line alone.
 std::string describe_state(const void* self) {
   const auto& state = *static_cast<const Contacting*>(self);
   if (state.closed()) return state.text();
@@ -177,12 +177,9 @@ const Class& class_of<asperity::State>() {
         "A contact under load: an immutable value whose fields are computed when they are first read.";
     c.drawing =
         "upper body     -----+-------------------------  at first touch of the unworn bodies\n"
-        "                    |\n"
         "                    | displacement    +-------  at first touch of the worn bodies\n"
-        "                    |                 |\n"
         "                    |                 | approach\n"
         "               -----+---+-------------+-------  under this load\n"
-        "                        |\n"
         "                        | separation\n"
         "lower body     ~~~~~~~~~+~~~~~~~~~~~~~~~~~~~~~  mean plane, with all that has yielded\n";
     c.describe = describe_state;
@@ -213,10 +210,11 @@ const Class& class_of<asperity::State>() {
                               "whether every entry of the certificate is within the tolerance"),
         getter<S>("solver", "string", "what found the solution",
                   [](const S& of) { return std::string(of.solver()); }),
-        getter<S>("warnings", "string[]",
-                  "where these numbers say little of real bodies: few nodes in contact, a contact at the rim of "
-                  "a free tile, steep slopes, pressures near the modulus or above the hardness",
-                  [](const S& of) { return text_list(state_limits(of)); }),
+        getter<S>(
+            "warnings", "string[]",
+            "where these numbers say little of real bodies: few nodes in contact, a contact at the rim of "
+            "a free tile, steep slopes, pressures near the modulus or above the hardness",
+            [](const S& of) { return text_list(state_limits(of)); }),
         getter<S>("effects_run", "string[]", "effects that were computed",
                   [](const S& of) { return text_list(of.effects_run()); }),
         getter<S>("effects_off", "string[]", "effects that the scene does not name",

@@ -33,6 +33,11 @@ double share(const AlgebraicError& e, std::int64_t nodes) {
   return static_cast<double>(nodes) / static_cast<double>(e.nodes);
 }
 
+Value yielded_share(const StateBounds& of, std::int64_t NodeBracket::*end) {
+  const AlgebraicError& e = bounds(of);
+  return e.yielded_bracket ? Value(share(e, (*e.yielded_bracket).*end)) : Value();
+}
+
 std::string describe_bounds(const void* self) {
   const asperity::State& state = static_cast<const StateBounds*>(self)->state;
   const AlgebraicError& e = state.algebraic_error();
@@ -68,10 +73,10 @@ const Class& class_of<StateBounds>() {
     c.article_name = "an algebraic error";
     c.sentence =
         "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units "
-        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. nil: load, "
-        "pressure and secant_stiffness of a state pressed by `flatten`, whose other bounds are at the load that "
-        "was found, and what needs an effect that the scene does not name. What they cost to find is no part of "
-        "the cost of the state.";
+        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
+        "has no bound is nil: load, pressure and secant_stiffness of a state pressed by `flatten`, whose "
+        "other bounds are at the load found, and quantities of an effect that the scene does not name. What "
+        "they cost to find is no part of the cost of the state.";
     c.describe = describe_bounds;
     for (const StateQuantity& quantity : state_quantities())
       if (quantity.bound != nullptr)
@@ -102,15 +107,9 @@ const Class& class_of<StateBounds>() {
             [](const StateBounds& of) { return share(bounds(of), bounds(of).contact_bracket.high); }),
         getter<StateBounds>("plastic_fraction_low", "number?",
                             "share of the nodes surely at the cap; nil without plasticity",
-                            [](const StateBounds& of) {
-                              const auto& e = bounds(of);
-                              return e.yielded_bracket ? Value(share(e, e.yielded_bracket->low)) : Value();
-                            }),
+                            [](const StateBounds& of) { return yielded_share(of, &NodeBracket::low); }),
         getter<StateBounds>("plastic_fraction_high", "number?", "that and the share that may be",
-                            [](const StateBounds& of) {
-                              const auto& e = bounds(of);
-                              return e.yielded_bracket ? Value(share(e, e.yielded_bracket->high)) : Value();
-                            }),
+                            [](const StateBounds& of) { return yielded_share(of, &NodeBracket::high); }),
         getter<StateBounds>("cost", "Cost", "seconds, transforms and bytes of finding these bounds",
                             [](const StateBounds& of) { return cost_type()(bounds(of).cost); }),
     };

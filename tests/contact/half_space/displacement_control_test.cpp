@@ -316,6 +316,29 @@ TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
   }
 }
 
+// All nodes but the lowest are at the cap: one load belongs to many approaches.
+TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
+  for (const std::uint64_t seed : {8U, 3U}) {
+    SelfAffineOptions options;
+    options.grid = make_grid(64, 64, 1e-3, 1e-3);
+    options.hurst = 0.5;
+    options.rms_slope = 0.1;
+    options.short_wave = 4e-3 / 128;
+    options.seed = seed;
+    HalfSpaceProblem problem =
+        problem_of(options.grid, self_affine_surface(options).heights(), Boundary::free, 1e11, 1e-6);
+    problem.yield.cap = 3e8;
+    double before = 0;
+    for (const double share : {.998, .999, .9995, .9999, 1.}) {
+      const HalfSpaceAnswer answer = solve_at_flattening(problem, share, Monitor::silent());
+      EXPECT_NEAR(flattened(problem, answer), share, 1e-6) << seed;
+      EXPECT_LE(answer.certificate.worst(), 1e-6) << seed << " " << share;
+      EXPECT_GT(answer.approach, before) << seed << " " << share;
+      before = answer.approach;
+    }
+  }
+}
+
 // Entry V1: long cells just below full contact.
 TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   const HalfSpaceProblem problem = problem_from(

@@ -528,5 +528,22 @@ TEST(HalfSpaceSolve, StartNearbyChangesNothingButTheCost) {
   }
 }
 
+// Heights at random from node to node: lines along the short side are contacts nearly by themselves.
+TEST(HalfSpaceSolve, OfLongCellsThatHardenTakesFourHundredTransforms) {
+  for (const double aspect : {0.01, 0.1, 10., 30., 100., 1000.}) {
+    double x = 5;
+    HalfSpaceProblem problem = problem_from(
+        make_grid(48, 48, 5e-4 * std::max(1.0, 1 / aspect), 5e-4 * std::max(1.0, aspect)), Boundary::periodic,
+        [&](double, double) {
+          x = std::fmod(x * 16807, 2147483647);
+          return 1e-7 * x / 2147483647;
+        },
+        1e11, 1e-6);
+    problem.yield.cap = 2e8;
+    problem.yield.hardening = 2e15;
+    EXPECT_LE(solve(problem, 1e8).iterations, 200) << aspect;
+  }
+}
+
 }  // namespace
 }  // namespace asperity::half_space_solve_test

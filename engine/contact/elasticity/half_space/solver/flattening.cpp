@@ -216,7 +216,7 @@ double wanted_share(double fraction, double accuracy) {
 // The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
 // away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
 // apart. Where the load should be sought instead, an answer that did not converge.
-// `met`: the loads on either side that it passed. `alone`: the load was sought in vain.
+// `met`: the loads on either side that it passed. `alone`: the search by load failed.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor, bool alone = false) {
@@ -525,7 +525,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.iterations += before;
   }
   if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
-  // Where all nodes but some in pits are at the cap, one load goes with a stretch of approaches.
+  // One load belongs to many approaches if all nodes but some in pits are at the cap.
   if (!answer.converged && problem.yield.caps() && 2 * answer.yielded > answer.contacts) {
     const int before = answer.iterations;
     answer = flatten_by_approach(problem, fraction, answer.approach, problem.tolerance, loads, monitor, true);

@@ -260,8 +260,10 @@ class SetPreconditioner {
   SetPreconditioner(ContactLevel& level, const Limit& limit) : level_(level) {
     if constexpr (Limit::hardens) {
       slope_ = limit.yielding_slope();
-      apart_ = slope_ > stiff_slope;
-      scale_ = std::sqrt(1 / (1 + slope_ / Limit::own_compliance));
+      // A line of cells along the short side moves as one, by so much more than a node by itself.
+      own_ = Limit::own_compliance * std::max(1.0, level.shape.aspect);
+      apart_ = slope_ > stiff_slope * std::sqrt(level.shape.aspect);
+      scale_ = std::sqrt(1 / (1 + slope_ / own_));
     }
   }
 
@@ -285,7 +287,7 @@ class SetPreconditioner {
     if constexpr (Limit::hardens) {
       if (apart_) {
         yielding_.resize(z.size());
-        const double factor = 1 / (slope_ + Limit::own_compliance);
+        const double factor = 1 / (slope_ + own_);
         for_nodes(z.size(), [&](std::size_t k) { yielding_[k] = free[k] == yielding ? z[k] * factor : 0.0; });
         level_.preconditioner.apply(z, z);
         for_nodes(z.size(), [&](std::size_t k) {
@@ -309,7 +311,7 @@ class SetPreconditioner {
   static constexpr double stiff_slope = 3;
 
   ContactLevel& level_;
-  double slope_ = 0, scale_ = 1;
+  double slope_ = 0, scale_ = 1, own_ = 1;
   bool apart_ = true;
   Array<std::uint8_t> mask_;
   Array<double> yielding_;
