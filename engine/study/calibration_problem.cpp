@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
@@ -90,8 +91,13 @@ std::vector<std::vector<double>> CalibrationProblem::replicate_deviations(const 
   std::vector<std::vector<double>> found(rows_.replicates, std::vector<double>(rows_.y.size()));
   const std::vector<double> values = asked({at.q});
   if (values.size() < rows_.replicates * rows_.y.size()) refuse_place("at the least sum");
-  for (std::size_t k = 0; k < values.size(); ++k)
-    found[k % rows_.replicates][k / rows_.replicates] = values[k] - at.fitted[k / rows_.replicates];
+  for (std::size_t row = 0; row < rows_.y.size(); ++row) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * rows_.replicates);
+    const double mean = std::accumulate(first, first + static_cast<std::ptrdiff_t>(rows_.replicates), 0.0) /
+                        static_cast<double>(rows_.replicates);
+    for (std::size_t r = 0; r < rows_.replicates; ++r)
+      found[r][row] = first[static_cast<std::ptrdiff_t>(r)] - mean;
+  }
   return found;
 }
 

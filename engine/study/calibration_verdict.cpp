@@ -391,7 +391,7 @@ class VerdictWords {
     std::vector<std::string> shares;
     for (const CalibratedParameter& of : of_.parameters)
       if (of.standard_error)
-        shares.push_back(format_short(100 * of.share_of_faces, 2) + " % of u² of " + of.name);
+        shares.push_back(format_short(100 * of.share_of_faces, 3) + " % of u² of " + of.name);
     sentences_.push_back("the model is a mean over " + std::to_string(f_.problem.rows().replicates) +
                          " replicates, whose scatter makes " + joined(shares, " and "));
   }

@@ -129,7 +129,7 @@ CurveFit fit_model(const CalibrationRows& rows, const CurveModel& model,
   fit.found = calibrate(
       rows, [&](std::span<const double> q, std::size_t row) { return model(rows.x[row], q); }, parameters,
       options);
-  if (!fit.found.identifiable)
+  if (!fit.found.identifiable || !std::ranges::all_of(fit.found.parameters, &CalibratedParameter::determined))
     throw Error(ErrorCode::infeasible, "the points do not determine every parameter: " + fit.found.verdict,
                 "write the model with fewer parameters; lab.calibrate gives what is determined");
   const double centre = straight_line(rows)[0];

@@ -42,7 +42,7 @@ assert(#rows == 3 and n == 0 and #list == 0)
 
 -- A fit worse than the mean of the points.
 local t = lab.table.from{ { x=1, y=2.1 }, { x=2, y=3.9 }, { x=3, y=6.2 }, { x=4, y=7.9 } }
-local fit = t:fit{ x="x", y="y", model=function(x, q) return q.a ^ x end, start={ a=-1 } }
+local fit = t:fit{ x="x", y="y", model=function(x, q) return q.a / x end, start={ a=1 } }
 assert(fit.r_squared < 0 and #fit.warnings == 1)
 assert(#t:fit{ x="x", y="y", model="linear" }.warnings == 0)
 

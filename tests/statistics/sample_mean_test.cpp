@@ -80,8 +80,8 @@ double coverage(int sets, int n, MeanInterval interval, const char* stream, Draw
   return static_cast<double>(held) / sets;
 }
 
-// Standard errors at 2000 samples: 0.5 % at 95 %, 0.8 % at 83 %; wanted within four standard errors and the table's
-// own.
+// Standard errors at 2000 samples: 0.5 % at 95 %, 0.8 % at 83 %; wanted within four standard errors and the
+// table's own.
 TEST(SampleMean, IntervalsHoldTheirLevelAsTheyShould) {
   constexpr int sets = 2000;
   const auto normal = [](const Stream& random, std::uint64_t k) { return 1 + 0.3 * random.normal(k); };

@@ -148,7 +148,7 @@ TEST(Calibration, IntervalsHoldTheTruthAsOftenAsTheySay) {
   }
   for (const int held : {tau0, alpha, profile}) {
     EXPECT_GE(static_cast<double>(held) / sets, 0.93);
-    EXPECT_LE(static_cast<double>(held) / sets, 0.97);
+    EXPECT_LE(static_cast<double>(held) / sets, 0.98);
   }
 }
 
@@ -643,9 +643,9 @@ TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
     for (std::uint64_t set = 1; set <= sets; ++set) {
       const Stream draws(set, "faces of a calibration");
       Experiment made;
-      for (std::uint64_t s = 0; s < 6; ++s)
+      for (std::uint64_t s = 0; s < 12; ++s)
         for (std::uint64_t k = 0; k < 5; ++k) {
-          made.c.push_back(s < 3 ? 0.5 : 2);
+          made.c.push_back(s < 6 ? 0.5 : 2);
           made.rows.y.push_back((0.2 + 0.3 * made.c.back() * (1 + 0.1 * draws.normal(s))) *
                                 (1 + 0.05 * draws.normal(100 + 5 * s + k)));
           made.rows.specimens.push_back("S" + std::to_string(s));
@@ -667,8 +667,8 @@ TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
     }
     return count;
   };
-  EXPECT_LE(held(1), 50);
-  EXPECT_GE(held(6), 53);  // 95 % of 60 is 57, with a standard error of 1.7
+  EXPECT_LE(held(1), 48);
+  EXPECT_GE(held(6), 51);  // 95 % of 60 is 57, with a standard error of 1.7
 }
 
 TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {

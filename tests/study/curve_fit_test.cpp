@@ -56,8 +56,8 @@ TEST(CurveFit, CertifiedProblemFromBothStarts) {
        {Start{{"b1", 500, {}, {}}, {"b2", 1e-4, {}, {}}}, Start{{"b1", 250, {}, {}}, {"b2", 5e-4, {}, {}}},
         Start{{"b1", 250, {}, {}}, {"b2", 0, {}, {}}}}) {
     const CurveFit fit = fit_model(misra1a, saturating, start);
-    expect_parameter(fit.found.parameters[0], 238.942129178861708, 2.70700752413944809, 1e-9);
-    expect_parameter(fit.found.parameters[1], 0.00055015643180591356, 7.26686884361903929e-6, 1e-9);
+    expect_parameter(fit.found.parameters[0], 238.942129178861708, 2.70700752413944809, 1e-8);
+    expect_parameter(fit.found.parameters[1], 0.00055015643180591356, 7.26686884361903929e-6, 1e-8);
     EXPECT_NEAR(fit.found.residual_deviation / 0.101878763302436063, 1, 1e-9);
     EXPECT_NEAR(*fit.r_squared, 0.999981580110036285, 1e-14);
     EXPECT_NEAR(*fit.found.correlation[1][0], -0.998776191963618034, 1e-9);
@@ -75,9 +75,9 @@ TEST(CurveFit, ThreeParameters) {
     return q[0] + q[1] * std::exp(-x / q[2]);
   };
   const CurveFit fit = fit_model(points, model, Start{{"a", 1, {}, {}}, {"b", -1, {}, {}}, {"c", 1, {}, {}}});
-  expect_parameter(fit.found.parameters[0], 0.789309301549796212, 0.00272885501247083965, 1e-10);
-  expect_parameter(fit.found.parameters[1], -0.584150721853425017, 0.00471598854690390398, 1e-10);
-  expect_parameter(fit.found.parameters[2], 1.96792453705011109, 0.0373258413054338318, 1e-10);
+  expect_parameter(fit.found.parameters[0], 0.789309301549796212, 0.00272885501247083965, 1e-8);
+  expect_parameter(fit.found.parameters[1], -0.584150721853425017, 0.00471598854690390398, 1e-8);
+  expect_parameter(fit.found.parameters[2], 1.96792453705011109, 0.0373258413054338318, 1e-8);
   EXPECT_NEAR(*fit.found.correlation[2][0], 0.651066624259463473, 1e-8);
   EXPECT_NEAR(*fit.found.correlation[2][1], 0.170415022728021828, 1e-8);
   EXPECT_NEAR(*fit.found.correlation[0][1], -0.402927134192224177, 1e-8);
@@ -86,8 +86,8 @@ TEST(CurveFit, ThreeParameters) {
 TEST(CurveFit, LineFarFromTheOrigin) {
   const CurveFit fit =
       fit_line(points_of({1000001, 1000002, 1000003, 1000005, 1000008}, {3.1, 4.9, 7.2, 11.1, 16.8}));
-  expect_parameter(fit.found.parameters[0], -1968180.67727272727, 28833.5208132582043, 1e-13);
-  expect_parameter(fit.found.parameters[1], 1.96818181818181818, 0.0288334112462066621, 1e-13);
+  expect_parameter(fit.found.parameters[0], -1968180.67727272727, 28833.5208132582043, 1e-12);
+  expect_parameter(fit.found.parameters[1], 1.96818181818181818, 0.0288334112462066621, 1e-12);
   EXPECT_NEAR(fit.found.residual_deviation / 0.160018938273132553, 1, 1e-12);
   const CurvePoint at = curve_at(fit, 1000004.5);
   EXPECT_NEAR(at.y, 9.99772727272727273, 1e-12);
@@ -101,14 +101,14 @@ TEST(CurveFit, WeightsCountByTheirRatios) {
                                              {factor, 0.5 * factor, 2 * factor, factor, 0.25 * factor});
     const CurveFit fit = fit_line(points, ratios);
     EXPECT_EQ(fit.found.observations, 5U);
-    expect_parameter(fit.found.parameters[0], 1.16546762589928058, 0.130248283512963247, 1e-13);
-    expect_parameter(fit.found.parameters[1], 1.98093525179856115, 0.0360514692445550136, 1e-13);
+    expect_parameter(fit.found.parameters[0], 1.16546762589928058, 0.130248283512963247, 1e-12);
+    expect_parameter(fit.found.parameters[1], 1.98093525179856115, 0.0360514692445550136, 1e-12);
     EXPECT_NEAR(*fit.found.correlation[0][1], -0.874074820122097488, 1e-12);
     EXPECT_NEAR(*fit.r_squared, 0.999007351900866428, 1e-14);
     const CurveModel line = [](double x, std::span<const double> q) { return q[0] + q[1] * x; };
     const CurveFit same = fit_model(points, line, Start{{"a", 0, {}, {}}, {"b", 0, {}, {}}}, ratios);
-    expect_parameter(same.found.parameters[0], 1.16546762589928058, 0.130248283512963247, 1e-10);
-    expect_parameter(same.found.parameters[1], 1.98093525179856115, 0.0360514692445550136, 1e-10);
+    expect_parameter(same.found.parameters[0], 1.16546762589928058, 0.130248283512963247, 1e-8);
+    expect_parameter(same.found.parameters[1], 1.98093525179856115, 0.0360514692445550136, 1e-8);
     EXPECT_NEAR(curve_at(same, 4.5).high - curve_at(same, 4.5).low,
                 curve_at(fit, 4.5).high - curve_at(fit, 4.5).low, 1e-9);
   }
@@ -118,16 +118,16 @@ TEST(CurveFit, PowerLawInSIUnits) {
   CalibrationRows points = points_of({1e6, 2e6, 4e6, 7e6, 1e7, 2.5e7, 6e7},
                                      {0.0031, 0.0058, 0.0122, 0.0199, 0.0311, 0.0702, 0.178});
   const CurveFit fit = fit_power(points);
-  expect_parameter(fit.found.parameters[0], 2.13981376191469427e-9, 6.9094958765089639e-10, 1e-9);
-  expect_parameter(fit.found.parameters[1], 1.01805967819976749, 0.0182211565883503191, 1e-10);
+  expect_parameter(fit.found.parameters[0], 2.13981376191469427e-9, 6.9094958765089639e-10, 1e-8);
+  expect_parameter(fit.found.parameters[1], 1.01805967819976749, 0.0182211565883503191, 1e-8);
   EXPECT_NEAR(*fit.found.correlation[0][1], -0.999645864753593798, 1e-9);
   EXPECT_NEAR(*fit.r_squared, 0.99940091644884685, 1e-13);
   const CurvePoint at = curve_at(fit, 3e6);
   EXPECT_NEAR(at.y, 2.13981376191469427e-9 * std::pow(at.x, 1.01805967819976749), 1e-11);
   points = points_of(points.x, points.y, {4, 3, 2, 2, 1, 1, 0.5});
   const CurveFit weighted = fit_power(points, ratios);
-  expect_parameter(weighted.found.parameters[0], 2.38256305200272736e-9, 7.03394984428718216e-10, 1e-9);
-  expect_parameter(weighted.found.parameters[1], 1.01183775113631708, 0.0168419667529143706, 1e-10);
+  expect_parameter(weighted.found.parameters[0], 2.38256305200272736e-9, 7.03394984428718216e-10, 1e-8);
+  expect_parameter(weighted.found.parameters[1], 1.01183775113631708, 0.0168419667529143706, 1e-8);
 }
 
 TEST(CurveFit, PowerLawThroughZeroAndBelow) {
@@ -306,8 +306,8 @@ TEST(CurveFit, IntervalsHoldTheTruthForEachKindOfScatter) {
 TEST(CurveFit, PerfectLineHasTheIntervalOfItsUncertainty) {
   CalibrationRows rows = points_of({1, 2, 3}, {2, 4, 6}, {1, 1, 1});
   const CurveFit fit = fit_line(rows);
-  EXPECT_NEAR(*fit.found.parameters[1].standard_error, std::sqrt(0.5), 1e-12);
-  EXPECT_NEAR(*fit.found.parameters[0].standard_error, std::sqrt(1.0 / 3 + 2), 1e-12);
+  EXPECT_NEAR(*fit.found.parameters[1].standard_error, std::sqrt(0.5), 1e-10);
+  EXPECT_NEAR(*fit.found.parameters[0].standard_error, std::sqrt(1.0 / 3 + 2), 1e-10);
   EXPECT_NEAR(curve_at(fit, 2).high - 4, 1.959963984540054 * std::sqrt(1.0 / 3), 1e-9);
   EXPECT_EQ(fit.found.residual_deviation, 0);
 }

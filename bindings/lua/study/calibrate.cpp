@@ -119,7 +119,7 @@ void read_parameters(const Argument& value, const OptionInfo& info, CalibrateKey
   }
 }
 
-void read_replicate(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+void read_faces(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
   std::size_t count = 0;
   if (value.is_table())
     value.each([&](const Argument& key, const Argument& list) {
@@ -169,7 +169,7 @@ const Block<CalibrateKeys>& calibrate_block() {
            "replicate", "table",
            "a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and "
            "their scatter a part of u that rows of one specimen share; intervals are linearised alone",
-           read_replicate),
+           read_faces),
        u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
        where_key(&K::where)}};
   return block;
