@@ -24,19 +24,21 @@ constexpr std::size_t most_replicates = 100000;
 std::pair<double, double> whole_of(const Budget& budget, double sampling, double cells, double replicates) {
   const bool correlated =
       std::ranges::find(budget.parts, "correlation", &BudgetPart::name) != budget.parts.end();
-  double variance = 0, squares = 0, of_inputs = 0, least = std::numeric_limits<double>::infinity();
+  double variance = 0, squares = 0, of_inputs = 0, alone = 0, slow = 0;
   for (const BudgetPart& part : budget.parts) {
     const bool sampled = part.name == "sampling";
     const double of_part = part.variance() * (sampled ? sampling : part.name == "cells" ? cells : 1);
     variance += of_part;
     if (correlated && (part.input || part.name == "correlation")) {
       of_inputs += of_part;
-      least = std::min(least, part.degrees);
+      alone += part.input ? of_part : 0;
+      slow += part.input ? of_part / part.degrees : 0;
     } else {
       squares += of_part * of_part / (sampled ? std::max(1.0, replicates - 1) : part.degrees);
     }
   }
-  const double degrees = variance * variance / (squares + of_inputs * of_inputs / least);
+  if (slow > 0) squares += of_inputs * of_inputs * slow / alone;
+  const double degrees = variance * variance / squares;
   return {variance, degrees < 1e6 ? degrees : std::numeric_limits<double>::infinity()};
 }
 
