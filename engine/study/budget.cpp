@@ -221,10 +221,12 @@ std::pair<double, double> drift_of(const std::vector<double>& widths, const std:
 }
 
 // `at(p)` for orders p alike anywhere between the ends.
+constexpr int order_steps = 200;
 template <class At>
 std::vector<double> over_orders(double low, double high, At at) {
   std::vector<double> found;
-  for (int k = 0; k < (high > low ? 200 : 1); ++k) found.push_back(at(low + (high - low) * (k + 0.5) / 200));
+  for (int k = 0; k < (high > low ? order_steps : 1); ++k)
+    found.push_back(at(low + (high - low) * (k + 0.5) / order_steps));
   return found;
 }
 
@@ -348,7 +350,9 @@ void look_at_solver(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const double ratio = request.tolerances[last - 1] / request.tolerances[last];
   BudgetSetting loose = runs.base("solver");
   --loose.tolerance;
-  const double half = (runs.run({loose}).front() - found.first) / (ratio - 1);
+  // The steps have the standard deviation of the whole interval.
+  const double half = (runs.run({loose}).front() - found.first) / (ratio - 1) /
+                      std::sqrt(1 - 1.0 / (order_steps * order_steps));
   found.terms.push_back({"solver", over_orders(-1, 1, [&](double share) { return share * half; })});
 }
 
@@ -448,9 +452,16 @@ void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& 
     part.share_error = share.first_error;
     part.input = input;
     part.sensitivity = slope;
-    part.total = request.correlations.empty() ? share.total * chaos.variance : part.variance();
+    part.total = share.total * chaos.variance;
     rest -= part.variance();
     for (std::size_t k = 0; k < j; ++k) mutual += 2 * slopes[j] * slopes[k] * inputs.correlation(j, k);
+  }
+  // Halving an input halves what it shares with the correlated ones.
+  for (std::size_t j = 0; j < count && !request.correlations.empty(); ++j) {
+    BudgetPart& part = budget.parts[budget.parts.size() - count + j];
+    part.total = part.variance() * (1 - 4.0 / 3);
+    for (std::size_t k = 0; k < count; ++k)
+      part.total += 4.0 / 3 * slopes[j] * slopes[k] * inputs.correlation(j, k);
   }
   if (!request.correlations.empty())
     add_part(budget, "correlation", std::sqrt(std::abs(mutual)), always).sign = mutual < 0 ? -1 : 1;

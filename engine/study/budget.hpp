@@ -112,7 +112,7 @@ struct Budget {
   std::optional<PolynomialChaos> chaos;
   std::optional<double> order_observed;  // of three grids or more
   std::size_t replicates = 0;            // or specimens with repeats
-  double repeats = 1;                    // runs for each of them
+  double repeats = 1;                    // runs for each
   std::vector<double> cells, tolerances, tips;
   std::vector<double> seconds_of_cells;  // median time of a run on each grid
   std::size_t runs = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
@@ -18,10 +19,27 @@ namespace {
 
 constexpr std::size_t most_replicates = 100000;
 
-// By Welch and Satterthwaite, of squared variances over their degrees of freedom.
-double effective_degrees(double variance, double squares) {
+// Variance and degrees of freedom of the whole, by Welch and Satterthwaite, where the variance of the
+// sampling and of the cells are these times greater. Correlated inputs count as one.
+std::pair<double, double> whole_of(const Budget& budget, double sampling, double cells, double replicates) {
+  const bool correlated =
+      std::ranges::find(budget.parts, "correlation", &BudgetPart::name) != budget.parts.end();
+  double variance = 0, squares = 0, of_inputs = 0, alone = 0, slow = 0;
+  for (const BudgetPart& part : budget.parts) {
+    const bool sampled = part.name == "sampling";
+    const double of_part = part.variance() * (sampled ? sampling : part.name == "cells" ? cells : 1);
+    variance += of_part;
+    if (correlated && (part.input || part.name == "correlation")) {
+      of_inputs += of_part;
+      alone += part.input ? of_part : 0;
+      slow += part.input ? of_part / part.degrees : 0;
+    } else {
+      squares += of_part * of_part / (sampled ? std::max(1.0, replicates - 1) : part.degrees);
+    }
+  }
+  if (slow > 0) squares += of_inputs * of_inputs * slow / alone;
   const double degrees = variance * variance / squares;
-  return degrees < 1e9 ? degrees : std::numeric_limits<double>::infinity();
+  return {variance, degrees < 1e6 ? degrees : std::numeric_limits<double>::infinity()};
 }
 
 double even_cells(double cells) { return 2 * std::ceil(cells / 2 - 1e-9); }
@@ -97,20 +115,10 @@ class Planner {
 
  private:
   double reach(std::size_t replicates, double cells) const {
-    double variance = 0, squares = 0;
-    for (const BudgetPart& part : budget_.parts) {
-      double of_part = part.variance(), degrees = part.degrees;
-      if (part.name == "sampling") {
-        of_part *= static_cast<double>(budget_.replicates) / static_cast<double>(replicates);
-        degrees = std::max(1.0, static_cast<double>(replicates) - 1);
-      } else if (part.name == "cells") {
-        of_part *= elementary::pow(finest() / cells, 2 * order_);
-      }
-      variance += of_part;
-      squares += of_part * of_part / degrees;
-    }
-    if (!(variance > 0)) return 0;
-    return student_t_factor(budget_.confidence, effective_degrees(variance, squares)) * std::sqrt(variance);
+    const double n = static_cast<double>(replicates);
+    const auto [variance, degrees] = whole_of(budget_, static_cast<double>(budget_.replicates) / n,
+                                              elementary::pow(finest() / cells, 2 * order_), n);
+    return variance > 0 ? student_t_factor(budget_.confidence, degrees) * std::sqrt(variance) : 0;
   }
 
   const Budget& budget_;
@@ -119,11 +127,7 @@ class Planner {
 
 }  // namespace
 
-double Budget::degrees() const {
-  double squares = 0;
-  for (const BudgetPart& part : parts) squares += part.variance() * part.variance() / part.degrees;
-  return effective_degrees(uncertainty * uncertainty, squares);
-}
+double Budget::degrees() const { return whole_of(*this, 1, 1, static_cast<double>(replicates)).second; }
 
 // Fills what halving takes, how wide the interval is then, and the plan. `order` is that of the error of the
 // cells; `solver_seconds` is how much longer a run on the coarsest grid takes to the tightest tolerance than
@@ -135,8 +139,8 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
   const double whole = budget.uncertainty * budget.uncertainty;
   for (BudgetPart& part : budget.parts) {
     // An input narrows also what it does together with others.
-    const double share = part.input && whole > 0 ? part.total / whole : part.share;
-    part.half_width_after = budget.half_width() * std::sqrt(std::max(0.0, 1 - 0.75 * std::max(0.0, share)));
+    const double share = part.input && whole > 0 ? part.total / whole : std::max(0.0, part.share);
+    part.half_width_after = budget.half_width() * std::sqrt(std::max(0.0, 1 - 0.75 * share));
     if (part.name == "sampling") {
       part.half_width_after = planner.half_width(4 * n, planner.finest());
       part.halving = std::to_string(3 * n) + (budget.repeats > 1 ? " more specimens" : " more replicates");

@@ -33,7 +33,9 @@ void add_input_sheet(const Budget& budget, std::string& text) {
   if (lines.size() > 1) text += aligned(lines).substr(1) + "\n";
 }
 
-std::string budget_share_text(double share) { return format_short(std::round(1000 * share) / 10, 4) + " %"; }
+std::string budget_share_text(double share) {
+  return format_short(std::round(1000 * share) / 10 + 0.0, 4) + " %";
+}
 
 std::string grid_text(std::size_t replicates, double cells) {
   std::string text = replicates > 0 ? std::to_string(replicates) + " replicates" : "one run";

@@ -70,8 +70,8 @@ void read_input(const std::string& name, const std::string& path, const Argument
       const auto shapes = input_shapes().first(4);
       const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
       if (found == shapes.end())
-        problems.push_back(quoted(place) + " is " + given.describe() + "; give \"" +
-                           joined(shapes, "\" or \"") + "\"");
+        problems.push_back(quoted(place) + " is " + given.describe() +
+                           "; give \"normal\", \"uniform\", \"lognormal\" or \"triangular\"");
       input.shape = static_cast<InputShape>(found - shapes.begin());
     } else if (text == "degrees") {
       input.degrees = given.is_number() ? given.number() : 0;
