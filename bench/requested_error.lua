@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How often accuracy={ error= } meets the error that was requested, and its cost compared with the cheapest grid
--- that meets the error. Scenes of each kind have random shapes and loads; 10, 3 and 1 % of the corrected area
+-- How often accuracy={ error= } meets the requested error, and its cost compared with the cheapest grid
+-- within the error. Scenes of each kind have random shapes and loads; 10, 3 and 1 % of the corrected area
 -- fraction are requested. The truth is the corrected area on truth x truth cells, of boxes the counted area, which
 -- has no bias. The settings are 32, 64 ... truth/2 cells at the
--- default tolerance; the cheapest one that meets the error counts, even if by luck. Cost is transforms times n log n
+-- default tolerance; the cheapest one within the error counts, even if by luck. Cost is transforms times n log n
 -- of their grid (of boxes one per press); the cost of a choice includes all grids tried. A refusal is a miss.
 -- The rules were developed on seeds 1 to 10; docs/accuracy.md has the table of seeds 101 to 140.
 --
@@ -90,7 +90,7 @@ local function scene(kind, seed)
         made[k] = lab.surface.self_affine{ cells = n, size = 1, hurst = face.hurst, rms_slope = slope, roll_off = 0.5,
           short_wave = face.short_wave, seed = seed + 5000 * (k - 1), material = material }
       end
-      -- A body is turned over about the middle of its nodes: moved by a cell, it lies the same on any grid.
+      -- A body is turned over about its middle node: moved by a cell, any grid gives the same contact.
       return made[1], made[2] and made[2]:shifted{ x = -1 / n }
     end
   end
@@ -108,7 +108,7 @@ end
 
 local function work(cells, transforms) return math.max(transforms, 1) * cells ^ 2 * 2 * math.log(cells, 2) end
 
--- The cost of a press on `cells`, or of all grids that a choice tried.
+-- The cost of a press on `cells`; the grids tried before are included after a choice.
 local function cost_of(st, cells)
   if not st.chosen then return work(cells, st.cost.transforms) end
   local sum = 0
@@ -153,7 +153,7 @@ for kind in options.kinds:gmatch "[^,]+" do
         everything[#everything + 1] = costs[#costs]
       end
       if options.list > 0 then
-        print(kind, seed, error, ("%.2f of it"):format(off / error), ok and st.chosen.text or tostring(st):match "[^\n]*")
+        print(kind, seed, error, ("%.2f times the request"):format(off / error), ok and st.chosen.text or tostring(st):match "[^\n]*")
       end
     end
   end

@@ -293,14 +293,17 @@ State outlined(State state, const Plan& plan, const AskedError& asked) {
 
 [[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {
   const bool endless = !std::isfinite(reached.error);
-  throw Error(ErrorCode::not_converged,
-              "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
-                  " was requested, and " + where + " it comes to " + percent_text(reached.error),
-              (endless ? "it grows from grid to grid without end or is zero there: request another quantity"
-                       : "it needs some " + std::to_string(reached.cells_needed()) +
-                             " cells a side or more, and " + reached.limit + "; press a smaller piece " +
-                             "(`cropped`), request " + format_short(2 * reached.error, 1)) +
-                  ", or give on_failure=\"best\" to have what was reached");
+  const std::string& note = reached.tried.back().note;
+  throw Error(
+      ErrorCode::not_converged,
+      "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
+          " was requested, and " + where + " it comes to " + percent_text(reached.error) +
+          (note.empty() ? "" : " (" + note + ")"),
+      (endless ? "it grows from grid to grid without end or is zero there: request another quantity"
+               : "it needs some " + std::to_string(reached.cells_needed()) + " cells a side or more, and " +
+                     reached.limit + "; press a smaller piece (`cropped`)" +
+                     (reached.error < 0.5 ? ", request " + format_short(2 * reached.error, 1) : "")) +
+          ", or give on_failure=\"best\" to have what was reached");
 }
 
 // --- the choice

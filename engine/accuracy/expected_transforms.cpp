@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The trial's cells hold every so manyeth node of the combined heights, which leaves waves of a few cells
-// what they are: as rough as the cells. Two nodes are kept besides: the highest, which touches first, and the
-// lowest, from which a flattening is measured. Full contact
+// what they are: as rough as the cells. What a contact hangs on beyond that is kept: the highest nodes, which
+// touch first and may be a few spikes, and the lowest, from which a flattening is measured. Full contact
 // comes at another load on other cells; near it the load is taken by the same share of that.
 #include "engine/accuracy/expected_transforms.hpp"
 
@@ -78,22 +78,55 @@ struct Sublattice {
   }
 };
 
+struct HeightOfNode {
+  double height;
+  std::size_t number;
+  bool operator<(const HeightOfNode& other) const { return height < other.height; }
+};
+
+// The highest few, lowest of them first, and the lowest of all. Missing heights are left out.
+constexpr std::size_t kept_highest = 16;
+struct Extremes {
+  std::vector<HeightOfNode> highest;
+  HeightOfNode lowest;
+};
+Extremes extremes(const Field& h) {
+  Extremes found{{}, {0, 0}};
+  bool any = false;
+  const auto above = [](const HeightOfNode& a, const HeightOfNode& b) { return b < a; };
+  std::vector<HeightOfNode>& heap = found.highest;  // the least of them in front
+  for (std::size_t k = 0; k < h.size(); ++k) {
+    if (std::isnan(h[k])) continue;
+    if (!any || h[k] < found.lowest.height) found.lowest = {h[k], k};
+    any = true;
+    if (heap.size() == kept_highest && !(h[k] > heap.front().height)) continue;
+    if (heap.size() == kept_highest) {
+      std::pop_heap(heap.begin(), heap.end(), above);
+      heap.pop_back();
+    }
+    heap.push_back({h[k], k});
+    std::push_heap(heap.begin(), heap.end(), above);
+  }
+  std::stable_sort(heap.begin(), heap.end());
+  return found;
+}
+
 Field thinned(const Field& h, const Grid& grid) {
   if (h.nx() == grid.nx && h.ny() == grid.ny) return h;
-  std::size_t top = 0, low = 0;
-  for (std::size_t k = 0; k < h.size(); ++k) {
-    if (h[k] > h[top] || std::isnan(h[top])) top = k;
-    if (h[k] < h[low] || std::isnan(h[low])) low = k;
-  }
+  const Extremes kept = extremes(h);
   const auto nx = static_cast<std::size_t>(h.nx());
-  const auto column = [&](std::size_t k) { return static_cast<int>(k % nx); };
-  const auto row = [&](std::size_t k) { return static_cast<int>(k / nx); };
+  const auto column = [&](const HeightOfNode& node) { return static_cast<int>(node.number % nx); };
+  const auto row = [&](const HeightOfNode& node) { return static_cast<int>(node.number / nx); };
+  const HeightOfNode top = kept.highest.back();
   const Sublattice x(h.nx(), grid.nx, column(top)), y(h.ny(), grid.ny, row(top));
   Field result(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) result(i, j) = h(x.node(i), y.node(j));
-  result(x.place(column(low)), y.place(row(low))) = h[low];
-  result(x.place(column(top)), y.place(row(top))) = h[top];
+  const auto keep = [&](const HeightOfNode& node) {
+    result(x.place(column(node)), y.place(row(node))) = node.height;
+  };
+  keep(kept.lowest);
+  for (const HeightOfNode& node : kept.highest) keep(node);
   return result;
 }
 

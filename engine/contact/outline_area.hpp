@@ -15,6 +15,12 @@
 
 namespace asperity {
 
+enum class OutlineLaw {
+  elastic,  // half-spaces
+  capped,   // half-spaces whose pressure is limited
+  boxes
+};
+
 struct OutlineArea {
   double fraction = 0;  // of the tile
   // What |fraction - f|, f that of ever finer cells, stays within in nine scenes of ten, relative to
@@ -22,12 +28,12 @@ struct OutlineArea {
   double doubt = 0;
 };
 
-// Of half-spaces, or of `boxes`, that do not attract each other: `pressure` in Pa, above 0 where nodes touch;
+// Of bodies that do not attract each other: `pressure` in Pa, above 0 where nodes touch;
 // `gap` in m; `modulus` E* in Pa, of boxes their stiffness in Pa/m. With `wraps` the tile goes on past its
 // rim; without, the rim is no outline. None where nothing or everything touches, on cells more than 1.25
 // times longer than wide or wider than long, on tiles of fewer than 8 cells along a side, and where most
 // pressures rise towards the outline, as under a flat punch. O(n).
 std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap, const Grid& grid,
-                                        double modulus, bool wraps, bool boxes = false);
+                                        double modulus, bool wraps, OutlineLaw law = OutlineLaw::elastic);
 
 }  // namespace asperity

@@ -162,8 +162,11 @@ State State::with_outline(double modulus, bool boxes) const {
   result.outline_.reset();
   if (!geometry().overhangs()) {
     const std::shared_ptr<const Solution> solution = shared_->now();
-    result.outline_ = outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus,
-                                   shared_->wraps(), boxes);
+    result.outline_ =
+        outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus, shared_->wraps(),
+                     boxes             ? OutlineLaw::boxes
+                     : shared_->yields ? OutlineLaw::capped
+                                       : OutlineLaw::elastic);
   }
   return result;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells chosen for an error: what is chosen, that it is met and what it costs, that the bodies lie on other
-// cells as they did, and that a choice which fails leaves the contact as it was. Held-out seeds against
-// finer grids are in tests/accuracy.
+// Cells chosen for an error: the choice, its error and cost, the bodies on other cells, and the contact after
+// a choice that fails. Other seeds are compared with finer grids in tests/accuracy/distributions.
 #include "engine/accuracy/accuracy_choice.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +104,7 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
   }
 }
 
-// Bead-blasted ground on cells as wide as its dents was 1.2 to 2.6 times off by what was requested.
+// Bead-blasted ground on cells as wide as its dents was off by 1.2 to 2.6 times the request.
 TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   const PressRequest request{PressBy::pressure, 1e7, {}};
   for (const char* of : {"corrected_area_fraction", "approach"}) {
@@ -171,7 +170,7 @@ TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
   EXPECT_EQ(state.chosen()->source, "generated again");
 }
 
-// Nothing is known between the nodes of a map, so its own cells are the finest.
+// Between the nodes of a map no heights are known, so its own cells are the finest.
 TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
   Scene scene = asking(measured(rough(64, 3)).with_material(test::elastic_to_yield()), rigid_material(),
                        Boundary::periodic, 0.001);

@@ -247,7 +247,7 @@ TEST(EstimateFromAFinerGrid, HertzErrorsAreWithinAFactorOfThree) {
   }
 }
 
-// Of a paraboloid whose top is on a node and of one where it is between nodes.
+// A paraboloid whose top is on a node, and another whose top is between nodes.
 TEST(DiscretisationEstimate, OfAPrescribedApproachFollowsTheFirstTouch) {
   for (const double off_node : {0.0, 0.4}) {
     constexpr int n = 64;

@@ -124,7 +124,7 @@ TEST(ExpectedTransforms, OfFewerCellsAreWithinAFactorOfTwoByEachControl) {
   }
 }
 
-// The second trial has the work that is given, and the first a part of it.
+// The second trial has all the work given, and the first a part.
 TEST(ExpectedTransforms, TakeAboutTheWorkGiven) {
   const Contact contact(rough(512, 512));
   const Grid& grid = contact.scene.lower.grid();

@@ -107,7 +107,7 @@ TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
             "");
   EXPECT_TRUE(holds("math.abs(st.corrected_area_fraction / 0.0516 - 1) < 0.03"));
   EXPECT_TRUE(holds("st.chosen.text:find('generated again', 1, true)"));
-  // Heights that are drawn anew at every call are known on the first cells alone.
+  // Random heights are known on the first cells alone.
   EXPECT_NE(
       run("waves(32, { error=.03 }, 0.01)").find("`error` = 0.03 of `corrected_area_fraction` was requested"),
       std::string::npos);
@@ -125,7 +125,7 @@ TEST_F(AccuracyOfContact, LimitsOfAChoiceAreKeys) {
   EXPECT_NE(run("contact{ error=1e-3, at_most={ cells=4 } }").find("`cells` is 4"), std::string::npos);
 }
 
-// explain gave time and memory of the cells given, beside a line that the choice was not counted.
+// explain gave time and memory of the cells given, and said in another line the choice was not counted.
 TEST_F(AccuracyOfContact, AnExplainedChoiceCountsTheFinestCellsAllowed) {
   ASSERT_EQ(run("c = contact{ error=0.03, at_most={ cells=512 } }\np = c:explain{ pressure='500 MPa' }"), "");
   EXPECT_NE(value("tostring(p)").find(" 512 x 512 cells are the most within 512 cells a side"),

@@ -84,14 +84,14 @@ const RecordType<TriedGrid>& tried_grid_type() {
       RecordType<G>{
           "TriedGrid",
           "grid that was tried",
-          "A grid on which the press was tried for the error that was asked for.",
+          "A grid on which the press was tried for the requested error.",
           {{"cells",
             [](const G& g) {
               return std::array{g.nx, g.ny};
             },
             "along x and y"},
            {"tolerance", &G::tolerance, "of the solve"},
-           {"error", &G::error, "greatest relative error among the quantities asked for, with its margin"},
+           {"error", &G::error, "greatest relative error among the quantities requested, with its margin"},
            {"of", &G::of, "the quantity that has it"},
            {"note", &G::note, "why this grid does not count; empty where it does"},
            {"cost", &G::cost, cost_type(), "transforms in those of this grid"}}}
@@ -116,9 +116,9 @@ const RecordType<ChosenAccuracy>& chosen_accuracy_type() {
         "\"single\" or \"double\""},
        {"why_precision", &C::why_precision, "in a few words"},
        {"error", &C::error,
-        "of this state: greatest relative error among the quantities asked for, with its margin"},
+        "of this state: greatest relative error among the quantities requested, with its margin"},
        {"of", &C::of, "the quantity that has it"},
-       {"met", &C::met, "whether that is at most the error asked for"},
+       {"met", &C::met, "whether this is at most the requested error"},
        {"reason", &C::reason, "why these were chosen, in a sentence"},
        {"text", &C::text, "all of it on one line"},
        {"tried", &C::tried, tried_grid_type(), "the grids that were tried, one after another"}}};

@@ -89,7 +89,8 @@ class Session {
     static thread_local const Running* innermost;
   };
 
-  // Functions of the script that surfaces keep; those of surfaces that are gone wait here to be released.
+  // Functions of the script held by surfaces; the place of a function waits here for release after its
+  // surface.
   struct HeldFunctions {
     std::mutex mutex;
     std::vector<int> released;

@@ -183,7 +183,7 @@ const Block<AskedError>& limits_block() {
                               {integer("cells", &O::most_cells, between(16, max_cells), "cells a side"),
                                number("memory", &O::most_bytes, above(0), "bytes of memory of a press"),
                                quantity("time", &O::most_seconds, dimension::time, above(0),
-                                        "expected of all grids together, by the plan of a press")}};
+                                        "expected for all grids together, by the plan of a press")}};
   return block;
 }
 
@@ -220,7 +220,7 @@ const Block<AccuracyKeys>& accuracy_block() {
               "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
        custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_effect_names)
            .defaults_to("\"corrected_area_fraction\""),
-       table_of<K>("at_most", &K::limits, limits_block(), "limits of the grids that `error` may try")},
+       table_of<K>("at_most", &K::limits, limits_block(), "limits of the grids for `error`")},
       finish_accuracy};
   return block;
 }

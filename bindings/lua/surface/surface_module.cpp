@@ -186,8 +186,8 @@ Field heights_of(const Callback& height, const Grid& grid, Monitor& monitor) {
   return heights;
 }
 
-// A function of the script, for a recipe. It can be called within calls of its own state alone, and must give
-// the same height at the same place again.
+// A function of the script, for a recipe. Only native calls from the same state can call the function, which
+// must repeat its height at the same place.
 class HeldFunction {
  public:
   HeldFunction(const Argument& function, const Grid& grid, const Field& heights)
@@ -219,7 +219,7 @@ class HeldFunction {
   Surface surface(int nx, int ny, Monitor& monitor) const {
     const Session::Running* const now = Session::Running::innermost;
     if (now == nullptr || now->session.held_functions != held_)
-      throw Error(ErrorCode::bad_value, "a function can be called in the script that it belongs to alone");
+      throw Error(ErrorCode::bad_value, "a function can be called by its own script alone");
     const Argument::StackGuard guard(now->L);
     lua_rawgeti(now->L, LUA_REGISTRYINDEX, place_);
     const Callback height{Argument(now->L, -1)};
