@@ -143,8 +143,7 @@ std::string describe_state(const void* self) {
   const auto& state = *static_cast<const Contacting*>(self);
   if (state.closed()) return state.text();
   std::string of_the_cells = discretisation_text(state);
-  if (state.chosen())
-    of_the_cells += "; " + state.chosen()->values_text() + "; " + state.chosen()->text();
+  if (state.chosen()) of_the_cells += "; " + state.chosen()->values_text() + "; " + state.chosen()->text();
   std::string text = state.text(of_the_cells);
   for (const std::string& sentence : state_limits(state)) text += "\n  warning: " + sentence;
   return text;
