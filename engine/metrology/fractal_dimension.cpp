@@ -277,7 +277,7 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
 // more than half of the mean square (four of 64 Gaussian steps make some 30 %).
 std::string made_by_jumps(const ProfileSet& set) {
   constexpr std::size_t most = 4, steps_a_jump = 16;
-  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // in half of the mean square of each profile
+  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // of each profile
   parallel_for(set.count, [&](std::int64_t k) {
     ProfileSet::One one;
     set.read(k, one);
