@@ -106,7 +106,7 @@ Relation relation(DimensionMethod method) {
   return {1, 0};
 }
 
-// A statistic of zero (equal heights at every step of this length) has no logarithm.
+// A statistic of zero (equal heights at every step of that length) has no logarithm.
 bool has_logarithm(DimensionMethod method, double statistic) {
   return method == DimensionMethod::length || method == DimensionMethod::psd || statistic > 0;
 }
@@ -253,7 +253,7 @@ std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_
          "ends or bends; draw `spectrum`, or use the method `structure`";
 }
 
-// The reason against a single dimension over all steps; empty if there is none. `statistics` have logarithms.
+// Why the steps are not those of one dimension; empty where they are. `statistics` have logarithms.
 std::string lack_of_scaling(DimensionMethod method, std::span<const double> steps,
                             std::span<const double> statistics, const FractalDimension& found, bool offsets,
                             int samples) {
@@ -277,8 +277,7 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
 // more than half of the mean square (four of 64 Gaussian steps make some 30 %).
 std::string made_by_jumps(const ProfileSet& set) {
   constexpr std::size_t most = 4, steps_a_jump = 16;
-  Array<double> jumps(static_cast<std::size_t>(set.count),
-                      most + 1);  // in half of the mean square of each profile
+  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // of each profile
   parallel_for(set.count, [&](std::int64_t k) {
     ProfileSet::One one;
     set.read(k, one);
@@ -410,7 +409,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
   if (result.reason.empty() && !is_psd)
     result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
-  // Box counting underestimates the dimension so much that it hardly detects heights without a dimension.
+  // Boxes miss so much of a dimension that they hardly show where the heights have none.
   if (result.reason.empty() && method == DimensionMethod::box)
     if (const FractalDimension other = measure(
             set,

@@ -46,6 +46,8 @@ std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& 
   if (!raised.probes.empty()) {
     probe = contact->press({PressBy::pressure, raised.probes.front().pressure, {}}, monitor);
     for (const TiltProbe& at : raised.probes) friction += at.mu / static_cast<double>(raised.probes.size());
+    // A weight that was solved itself slides at its own friction.
+    if (!raised.at_weight.empty() && raised.slipped) friction = elementary::tan(raised.angle);
   }
 
   std::vector<SlipShare> growth;
