@@ -21,6 +21,7 @@ constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent pl
 constexpr double near_enough_for_central = 1e-4;  // the same, from which differences are central
 constexpr double noise_of_model = 0.03;           // the same, at which a model that goes no lower has arrived
 constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
+constexpr double unseen = 1e-5;                   // a singular value relative to the largest
 constexpr double smallest_share = 1e-3;           // of the largest fitted value, as relative weights count it
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
@@ -47,9 +48,6 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
     groups_.push_back({{k}, 1});
   }
   size_ = length_of(weighted);
-  // Central differences are wrong by the square of their step.
-  for (const CalibrationParameter& of : parameters)
-    unseen_ = std::max(unseen_, std::min(10 * of.step * of.step, 1e-5));
 }
 
 // What is left is never less than what comes after the present part, so that a part which takes longer than
@@ -294,7 +292,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
     found.along.push_back(product);
     // The largest counts however far the derivatives may be off.
-    const double least = (sparing_ ? sparing_unseen() : unseen_) * found.svd.values[0];
+    const double least = (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0];
     if (!(found.svd.values[k] > (k == 0 ? least : std::max(hidden, least)))) continue;
     found.rank = k + 1;
     sum += product * product;

@@ -171,7 +171,6 @@ class CalibrationProblem {
   std::vector<CalibrationGroup> groups_;
   std::vector<double> own_;  // 1/u
   double size_ = 0;          // of the weighted y
-  double unseen_ = 1e-8;     // a singular value relative to the largest, below which no row sees a direction
   std::int64_t calls_ = 0, expected_ = 1, afterwards_ = 0;
   // Of a sparing fit, so that no set of parameters is asked for twice.
   std::vector<std::pair<std::vector<double>, std::vector<double>>> known_;
