@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A press solved once more on other cells of its tile, of the same bodies as they lie: on half and a quarter
-// of the cells, or on thrice as many a side. What it says of the error of the grid is in
+// of the cells, or on thrice as many a side. The estimate of the error of the grid is in
 // discretisation_error.hpp.
 #pragma once
 
@@ -79,12 +79,12 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
 // Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
 void check_estimate(const Grid& grid);
 
-// What the estimate adds to the work of a press, over that work.
+// The work of an estimate, over that of the press alone.
 double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy);
 // Of one transform of a grid, in any unit: n log n.
 double transform_work(const Grid& grid);
 
-// Adds to the plan of a press what the estimate that it asks for takes.
+// Adds the cost of the requested estimate to the plan of a press.
 void plan_estimate(const ContactGeometry& geometry, Plan& plan);
 // make_plan with that added.
 Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry);
