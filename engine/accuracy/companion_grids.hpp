@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A press solved once more on other cells of its tile, of the same bodies as they lie: on half and a quarter
-// of the cells, or on thrice as many a side. What it says of the error of the grid is in
+// of the cells, or on thrice as many a side. The estimate of the error of the grid is in
 // discretisation_error.hpp.
 #pragma once
 
@@ -52,7 +52,7 @@ State press_from_coarser(const Solver& solver, const State* coarser, const Press
 // which is theirs, remember of earlier events, to a tolerance of 1e-5 or that of the scene, whichever is
 // looser. Heights are those of every second node, or interpolated where the cells are odd. On cells that were
 // chosen for an error each begins from the coarser one before it, as in the choice. Costs 1/4 + 1/16 of the
-// press, in time and in transforms of the finest grid. Throws the errors of a press, and Error{bad_value}
+// press, in time and in transforms of the finest grid. Throws what a press throws, and Error{bad_value}
 // naming `estimate` where there are too few cells; a coarser grid that misses its tolerance counts with the
 // best it reached.
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
@@ -79,12 +79,12 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
 // Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
 void check_estimate(const Grid& grid);
 
-// Relative extra work of the estimate of a press.
+// The work of an estimate, over that of the press alone.
 double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy);
 // Of one transform of a grid, in any unit: n log n.
 double transform_work(const Grid& grid);
 
-// Adds the work of the requested estimate to the plan of a press.
+// Adds the cost of the requested estimate to the plan of a press.
 void plan_estimate(const ContactGeometry& geometry, Plan& plan);
 // make_plan with that added.
 Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry);
