@@ -244,18 +244,18 @@
 ---@field tolerance number of the solve
 ---@field precision string "single" or "double"
 ---@field why_precision string in a few words
----@field error number of this state: greatest relative error among the quantities asked for, with its margin
+---@field error number of this state: greatest relative error among the quantities requested, with its margin
 ---@field of string the quantity that has it
----@field met boolean whether that is at most the error asked for
+---@field met boolean whether this is at most the requested error
 ---@field reason string why these were chosen, in a sentence
 ---@field text string all of it on one line
 ---@field tried asperity.TriedGrid[] the grids that were tried, one after another
 
----A grid on which the press was tried for the error that was asked for.
+---A grid on which the press was tried for the requested error.
 ---@class asperity.TriedGrid
 ---@field cells integer[] along x and y
 ---@field tolerance number of the solve
----@field error number greatest relative error among the quantities asked for, with its margin
+---@field error number greatest relative error among the quantities requested, with its margin
 ---@field of string the quantity that has it
 ---@field note string why this grid does not count; empty where it does
 ---@field cost asperity.Cost transforms in those of this grid
@@ -404,42 +404,6 @@
 ---@field slip_fraction number of the contact area that slips
 ---@field displacement number|nil of the bodies over each other; nil on a half-space (m)
 
----A curve fitted to two columns by least squares. Intervals are Student's, of linearised parameters.
----@class asperity.Fit
----@field name string|nil what charts call it; nil where it has none
----@field x string the column along
----@field y string the column that was fitted
----@field model string what was fitted
----@field method string how
----@field parameters table<string, asperity.FitParameter> each parameter under its name: value, u, low, high
----@field values table<string, number> the estimates by name, to call the model with
----@field names string[] of the parameters, in the order of `correlation`
----@field correlation number[][] of the estimates of the parameters
----@field r_squared number|nil share of the scatter of y that the curve explains; nil where every y is the same
----@field residual_sd number standard deviation of a point of weight 1 about the curve
----@field residuals number[] y less the curve, for each row that was used
----@field rows integer[] the rows that were used, counted from 1 after `where`
----@field n integer rows that were used
----@field left_out integer rows with an empty cell, no finite number or a weight of 0
----@field degrees integer degrees of freedom: rows less parameters
----@field confidence number of the intervals
----@field curve asperity.FitCurve the curve with its band, for drawing
----@field warnings string[] what is hardly determined
-
----A parameter of a fit, in the units of its columns.
----@class asperity.FitParameter
----@field value number its estimate
----@field u number its standard uncertainty
----@field low number lower end of its interval
----@field high number upper end of its interval
-
----A fitted curve over the range of its points, with the pointwise interval of the curve.
----@class asperity.FitCurve
----@field x number[] places, ascending
----@field y number[] the curve there
----@field low number[] lower end of its interval there
----@field high number[] upper end of its interval there
-
 ---How often the values of a column fall into bins.
 ---@class asperity.Histogram
 ---@field edges number[] of the bins in the column's unit, one more than bins; a bin holds its lower edge
@@ -453,9 +417,11 @@
 
 ---A part of the error of a number.
 ---@class asperity.BudgetPart
----@field name string sampling, cells, solver, tip, noise, an input, or `inputs together`: what inputs do only together, and what their polynomial leaves open
+---@field name string sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: what inputs do only together, and what their polynomial leaves open
 ---@field u number standard uncertainty from this part, in the unit of the answer
----@field share number of the variance; all sum to 1
+---@field degrees number degrees of freedom of u; infinite where it is taken as known
+---@field sensitivity number|nil of an input: derivative of the answer at the values of all
+---@field share number of the variance; all sum to 1, and that of a correlation may be below 0
 ---@field share_error number standard error of the share of an input; 0 of other parts
 ---@field halving string what halves it
 ---@field seconds number|nil computing time that halving takes; nil where it takes a measurement
@@ -479,14 +445,15 @@
 ---@field total_error number standard error of `total`
 ---@field deviation_when_halved number standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly
 
----A parameter of a calibration, in SI.
+---A parameter of a calibration, in SI; of a fit, in the units of its columns.
 ---@class asperity.CalibratedParameter
 ---@field value number|nil its estimate; nil where the rows do not determine it
----@field u number|nil its standard uncertainty; nil at a bound, and where no scatter is seen
+---@field u number|nil its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter
 ---@field low number|nil lower end of its linearised interval, not cut off at a bound
 ---@field high number|nil upper end of its linearised interval
 ---@field profile_low number|nil lower end of its interval by profile likelihood; nil where the rows give none
 ---@field profile_high number|nil upper end of its interval by profile likelihood; nil where the rows give none
+---@field share_of_faces number share of u² that the scatter of replicates makes; 0 without `replicate`
 ---@field determined boolean whether the rows determine it
 ---@field at_lower boolean whether it stands at its lower bound
 ---@field at_upper boolean whether it stands at its upper bound
@@ -498,6 +465,13 @@
 ---@field name string as its column tells it
 ---@field rows integer how many rows are of it
 ---@field residual number mean of its residuals: relative to the fit with scatter="relative", in units of `u` where that is known, else in the unit of y
+
+---A fitted curve over the range of its points, with the pointwise interval of the curve.
+---@class asperity.FitCurve
+---@field x number[] places, ascending
+---@field y number[] the curve there
+---@field low number[] lower end of its interval there
+---@field high number[] upper end of its interval there
 
 ---How far the contact conditions are from being met, each relative.
 ---@class asperity.SpreadCertificate
@@ -1125,7 +1099,8 @@ function Contact:close() end
 ---@field load number force on the whole tile (N)
 ---@field pressure number load over the nominal area (Pa)
 ---@field attraction number force by which the bodies attract each other; the contacts carry load and this (N)
----@field approach number from first touch of the bodies as they are now; after yielding that is the touch of the worn faces, and `separation` is what one event compares with the next (m)
+---@field approach number from first touch of the bodies as they were before this press; after yielding that is the touch of the worn faces, and `displacement` is what one event compares with the next (m)
+---@field displacement number travel since first touch of the unworn bodies, as a testing machine records it: `approach` and what earlier events took off the highest point (m)
 ---@field indentation number approach over the peak-to-valley of the combined heights; flats have none: an error. The key `flatten` counts another thing, the share by which the peak-to-valley under load has fallen
 ---@field flatten number share of that peak-to-valley pressed away
 ---@field overlap_fraction number share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper body is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile
@@ -1136,7 +1111,7 @@ function Contact:close() end
 ---@field spots integer regions of contact joined by an edge
 ---@field spots8 integer regions of contact joined by an edge or a corner
 ---@field peak_pressure number greatest pressure (Pa)
----@field separation number of the mean planes of the bodies where they face each other, undeformed, as they stand under this load (m)
+---@field separation number of the mean planes of the bodies where they face each other, without elastic deformation and with all that has yielded, under this load too (m)
 ---@field mean_gap number mean of the gap, 0 in contact, over the part of the tile where the bodies face each other (m)
 ---@field stiffness number d pressure / d approach at this contact set; math.huge where all of a periodic half-space touches (Pa/m)
 ---@field secant_stiffness number pressure over approach; math.huge of flats that carry a load and come no nearer (Pa/m)
@@ -1149,6 +1124,7 @@ function Contact:close() end
 ---@field certificate asperity.Certificate how far the contact conditions are from being met, each relative; where the bodies attract each other these bound tractions and not lengths: gaps and approaches may be off by more
 ---@field converged boolean whether every entry of the certificate is within the tolerance
 ---@field solver string what found the solution
+---@field warnings string[] where these numbers say little of real bodies: few nodes in contact, a contact at the rim of a free tile, steep slopes, pressures near the modulus or above the hardness
 ---@field effects_run string[] effects that were computed
 ---@field effects_off string[] effects that the scene does not name
 ---@field error asperity.StateError how far these numbers are from exact
@@ -1189,31 +1165,32 @@ function State:distribution(name, options) end
 ---@field discretisation asperity.DiscretisationError estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }
 local StateError = {}
 
----Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What they cost to find is no part of the cost of the state.
+---Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What has no bound is nil: load, pressure and secant_stiffness of a state pressed by `flatten`, whose other bounds are at the load found, and quantities of an effect that the scene does not name. What they cost to find is no part of the cost of the state.
 ---@class asperity.AlgebraicError
----@field load number of the load; 0 but for rounding where it was prescribed (N)
----@field pressure number of the load over the nominal area (Pa)
----@field approach number of the approach (m)
----@field indentation number of the indentation
----@field area number of the real contact area (m^2)
----@field area_fraction number of the area fraction
----@field corrected_area_fraction number of the corrected area fraction
----@field contacts number of the number of nodes in contact
----@field peak_pressure number of the greatest pressure (Pa)
----@field separation number of the separation (m)
----@field mean_gap number of the mean gap (m)
----@field secant_stiffness number of pressure over approach (Pa/m)
----@field energy number of the elastic energy (J)
----@field plastic_volume number of the plastic volume; needs plasticity (m^3)
----@field plastic_fraction number of the plastic fraction; needs plasticity
+---@field load number|nil of the load; 0 but for rounding where it was prescribed (N)
+---@field pressure number|nil of the load over the nominal area (Pa)
+---@field approach number|nil of the approach (m)
+---@field displacement number|nil of the displacement, of this press alone (m)
+---@field indentation number|nil of the indentation
+---@field area number|nil of the real contact area (m^2)
+---@field area_fraction number|nil of the area fraction
+---@field corrected_area_fraction number|nil of the corrected area fraction
+---@field contacts number|nil of the number of nodes in contact
+---@field peak_pressure number|nil of the greatest pressure (Pa)
+---@field separation number|nil of the separation (m)
+---@field mean_gap number|nil of the mean gap (m)
+---@field secant_stiffness number|nil of pressure over approach (Pa/m)
+---@field energy number|nil of the elastic energy (J)
+---@field plastic_volume number|nil of the plastic volume; needs plasticity (m^3)
+---@field plastic_fraction number|nil of the plastic fraction; needs plasticity
 ---@field contacts_low integer nodes that are surely in contact
 ---@field contacts_high integer those and the nodes that may be
 ---@field area_low number area surely in contact (m^2)
 ---@field area_high number that and what may be (m^2)
 ---@field area_fraction_low number share of the nodes surely in contact
 ---@field area_fraction_high number that and the share that may be
----@field plastic_fraction_low number share of the nodes surely at the cap; needs plasticity
----@field plastic_fraction_high number that and the share that may be; needs plasticity
+---@field plastic_fraction_low number|nil share of the nodes surely at the cap; nil without plasticity
+---@field plastic_fraction_high number|nil that and the share that may be
 ---@field cost asperity.Cost seconds, transforms and bytes of finding these bounds
 local AlgebraicError = {}
 
@@ -1459,16 +1436,21 @@ function TiltStage:slip_growth(options) end
 ---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number the share of such intervals that hold the mean (number above 0 and below 1, default 0.95)
----@field interval? "t"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("t"|"log", default "t")
+---@field interval? "student"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")
 
 ---@class asperity.options.notebook.fit
 ---@field x string the column along (string, required)
 ---@field y string the column that is fitted (string, required)
 ---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
----@field weights? string a column of relative weights, such as 1/u² with u the uncertainty of y; all alike without it (string)
+---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
+---@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
+---@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field weights? string a column of relative weights, with intervals that rest on the residuals; `u` instead where the uncertainty of y is known (string)
 ---@field where? table only rows in which these columns hold these values (table)
----@field confidence? number of the intervals of parameters and curve (number above 0 and below 1, default 0.95)
+---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
+---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
 ---@field name? string what charts call it (string)
 
 ---@class asperity.options.notebook.histogram
@@ -1492,7 +1474,7 @@ function TiltStage:slip_growth(options) end
 ---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
 ---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
 ---@field points? boolean mark the points (boolean, default true)
----@field fit? asperity.Fit|asperity.Fit[] what t:fit gave for these columns, drawn with the band of the curve (Fit|Fit[])
+---@field fit? asperity.Calibration|asperity.Calibration[] what t:fit gave for these columns, drawn with the band of the curve (Calibration|Calibration[])
 ---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
@@ -1550,9 +1532,9 @@ function Notebook:joined(other, options) end
 ---@return asperity.Table
 function Notebook:mean(column, options) end
 
----Fits a curve to two columns by least squares: parameters with intervals and correlation, R², residuals. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
 ---@param options asperity.options.notebook.fit
----@return asperity.Fit
+---@return asperity.Calibration
 function Notebook:fit(options) end
 
 ---How often the values of a column fall into bins; `file` draws it.
@@ -1574,16 +1556,21 @@ function Notebook:chart(options) end
 ---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number the share of such intervals that hold the mean (number above 0 and below 1, default 0.95)
----@field interval? "t"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("t"|"log", default "t")
+---@field interval? "student"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")
 
 ---@class asperity.options.table.fit
 ---@field x string the column along (string, required)
 ---@field y string the column that is fitted (string, required)
 ---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
----@field weights? string a column of relative weights, such as 1/u² with u the uncertainty of y; all alike without it (string)
+---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
+---@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
+---@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field weights? string a column of relative weights, with intervals that rest on the residuals; `u` instead where the uncertainty of y is known (string)
 ---@field where? table only rows in which these columns hold these values (table)
----@field confidence? number of the intervals of parameters and curve (number above 0 and below 1, default 0.95)
+---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
+---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
 ---@field name? string what charts call it (string)
 
 ---@class asperity.options.table.histogram
@@ -1607,7 +1594,7 @@ function Notebook:chart(options) end
 ---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
 ---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
 ---@field points? boolean mark the points (boolean, default true)
----@field fit? asperity.Fit|asperity.Fit[] what t:fit gave for these columns, drawn with the band of the curve (Fit|Fit[])
+---@field fit? asperity.Calibration|asperity.Calibration[] what t:fit gave for these columns, drawn with the band of the curve (Calibration|Calibration[])
 ---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
@@ -1654,9 +1641,9 @@ function Table:joined(other, options) end
 ---@return asperity.Table
 function Table:mean(column, options) end
 
----Fits a curve to two columns by least squares: parameters with intervals and correlation, R², residuals. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
 ---@param options asperity.options.table.fit
----@return asperity.Fit
+---@return asperity.Calibration
 function Table:fit(options) end
 
 ---How often the values of a column fall into bins; `file` draws it.
@@ -1676,7 +1663,8 @@ function Table:chart(options) end
 ---@field high number upper end of its interval
 ---@field confidence number of the interval
 ---@field u number its standard uncertainty
----@field n integer replicates; 0 where there is nothing to sample
+---@field degrees number of freedom of u, by Welch and Satterthwaite
+---@field n integer replicates, or specimens with repeats; 0 where there is nothing to sample
 ---@field skewness number|nil of the answers over the replicates
 ---@field leave_one_out number|nil error of the polynomial of the inputs over their variance: shares are rough from 5 %, and refused from 20 % on
 ---@field order_observed number|nil order of the error of the cells over the three finest grids
@@ -1695,8 +1683,8 @@ local Budget = {}
 ---@field degree integer of the polynomial; 0 of an answer that is always the same
 ---@field leave_one_out number what the fit of the other runs misses each by: mean square over the variance
 ---@field approximate boolean whether that is above 5 %, so that the shares are known nearly and no better
----@field measure_next string|nil the input whose better measurement narrows the answer most; nil where the answer hangs on none
----@field inputs asperity.InputShare[] the shares, greatest first order first
+---@field measure_next string|nil the input whose better measurement narrows the answer most, the first by name of those that do alike; nil where the answer hangs on none
+---@field inputs asperity.InputShare[] the shares, that of the input to measure next first
 local Sensitivity = {}
 
 ---@class asperity.options.study.cheapest
@@ -1744,18 +1732,23 @@ local StudyChoice = {}
 ---@field title? string above the chart (string)
 ---@field file? string an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood calibration-<y>-likelihood.svg (string)
 
----What lab.calibrate found. print() shows a line a parameter, their correlation and the verdict.
+---What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and warnings.
 ---@class asperity.Calibration
 ---@field parameters table<string, asperity.CalibratedParameter> each parameter under its name
 ---@field values table<string, number> the estimates by name in SI, without those that are not determined
 ---@field names string[] of the parameters, in the order of `correlation`
+---@field y string the column that was fitted
+---@field x string|nil of t:fit: the column along
+---@field name string|nil of t:fit: what charts call it
+---@field curve asperity.FitCurve|nil of t:fit: the curve with its band, for drawing
+---@field r_squared number|nil of t:fit: share of the scatter of y that the curve explains; nil where every y is the same
 ---@field identifiable boolean whether the rows determine every parameter
 ---@field verdict string what the rows determine and what not, and on what the intervals rest
 ---@field combinations string[] what the rows determine in the place of parameters that they do not tell apart
 ---@field correlation number[][] of the estimates; nan beside parameters that are not determined or stand at a bound
 ---@field condition number|nil largest over smallest singular value of the Jacobian with columns of length 1; nil where a direction is not seen
 ---@field n integer rows that were used
----@field left_out integer rows with an empty cell or no finite number
+---@field left_out integer rows with an empty cell, no finite number or a weight of 0
 ---@field rows integer[] the rows that were used, counted from 1 after `where`
 ---@field fitted number[] the model in each row
 ---@field fitted_low number[] lower end of the interval of the model there; nan where there is none
@@ -1900,19 +1893,21 @@ function SpreadState:write(name, path) end
 ---@field data asperity.Table|asperity.Notebook the measured rows (Table|Notebook, required)
 ---@field y string the column that the model is to give (string, required)
 ---@field parameters table each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, or its start alone. lower and upper may be left out; step is that of differences, relative (0.001), and wants to be larger for a model with a tolerance of its own (table, required)
----@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u². All alike without it (string|number)
+---@field replicate? table a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and their scatter a part of u that rows of one specimen share; intervals are linearised alone (table)
+---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
 ---@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
 ---@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
----@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 25 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
 ---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
 ---@field where? table only rows in which these columns hold these values (table)
 
 ---@class asperity.options.lab.budget
 ---@field ask function function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance`, `tip`, `noise` and the names in `replicate` where they are given. Where it presses or makes surfaces, its calls are spread over threads, each in a fresh copy of everything it uses (function, required)
----@field inputs? table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %"; shape="uniform" for one that lies anywhere within √3 u, else it is normal. `ask` gets each as a plain SI number (table)
----@field replicate? table what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together (table)
----@field cells? integer|integer[] cells a side, coarse to fine: two grids show the error of the cells, three its order too. The inputs are varied on the coarsest (integer|integer[])
+---@field inputs? table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %". shape="uniform" lies anywhere within √3 u, "triangular" within √6 u; "lognormal" has mean `value` and deviation u; else it is normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a list of draws of the quantity itself. A calibration gives all its parameters, under their own names and with their correlation. `ask` gets each as a plain SI number (table)
+---@field correlation? table[] of inputs, such as { { "alpha", "tau0", -0.8 } }; those that are not named are independent ({string, string, number}[])
+---@field replicate? table what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together. With a list `specimen`, runs of one are its repeats: the means of the specimens are the sample, and their number gives the degrees (table)
+---@field cells? integer|integer[] cells a side, coarse to fine: the change between two grids shows the error of the cells, three show its order too. With two and no `replicate`, `ask` gets up to two numbers of cells between them as well, since two answers may agree by chance. The inputs are varied on the coarsest (integer|integer[])
 ---@field order? number|string|table of the error of the cells, the least and the greatest that are possible (a plain number|{a plain number, a plain number} from 0.1 to 10, default {1, 2})
 ---@field tolerance? number|number[] of the solver, loose to tight: the change between the two tightest bounds its error (number|number[])
 ---@field tip? any|any[] tip radii of a stylus, blunt to sharp, such as { "5 um", "2 um" }: `ask` gets one as x.tip in m, the sharpest in all other runs; the change between the two sharpest bounds the error of the sharpest, of order 1 to 2 of the radius (length|length[])
@@ -1920,13 +1915,13 @@ function SpreadState:write(name, path) end
 ---@field runs? integer how often the inputs are varied; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
 ---@field confidence? number of the interval (number above 0 and below 1, default 0.95)
 ---@field interval? "student"|"log" of the mean over replicates: Student's t, or for positive skewed answers the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")
----@field half_width? number the interval that is wanted, plus or minus this, in the unit of the answer: the cheapest way to it is said (number above 0)
+---@field half_width? number|string the interval that is wanted, plus or minus this, in the unit of the answer or as a share of it such as "5 %": the cheapest way to it is said (number|string)
 ---@field at_most? number|string longest time for all runs; refused after the first ones where they will take longer (a time above 0)
 ---@field seed? integer of the values of the inputs and of the draws (integer at least 0, default 1)
 
 ---@class asperity.options.lab.sensitivity
 ---@field ask function function(x) returning the answer, one number, for a table of the inputs; it must give the same for the same x, so keep seeds fixed inside (function, required)
----@field inputs table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %"; shape="uniform" for one that lies anywhere within √3 u, else it is normal. `ask` gets each as a plain SI number (table, required)
+---@field inputs table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %". shape="uniform" lies anywhere within √3 u, "triangular" within √6 u; "lognormal" has mean `value` and deviation u; else it is normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a list of draws of the quantity itself. A calibration gives all its parameters, under their own names and with their correlation. `ask` gets each as a plain SI number (table, required)
 ---@field runs? integer how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
 ---@field seed? integer of the values at which `ask` is called (integer at least 0, default 1)
 
@@ -1984,7 +1979,7 @@ function lab.work_precision(options) end
 ---@return asperity.Calibration
 function lab.calibrate(options) end
 
----The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. Inputs are taken as independent of each other. What `ask` presses is taken up from the run where it was computed before, and then costs no time.
+---The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. print() adds a sheet of the inputs as the GUM has it. What `ask` presses is taken up from the run where it was computed before, and then costs no time.
 ---@param options asperity.options.lab.budget
 ---@return asperity.Budget
 function lab.budget(options) end

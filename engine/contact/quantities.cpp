@@ -56,8 +56,8 @@ const StateQuantity of_every_state[] = {
      .value = quantity_value<&S::attraction>},
     {.name = "approach",
      .called = "the approach",
-     .sentence = "from first touch of the bodies as they were before this press; after yielding that is the "
-                 "touch of the worn faces, and `displacement` is what one event compares with the next",
+     .sentence = "from first touch of the bodies before this press; after yielding this is the touch of the "
+                 "worn faces. Compare events by `displacement`",
      .dimension = dimension::length,
      .value = quantity_value<&S::approach>,
      .bound = quantity_bound<&E::approach>,
@@ -65,9 +65,8 @@ const StateQuantity of_every_state[] = {
                         "; most of it is the highest peak between the nodes"}},
     {.name = "displacement",
      .called = "the displacement",
-     .sentence =
-         "travel since first touch of the unworn bodies, as a testing machine records it: `approach` and "
-         "what earlier events took off the highest point",
+     .sentence = "travel since first touch of the unworn bodies, as a testing machine records it: `approach` "
+                 "and the loss of height in earlier events",
      .dimension = dimension::length,
      .value = quantity_value<&S::displacement>,
      .bound = quantity_bound<&E::approach>,

@@ -273,7 +273,7 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
   return running_dimension(scaling, found.D, samples, found.profiles, few_starts ? 1.2 : 0.5);
 }
 
-// Jumps scale as a rough profile does. They are found by their share: in most profiles up to four steps make
+// Jumps scale as a rough profile does. Their share reveals jumps: in most profiles up to four steps make
 // more than half of the mean square (four of 64 Gaussian steps make some 30 %).
 std::string made_by_jumps(const ProfileSet& set) {
   constexpr std::size_t most = 4, steps_a_jump = 16;
@@ -409,7 +409,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
   if (result.reason.empty() && !is_psd)
     result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
-  // Boxes miss so much of a dimension that they hardly show where the heights have none.
+  // Boxes miss much of a dimension, so they hardly reveal heights without one.
   if (result.reason.empty() && method == DimensionMethod::box)
     if (const FractalDimension other = measure(
             set,

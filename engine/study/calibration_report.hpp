@@ -22,7 +22,7 @@ struct CalibrationReport {
   Table rows;                         // those that were used, in order
   std::vector<std::size_t> numbers;   // of those in the table that was given, from 1
   std::size_t left_out = 0;           // rows without the numbers
-  std::string y;                      // the column that was fitted
+  std::string y;                      // the fitted column
   std::vector<Dimension> dimensions;  // of the parameters
   CalibrationScatter scatter = CalibrationScatter::absolute;
   bool known_uncertainty = false;  // rows weigh by `u`

@@ -285,14 +285,13 @@ Option<CalibrationKeys> scatter_option() {
   return in_options(
       choice("scatter", &CalibrationOptions::scatter,
              {{"absolute", CalibrationScatter::absolute}, {"relative", CalibrationScatter::relative}},
-             "what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²)"));
+             "constant scatter of y, or of y relative to the fit (weights 1/fit²)"));
 }
 
 Option<CalibrationKeys> specimen_option() {
-  return text(
-      "specimen", &CalibrationKeys::specimen,
-      "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
-      "than repeats their means are what is fitted");
+  return text("specimen", &CalibrationKeys::specimen,
+              "the column with the names of specimens; rows of one specimen are repeats, and if specimens "
+              "scatter more than repeats, the fit uses their means");
 }
 
 Option<CalibrationKeys> basis_option() {
@@ -300,7 +299,7 @@ Option<CalibrationKeys> basis_option() {
                            {{"automatic", CalibrationBasis::automatic},
                             {"rows", CalibrationBasis::rows},
                             {"specimens", CalibrationBasis::specimens}},
-                           "what counts as an observation; automatic: rows, and specimens where they scatter "
+                           "the observations; automatic: rows, and specimens where they scatter "
                            "(F test at 50 %)"));
 }
 
@@ -400,7 +399,7 @@ const Class& class_of<CalibrationReport>() {
     c.name = "Calibration";
     c.article_name = "a calibration";
     c.sentence =
-        "What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and "
+        "A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and "
         "warnings.";
     c.describe = [](const void* self) { return calibration_text(*static_cast<const R*>(self)); };
     c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
@@ -421,16 +420,15 @@ const Class& class_of<CalibrationReport>() {
           for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
           return names;
         }>("names", "string[]", "of the parameters, in the order of `correlation`"),
-        field<[](const R& r) { return r.y; }>("y", "string", "the column that was fitted"),
+        field<[](const R& r) { return r.y; }>("y", "string", "the fitted column"),
         field<[](const R& r) { return r.curve ? std::optional(r.curve->x) : std::nullopt; }>(
             "x", "string?", "of t:fit: the column along"),
         field<[](const R& r) {
           return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
-        }>("name", "string?", "of t:fit: what charts call it"),
+        }>("name", "string?", "of t:fit: its name in charts"),
         {"curve", "FitCurve?", "of t:fit: the curve with its band, for drawing", {}, told_curve},
         field<[](const R& r) { return r.r_squared; }>(
-            "r_squared", "number?",
-            "of t:fit: share of the scatter of y that the curve explains; nil where every y is the same"),
+            "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
         field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
                                                                "whether the rows determine every parameter"),
         field<[](const R& r) { return r.found.verdict; }>(

@@ -158,7 +158,8 @@ std::vector<Option<C>> panel_keys(bool first) {
                      .defaults_to("true"));
   keys.push_back(flag("points", &C::points, "mark the points"));
   keys.push_back(custom<C>("fit", "Calibration|Calibration[]",
-                           "what t:fit gave for these columns, drawn with the band of the curve", read_fits));
+                           "a result of t:fit for these columns, drawn with the band of the curve",
+                           read_fits));
   keys.push_back(custom<C>("functions", "table<string, function>",
                            "functions of x drawn as lines under their names, in the units of the columns",
                            read_functions));

@@ -46,12 +46,11 @@ const Block<ReadKeys>& read_table_block() {
     keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
                           "what dates and times of day are counted from, in seconds: the first one of their "
                           "column, or the beginning of 1970"));
-    keys.push_back(
-        choice("steps_back", &TableForm::steps_back,
-               {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
-               "what it means that times step back: a day is added where times of day fall by more "
-               "than half a day, or an hour where dates without a zone fall by about one")
-            .defaults_to("nothing"));
+    keys.push_back(choice("steps_back", &TableForm::steps_back,
+                          {{"midnight", StepsBack::midnight}, {"winter time", StepsBack::winter_time}},
+                          "meaning of times that step back: a new day if times of day fall by more than half "
+                          "a day, or an hour if dates without a zone fall by about an hour")
+                       .defaults_to("nothing"));
     return Block<ReadKeys>("read", std::move(keys));
   }();
   return block;

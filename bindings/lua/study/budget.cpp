@@ -160,13 +160,12 @@ const Block<BudgetKeys>& budget_block() {
            "`tip`, `noise` and the names in `replicate` where they are given. Where it presses or makes "
            "surfaces, its calls are spread over threads, each in a fresh copy of everything it uses"),
        inputs_option<K>(),
-       custom<K>(
-           "correlation", "{string, string, number}[]",
-           "of inputs, such as { { \"alpha\", \"tau0\", -0.8 } }; those that are not named are independent",
-           read_correlation),
+       custom<K>("correlation", "{string, string, number}[]",
+                 "of inputs, such as { { \"alpha\", \"tau0\", -0.8 } }; other pairs are independent",
+                 read_correlation),
        custom<K>(
            "replicate", "table",
-           "what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
+           "gives other specimens of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
            "is the share of sampling; several lists go along together. With a list `specimen`, runs of one "
            "are "
            "its repeats: the means of the specimens are the sample, and their number gives the degrees",
@@ -201,14 +200,13 @@ const Block<BudgetKeys>& budget_block() {
               {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
               "of the mean over replicates: Student's t, or for positive skewed answers the log interval of "
               "Cox, which assumes that their logarithms are normal"),
-       custom<K>(
-           "half_width", "number|string",
-           "the interval that is wanted, plus or minus this, in the unit of the answer or as a share of it "
-           "such as \"5 %\": the cheapest way to it is said",
-           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-             keys.half_width = detail::read_quantity(value, info, above(0), problems);
-             keys.of_answer = value.is_text() && value.text().find('%') != std::string_view::npos;
-           }),
+       custom<K>("half_width", "number|string",
+                 "the wanted half-width of the interval, in the unit of the answer or as a share of the "
+                 "answer such as \"5 %\": the cheapest way is reported",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   keys.half_width = detail::read_quantity(value, info, above(0), problems);
+                   keys.of_answer = value.is_text() && value.text().find('%') != std::string_view::npos;
+                 }),
        quantity("at_most", &K::at_most, dimension::time, above(0),
                 "longest time for all runs; refused after the first ones where they will take longer"),
        integer("seed", &K::seed, at_least(0), "of the values of the inputs and of the draws")},
@@ -326,14 +324,14 @@ const RecordType<BudgetPart>& part_type() {
       "part",
       "A part of the error of a number.",
       {{"name", &P::name,
-        "sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: what inputs do "
-        "only "
-        "together, and what their polynomial leaves open"},
+        "sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: joint effects "
+        "of inputs, and the misfit of their polynomial"},
        {"u", &P::uncertainty, "standard uncertainty from this part, in the unit of the answer"},
        {"degrees", &P::degrees, "degrees of freedom of u; infinite where it is taken as known"},
        {"sensitivity", [](const P& p) { return p.input ? std::optional(p.sensitivity) : std::nullopt; },
         "of an input: derivative of the answer at the values of all"},
-       {"share", &P::share, "of the variance; all sum to 1, and that of a correlation may be below 0"},
+       {"share", &P::share,
+        "of the variance; the shares sum to 1, and the share of a correlation may be negative"},
        {"share_error", &P::share_error, "standard error of the share of an input; 0 of other parts"},
        {"halving", &P::halving, "what halves it"},
        {"seconds", [](const P& p) { return p.halving_seconds; },

@@ -177,15 +177,15 @@ const Class& class_of<Sensitivity>() {
         getter<Sensitivity>("approximate", "boolean",
                             "whether that is above 5 %, so that the shares are known nearly and no better",
                             [](const Sensitivity& of) { return of.chaos.trust() != ChaosTrust::good; }),
-        getter<Sensitivity>(
-            "measure_next", "string?",
-            "the input whose better measurement narrows the answer most, the first by name of those that do "
-            "alike; nil where the answer hangs on none",
-            [](const Sensitivity& of) {
-              return (of.chaos.variance != 0) ? std::optional(of.chaos.shares[of.order.front()].name)
-                                              : std::nullopt;
-            }),
-        getter<Sensitivity>("inputs", "InputShare[]", "the shares, that of the input to measure next first",
+        getter<Sensitivity>("measure_next", "string?",
+                            "the input whose better measurement narrows the answer most, the first by name "
+                            "in a tie; nil if the answer depends on no input",
+                            [](const Sensitivity& of) {
+                              return (of.chaos.variance != 0)
+                                         ? std::optional(of.chaos.shares[of.order.front()].name)
+                                         : std::nullopt;
+                            }),
+        getter<Sensitivity>("inputs", "InputShare[]", "the shares, beginning with the input to measure next",
                             [](const Sensitivity& of) { return share_type().list(shared_inputs(of)); }),
     };
     c.results = {&share_type()};
