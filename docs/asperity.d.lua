@@ -417,11 +417,11 @@
 
 ---A part of the error of a number.
 ---@class asperity.BudgetPart
----@field name string sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: what inputs do only together, and what their polynomial leaves open
+---@field name string sampling, cells, solver, tip, noise, an input, `correlation`, or `inputs together`: joint effects of inputs, and the misfit of their polynomial
 ---@field u number standard uncertainty from this part, in the unit of the answer
 ---@field degrees number degrees of freedom of u; infinite where it is taken as known
 ---@field sensitivity number|nil of an input: derivative of the answer at the values of all
----@field share number of the variance; all sum to 1, and that of a correlation may be below 0
+---@field share number of the variance; the shares sum to 1, and the share of a correlation may be negative
 ---@field share_error number standard error of the share of an input; 0 of other parts
 ---@field halving string what halves it
 ---@field seconds number|nil computing time that halving takes; nil where it takes a measurement
@@ -1099,8 +1099,8 @@ function Contact:close() end
 ---@field load number force on the whole tile (N)
 ---@field pressure number load over the nominal area (Pa)
 ---@field attraction number force by which the bodies attract each other; the contacts carry load and this (N)
----@field approach number from first touch of the bodies as they were before this press; after yielding that is the touch of the worn faces, and `displacement` is what one event compares with the next (m)
----@field displacement number travel since first touch of the unworn bodies, as a testing machine records it: `approach` and what earlier events took off the highest point (m)
+---@field approach number from first touch of the bodies before this press; after yielding this is the touch of the worn faces. Compare events by `displacement` (m)
+---@field displacement number travel since first touch of the unworn bodies, as a testing machine records it: `approach` and the loss of height in earlier events (m)
 ---@field indentation number approach over the peak-to-valley of the combined heights; flats have none: an error. The key `flatten` counts another thing, the share by which the peak-to-valley under load has fallen
 ---@field flatten number share of that peak-to-valley pressed away
 ---@field overlap_fraction number share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper body is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile
@@ -1165,7 +1165,7 @@ function State:distribution(name, options) end
 ---@field discretisation asperity.DiscretisationError estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }
 local StateError = {}
 
----Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What has no bound is nil: load, pressure and secant_stiffness of a state pressed by `flatten`, whose other bounds are at the load found, and quantities of an effect that the scene does not name. What they cost to find is no part of the cost of the state.
+---Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. Quantities without a bound are nil: load, pressure and secant_stiffness of a state pressed by `flatten`, whose other bounds are at the load found, and quantities of an effect that the scene does not name. The cost of the bounds is no part of the cost of the state.
 ---@class asperity.AlgebraicError
 ---@field load number|nil of the load; 0 but for rounding where it was prescribed (N)
 ---@field pressure number|nil of the load over the nominal area (Pa)
@@ -1444,9 +1444,9 @@ function TiltStage:slip_growth(options) end
 ---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
 ---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
----@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
----@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
----@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
+---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
 ---@field weights? string a column of relative weights, with intervals that rest on the residuals; `u` instead where the uncertainty of y is known (string)
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
@@ -1474,7 +1474,7 @@ function TiltStage:slip_growth(options) end
 ---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
 ---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
 ---@field points? boolean mark the points (boolean, default true)
----@field fit? asperity.Calibration|asperity.Calibration[] what t:fit gave for these columns, drawn with the band of the curve (Calibration|Calibration[])
+---@field fit? asperity.Calibration|asperity.Calibration[] a result of t:fit for these columns, drawn with the band of the curve (Calibration|Calibration[])
 ---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
@@ -1532,7 +1532,7 @@ function Notebook:joined(other, options) end
 ---@return asperity.Table
 function Notebook:mean(column, options) end
 
----Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` draws it with its band. Undetermined parameters are an error with their names.
 ---@param options asperity.options.notebook.fit
 ---@return asperity.Calibration
 function Notebook:fit(options) end
@@ -1564,9 +1564,9 @@ function Notebook:chart(options) end
 ---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
 ---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
----@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
----@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
----@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
+---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
 ---@field weights? string a column of relative weights, with intervals that rest on the residuals; `u` instead where the uncertainty of y is known (string)
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
@@ -1594,7 +1594,7 @@ function Notebook:chart(options) end
 ---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
 ---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
 ---@field points? boolean mark the points (boolean, default true)
----@field fit? asperity.Calibration|asperity.Calibration[] what t:fit gave for these columns, drawn with the band of the curve (Calibration|Calibration[])
+---@field fit? asperity.Calibration|asperity.Calibration[] a result of t:fit for these columns, drawn with the band of the curve (Calibration|Calibration[])
 ---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
@@ -1641,7 +1641,7 @@ function Table:joined(other, options) end
 ---@return asperity.Table
 function Table:mean(column, options) end
 
----Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` draws it with its band. Undetermined parameters are an error with their names.
 ---@param options asperity.options.table.fit
 ---@return asperity.Calibration
 function Table:fit(options) end
@@ -1683,8 +1683,8 @@ local Budget = {}
 ---@field degree integer of the polynomial; 0 of an answer that is always the same
 ---@field leave_one_out number what the fit of the other runs misses each by: mean square over the variance
 ---@field approximate boolean whether that is above 5 %, so that the shares are known nearly and no better
----@field measure_next string|nil the input whose better measurement narrows the answer most, the first by name of those that do alike; nil where the answer hangs on none
----@field inputs asperity.InputShare[] the shares, that of the input to measure next first
+---@field measure_next string|nil the input whose better measurement narrows the answer most, the first by name in a tie; nil if the answer depends on no input
+---@field inputs asperity.InputShare[] the shares, beginning with the input to measure next
 local Sensitivity = {}
 
 ---@class asperity.options.study.cheapest
@@ -1732,16 +1732,16 @@ local StudyChoice = {}
 ---@field title? string above the chart (string)
 ---@field file? string an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood calibration-<y>-likelihood.svg (string)
 
----What lab.calibrate or t:fit found. print() shows a line a parameter, correlation, verdict and warnings.
+---A result of lab.calibrate or t:fit. print() shows a line a parameter, correlation, verdict and warnings.
 ---@class asperity.Calibration
 ---@field parameters table<string, asperity.CalibratedParameter> each parameter under its name
 ---@field values table<string, number> the estimates by name in SI, without those that are not determined
 ---@field names string[] of the parameters, in the order of `correlation`
----@field y string the column that was fitted
+---@field y string the fitted column
 ---@field x string|nil of t:fit: the column along
----@field name string|nil of t:fit: what charts call it
+---@field name string|nil of t:fit: its name in charts
 ---@field curve asperity.FitCurve|nil of t:fit: the curve with its band, for drawing
----@field r_squared number|nil of t:fit: share of the scatter of y that the curve explains; nil where every y is the same
+---@field r_squared number|nil of t:fit: explained share of the scatter of y; nil if all y are equal
 ---@field identifiable boolean whether the rows determine every parameter
 ---@field verdict string what the rows determine and what not, and on what the intervals rest
 ---@field combinations string[] what the rows determine in the place of parameters that they do not tell apart
@@ -1895,9 +1895,9 @@ function SpreadState:write(name, path) end
 ---@field parameters table each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, or its start alone. lower and upper may be left out; step is that of differences, relative (0.001), and wants to be larger for a model with a tolerance of its own (table, required)
 ---@field replicate? table a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and their scatter a part of u that rows of one specimen share; intervals are linearised alone (table)
 ---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
----@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
----@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
----@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
+---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
 ---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
 ---@field where? table only rows in which these columns hold these values (table)
@@ -1905,8 +1905,8 @@ function SpreadState:write(name, path) end
 ---@class asperity.options.lab.budget
 ---@field ask function function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance`, `tip`, `noise` and the names in `replicate` where they are given. Where it presses or makes surfaces, its calls are spread over threads, each in a fresh copy of everything it uses (function, required)
 ---@field inputs? table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %". shape="uniform" lies anywhere within √3 u, "triangular" within √6 u; "lognormal" has mean `value` and deviation u; else it is normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a list of draws of the quantity itself. A calibration gives all its parameters, under their own names and with their correlation. `ask` gets each as a plain SI number (table)
----@field correlation? table[] of inputs, such as { { "alpha", "tau0", -0.8 } }; those that are not named are independent ({string, string, number}[])
----@field replicate? table what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together. With a list `specimen`, runs of one are its repeats: the means of the specimens are the sample, and their number gives the degrees (table)
+---@field correlation? table[] of inputs, such as { { "alpha", "tau0", -0.8 } }; other pairs are independent ({string, string, number}[])
+---@field replicate? table gives other specimens of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together. With a list `specimen`, runs of one are its repeats: the means of the specimens are the sample, and their number gives the degrees (table)
 ---@field cells? integer|integer[] cells a side, coarse to fine: the change between two grids shows the error of the cells, three show its order too. With two and no `replicate`, `ask` gets up to two numbers of cells between them as well, since two answers may agree by chance. The inputs are varied on the coarsest (integer|integer[])
 ---@field order? number|string|table of the error of the cells, the least and the greatest that are possible (a plain number|{a plain number, a plain number} from 0.1 to 10, default {1, 2})
 ---@field tolerance? number|number[] of the solver, loose to tight: the change between the two tightest bounds its error (number|number[])
@@ -1915,7 +1915,7 @@ function SpreadState:write(name, path) end
 ---@field runs? integer how often the inputs are varied; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
 ---@field confidence? number of the interval (number above 0 and below 1, default 0.95)
 ---@field interval? "student"|"log" of the mean over replicates: Student's t, or for positive skewed answers the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")
----@field half_width? number|string the interval that is wanted, plus or minus this, in the unit of the answer or as a share of it such as "5 %": the cheapest way to it is said (number|string)
+---@field half_width? number|string the wanted half-width of the interval, in the unit of the answer or as a share of the answer such as "5 %": the cheapest way is reported (number|string)
 ---@field at_most? number|string longest time for all runs; refused after the first ones where they will take longer (a time above 0)
 ---@field seed? integer of the values of the inputs and of the draws (integer at least 0, default 1)
 
@@ -1979,7 +1979,7 @@ function lab.work_precision(options) end
 ---@return asperity.Calibration
 function lab.calibrate(options) end
 
----The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. print() adds a sheet of the inputs as the GUM has it. What `ask` presses is taken up from the run where it was computed before, and then costs no time.
+---The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. print() adds a sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its store.
 ---@param options asperity.options.lab.budget
 ---@return asperity.Budget
 function lab.budget(options) end
@@ -2165,7 +2165,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension, as it is or packed with gzip. Points that it marks as not measured stay missing. y runs upwards: j = 0 is the lowest line, whichever a format stores first. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
+---A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension, as it is or packed with gzip. Points marked as not measured stay missing. y runs upwards: j = 0 is the lowest line, whichever a format stores first. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -2400,7 +2400,7 @@ function lab.spread.contact(options) end
 ---@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
 ---@field text? string|string[] columns that hold texts, whatever their cells look like (string|string[])
 ---@field stamps? "first"|"1970" what dates and times of day are counted from, in seconds: the first one of their column, or the beginning of 1970 ("first"|"1970", default "first")
----@field steps_back? "midnight"|"winter time" what it means that times step back: a day is added where times of day fall by more than half a day, or an hour where dates without a zone fall by about one ("midnight"|"winter time", default nothing)
+---@field steps_back? "midnight"|"winter time" meaning of times that step back: a new day if times of day fall by more than half a day, or an hour if dates without a zone fall by about an hour ("midnight"|"winter time", default nothing)
 
 ---@class asperity.options.lab.table.from
 ---@field columns? string[] the names of columns in the order in which they stand (string[], default in the order of their names, as rows bring them)
@@ -2409,7 +2409,7 @@ function lab.spread.contact(options) end
 ---@class asperity.lab.table
 lab.table = {}
 
----A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two ways is an error that names the key that decides.
+---A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of words are texts. An ambiguous value is an error with the key to give.
 ---@param path string the file
 ---@param options? asperity.options.lab.table.read
 ---@return asperity.Table

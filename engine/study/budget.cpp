@@ -90,7 +90,9 @@ class BudgetRuns {
       const BudgetSetting& of = settings[k];
       const std::string run = "the answer of run " + std::to_string(of.number) + " (" + of.part + ") is ";
       if (!std::isfinite(answers[k].value)) {
-        lost = Error(ErrorCode::bad_value, run + "not finite", "a budget needs a finite number of every run");
+        if (!lost)
+          lost =
+              Error(ErrorCode::bad_value, run + "not finite", "a budget needs a finite number of every run");
         if (!some_may_be_lost) throw *lost;
       } else if (!has_square(answers[k].value)) {
         refuse_request(run + format_short(answers[k].value) + ", whose square leaves the range of numbers",
@@ -145,7 +147,7 @@ class BudgetRuns {
   double sum = 0;
   std::vector<std::vector<double>> seconds;  // of runs at the values of the inputs, grid by grid
   double loose_seconds = 0;
-  std::optional<Error> lost;  // names the last answer without a finite number
+  std::optional<Error> lost;  // names the first answer without a finite number
 
  private:
   double weight_of(std::size_t c) const { return cells_.empty() ? 1 : cells_[c] * cells_[c]; }

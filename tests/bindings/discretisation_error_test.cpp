@@ -106,7 +106,7 @@ TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
                 "st = waves(32, { error=.03 })"),
             "");
   EXPECT_TRUE(holds("math.abs(st.corrected_area_fraction / 0.0516 - 1) < 0.03"));
-  EXPECT_TRUE(holds("st.chosen.text:find('generated again', 1, true)"));
+  EXPECT_TRUE(holds("st.chosen.text:find('generated again', 1, true) ~= nil"));
   // Random heights are known on the first cells alone.
   EXPECT_NE(
       run("waves(32, { error=.03 }, 0.01)").find("`error` = 0.03 of `corrected_area_fraction` was requested"),

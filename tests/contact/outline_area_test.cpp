@@ -164,21 +164,30 @@ TEST(State, AnOutlineGivesTheCorrectedAreaAndNothingElse) {
   EXPECT_EQ(with.digest(), state.digest());
 }
 
-// A paraboloid under a plane: boxes touch on a disc, which counted nodes miss by half a percent.
+// A paraboloid under a plane at 64 places: boxes touch on a disc. Counted nodes miss its area by .33 % (root
+// mean square), the outline by .12 %.
 TEST(OutlineArea, OfBoxesIsTheShareAboveAPlane) {
-  const int n = 64;
-  Field p(n, n), g(n, n);
-  const double radius = 0.31, stiffness = 7;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const double x = static_cast<double>(i) / n - 0.503, y = static_cast<double>(j) / n - 0.498;
-      const double above = radius * radius - x * x - y * y;
-      p(i, j) = stiffness * std::max(above, 0.0);
-      g(i, j) = std::max(-above, 0.0);
-    }
-  const double disc = std::numbers::pi * radius * radius;
-  EXPECT_NEAR(outline_area(p, g, Grid{n, n, 1, 1}, stiffness, true, OutlineLaw::boxes)->fraction, disc,
-              1e-3 * disc);
+  const int n = 64, places = 8;
+  const double radius = 0.31, stiffness = 7, disc = std::numbers::pi * radius * radius;
+  double of_outline = 0, of_nodes = 0;
+  for (int place = 0; place < places * places; ++place) {
+    Field p(n, n), g(n, n);
+    double counted = 0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const double x = (i - static_cast<double>(place % places) / places) / n - 0.5,
+                     y = (j - static_cast<double>(place / places) / places) / n - 0.5;
+        const double above = radius * radius - x * x - y * y;
+        p(i, j) = stiffness * std::max(above, 0.0);
+        g(i, j) = std::max(-above, 0.0);
+        counted += above > 0 ? 1.0 / (n * n) : 0.0;
+      }
+    const double area = outline_area(p, g, Grid{n, n, 1, 1}, stiffness, true, OutlineLaw::boxes)->fraction;
+    of_outline += (area / disc - 1) * (area / disc - 1);
+    of_nodes += (counted / disc - 1) * (counted / disc - 1);
+  }
+  EXPECT_LT(std::sqrt(of_outline / (places * places)), 0.0013);
+  EXPECT_GT(std::sqrt(of_nodes / (places * places)), 0.003);
 }
 
 TEST(OutlineArea, NodesFlattenedAsFarAsTheOutlineTouchWhole) {

@@ -6,7 +6,7 @@
 --! error: silent_mistakes.lua:30: lab.ensemble: `cases` is empty, so there is no case
 --! error: silent_mistakes.lua:34: `run` changes `n`, of which each case has its own copy; return the value and use the rows
 --! error: silent_mistakes.lua:34: `run` changes `list`, of which
---! error: the curve is farther from the points than their mean is (R² = -4.7
+--! error: the curve is farther from the points than their mean is (R² = -2.83
 --! not error: lua:20
 --! not error: lua:25
 --! not error: `total`

@@ -73,10 +73,10 @@ const Class& class_of<StateBounds>() {
     c.article_name = "an algebraic error";
     c.sentence =
         "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units "
-        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
-        "has no bound is nil: load, pressure and secant_stiffness of a state pressed by `flatten`, whose "
-        "other bounds are at the load found, and quantities of an effect that the scene does not name. What "
-        "they cost to find is no part of the cost of the state.";
+        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. "
+        "Quantities without a bound are nil: load, pressure and secant_stiffness of a state pressed by "
+        "`flatten`, whose other bounds are at the load found, and quantities of an effect that the scene "
+        "does not name. The cost of the bounds is no part of the cost of the state.";
     c.describe = describe_bounds;
     for (const StateQuantity& quantity : state_quantities())
       if (quantity.bound != nullptr)

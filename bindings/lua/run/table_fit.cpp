@@ -188,8 +188,8 @@ Function fit_method() {
       .body = fit_of_columns,
       .sentence =
           "Fits a curve to two columns by least squares, as lab.calibrate does: parameters with intervals "
-          "and correlation, R², residuals, warnings of residuals that are not independent. `chart{ fit= }` "
-          "draws it with its band. Parameters that the rows do not determine are an error that names them.",
+          "and correlation, R², residuals, warnings of dependent residuals. `chart{ fit= }` "
+          "draws it with its band. Undetermined parameters are an error with their names.",
       .options = &fit_block(),
       .returns = "Calibration",
       .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",

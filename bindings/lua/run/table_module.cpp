@@ -107,8 +107,8 @@ const Module& table_module() {
              "of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points "
              "or commas. Units stand in the heads, load [N], load (N), load / N, or in the line "
              "below, or in the cells; numbers with a unit come in SI. Dates and times of day become "
-             "seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two "
-             "ways is an error that names the key that decides.",
+             "seconds, ISO 8601 and local forms; columns of words are texts. An ambiguous value is an error "
+             "with the key to give.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_table_block(),
          .options_optional = true,

@@ -366,8 +366,8 @@ Function budget_function() {
           "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
           "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
           "share of each part, what halving each costs, and the cheapest way to an interval. print() adds a "
-          "sheet of the inputs as the GUM has it. What `ask` presses is taken up from the run where it was "
-          "computed before, and then costs no time.",
+          "sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its "
+          "store.",
       .options = &budget_block(),
       .returns = "Budget",
       .example =

@@ -396,7 +396,7 @@ const Module& surface_module() {
          .body = read_body,
          .sentence = "A measured surface from a file: " + format_names() +
                      ", known by its content, then by its extension, as it is or packed with gzip. Points "
-                     "that it marks as not measured stay missing. y runs upwards: j = 0 is the lowest line, "
+                     "marked as not measured stay missing. y runs upwards: j = 0 is the lowest line, "
                      "whichever a "
                      "format stores first. Over x y z triples a line such as \"x "
                      "[mm];y [mm];z [um]\" says their units.",

@@ -181,7 +181,7 @@ class Problem {
   }
 
   // Middle of the shortest interval that holds two fifths of the residuals: where unworn ground stands, as
-  // long as so much of it is left.
+  // long as this share is left.
   double mode() {
     sorted_.clear();
     for (const Sample& s : samples_)
@@ -245,7 +245,7 @@ class Problem {
 
   const MapPair& maps_;
   int stride_, columns_, rows_;
-  double radius_;  // turn and slopes are scaled by it, so that all parameters are of one size
+  double radius_;  // scale of turn and slopes, for parameters of equal size
   Array<Sample> samples_;
   Array<double> sorted_;
 };
