@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Ground that hardens softly on long cells, under a load with a few yielding nodes: the descent along the lines of the
--- cells solves it, within 400 transforms. Heights in 2^-15 m.
+-- Ground that hardens softly on long cells, under a load of which a few nodes yield: no descent balances the load; it is
+-- found by the approach that brings it. Heights in 2^-15 m.
 --! output: ok
 local lab = require "asperity"
 local steps = {
@@ -31,7 +31,7 @@ local function bench()
     accuracy={ tolerance=1e-6 } }
 end
 local st = bench():press{ pressure=2.5779008865356445e-06 }
-assert(st.converged and st.cost.transforms < 400, st.cost.transforms)
+assert(st.converged and st.solver:find(", for the load", 1, true), st.solver)
 local again = bench():press{ approach=st.approach }
 assert(math.abs(again.pressure / st.pressure - 1) < 1e-4, again.pressure)
 print "ok"

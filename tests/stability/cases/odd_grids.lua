@@ -161,7 +161,7 @@ case:evidence(noise, "White noise on 96 x 96 cells, longer than wide or wider th
 case:expect(noise, "solved", { at_least = 1 })
 case:expect(noise, "transforms", { at_most = 400 }) -- measured 263, at 1000:1 on a free boundary
 
--- 5. The same under hardening, from much softer than the half-space to stiffer.
+-- 5. The same under hardening. Much softer than the half-space it is solved or refused with the shape of the cells.
 local soft = lab.notebook "soft"
 for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
   for _, aspect in ipairs{ 0.01, 0.1, 10, 30, 100, 300, 1000 } do
@@ -174,18 +174,19 @@ for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
         effects = { elasticity = "half_space", plasticity = { hardness = 2e8, hardening = hardening } } }
         :press{ pressure = 1e8 }
     end)
-    if not ok then print(st) end
+    assert(ok or hardening < 1e15 and tostring(st):find("times longer than wide", 1, true), st)
     soft:write{ hardening = hardening, aspect = aspect, solved = ok and 1 or 0,
       transforms = ok and st.cost.transforms or 0, certificate = ok and st.residual or 1 }
   end
 end
 case:evidence(soft, "White noise on 96 x 96 long cells under hardening, by the hardening in Pa/m; E*/cell is 1e16 Pa/m"
-  .. " along the short side. At a fifth a press takes at most 400 transforms, at a fiftieth up to a thousand. If a press stalls,"
-  .. " the error says how long the cells are.",
+  .. " along the short side. From a fifth on, a press takes at most 400 transforms. At a fiftieth long cells are dear or refused.",
   { { "hardening", "%.0e" }, { "aspect", "%.3g" }, { "solved", "%d" }, { "transforms", "%.0f" },
     { "certificate", "%.0e" } })
-case:expect(soft, "solved", { at_least = 1 })
-case:expect(soft, "transforms", { at_most = 1500 })
+for _, hardening in ipairs{ 2e15, 2e16 } do
+  case:expect(soft, "solved", { where = { hardening = hardening }, at_least = 1 })
+  case:expect(soft, "transforms", { where = { hardening = hardening }, at_most = 400 })
+end
 
 case:holds("a grid of one node carries the load with no approach", (function()
   local st = lab.contact{ lower = lab.surface.flat{ cells = 1, size = 1, material = unit }, upper = lab.rigid,

@@ -18,7 +18,6 @@
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 
@@ -30,13 +29,6 @@ using namespace descent_rules;
 // takes one: more, on a free set that is not the last, took up to two thirds more in all. Not where ground
 // hardens: there three times as many random scenes stalled with one, six of 20 000.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
-
-// Settling disturbs long cells, so more steps follow. With 5 in place of 2 cells of 1:30 took a third of the
-// transforms; with 12 cells of 1:1000 were solved in 6 scenes of 6 instead of 1.
-int steps_where_ground_hardens(double aspect) {
-  return std::max(steps_of_dear_pass, static_cast<int>(1.75 * std::abs(elementary::log(aspect))));
-}
-
 // With a tolerance no less than this, single precision serves for what steps change. Directions take half the
 // memory to move; they leave pressures of mirrored contacts some 1e-9 of the greatest apart.
 constexpr double single_enough = 5e-9;
@@ -156,9 +148,7 @@ class Descent {
         keeps_line_loads_(keeps_line_loads(level.shape.aspect)),
         rounds_(level.shape.single ||
                 (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding)),
-        steps_a_pass_(Limit::hardens ? steps_where_ground_hardens(level.shape.aspect)
-                      : dear_        ? steps_of_dear_pass
-                                     : steps_a_pass),
+        steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
         no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
   bool run();
