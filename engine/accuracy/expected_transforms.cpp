@@ -351,8 +351,8 @@ Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Pl
   if (grid.nodes() > 0)
     result.press += std::string(", tried on ") + (whole ? "all " : "") + std::to_string(grid.nx) + " x " +
                     std::to_string(grid.ny) + " cells";
-  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
-  if (expected.ended && !whole && !by_load) result.press += seldom;
+  const bool under_load = request.by == PressBy::pressure || request.by == PressBy::load;
+  if (expected.ended && !whole && !under_load) result.press += seldom;
   if (!expected.ended)
     result.press += ", where it was left after " + format_short(expected.tried) + ": they may be many more";
   return result;
