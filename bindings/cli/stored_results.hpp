@@ -13,15 +13,15 @@
 
 namespace asperity::cli {
 
-// The command that goes on with the run in `command.resume`: its script, arguments, seed, store and share,
-// unless there is nothing there yet but what a run writes before its first manifest, when it is begun there.
-// None where that run is done and its journal and every output have the digests of its manifest; where they
-// do not, the command names the damages and makes the run again. `leads`: takes the lock of the directory, as
-// one process of a run does, unless the command has it already. Throws Error for a script, arguments or a
-// seed that are not its own, unless `reuse` is given, for a run by another version that is not done and
-// whole, unless `reuse` is given, for a run that was trusted otherwise, for one whose own files are links,
-// for a directory that is no run, for a share of the cases that is not its own, and where another process has
-// the lock.
+// The command that continues the run in `command.resume`, with its script, arguments, seed, store and share.
+// A directory without a manifest begins a new run. The result is empty if the run is done and its journal and
+// outputs have the digests of the manifest; otherwise the command names the damages and makes the run again.
+// `leads`: takes the lock of the directory, unless the command has it already. Throws Error for
+// - another script, other arguments or another seed, unless `reuse` is given;
+// - an unfinished or damaged run by another version, unless `reuse` is given;
+// - another share of the cases, or a run with another `trust`;
+// - a directory without a run, and a run with links in place of its files;
+// - a lock held by another process.
 std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
 // Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the

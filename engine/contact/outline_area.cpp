@@ -5,7 +5,7 @@
 // leave within the outline, s = 1/((g'/g)^(2/3) - 1) the cells that the gaps leave beyond it, at most 1, w
 // linear between the values below. These are fitted, weighted by 1/edges, to the corrected area fractions of
 // 2048 x 2048 cells: 84 scenes of seven kinds (bench/requested_error.lua, seeds 701 to 712) on 24 to 512
-// cells a side. Of scenes whose seed was left out of the fit, on cells that do not miss their waves, the
+// cells a side. In scenes with seeds outside the fit and with resolved waves, the
 // error of N edges is 0.19 sqrt(N) cells in the mean square; less the same excess for every edge, as
 // State::corrected_area_fraction() counts, it is 0.57. Nodes flattened as far as the outline touch whole:
 // with the fit for elastic edges, capped blasted faces were up to 4 % too small on 128 x 128 cells.

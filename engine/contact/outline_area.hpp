@@ -28,9 +28,9 @@ struct OutlineArea {
   double doubt = 0;
 };
 
-// Of bodies that do not attract each other: `pressure` in Pa, above 0 where nodes touch;
-// `gap` in m; `modulus` E* in Pa, of boxes their stiffness in Pa/m. With `wraps` the tile goes on past its
-// rim; without, the rim is no outline. None where nothing or everything touches, on cells more than 1.25
+// For bodies without attraction. `pressure` in Pa is above 0 on touching nodes; `gap` in m; `modulus` is E*
+// in Pa, or for boxes the stiffness in Pa/m. With `wraps` the tile goes on past its
+// rim; without, the rim is no outline. No area if nothing or everything touches, on cells more than 1.25
 // times longer than wide or wider than long, on tiles of fewer than 8 cells along a side, and where most
 // pressures rise towards the outline, as under a flat punch. O(n).
 std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap, const Grid& grid,

@@ -100,9 +100,9 @@ class State {
   const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
   State beside(std::shared_ptr<const CompanionGrids> companion_grids) const;
   State chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const;
-  // The same press with an outline between the nodes, of half-spaces of this E* in Pa or of boxes of this
-  // stiffness in Pa/m, without attraction; with none where it says nothing or the bodies do not cover the
-  // tile.
+  // The same press with an outline between the nodes, for bodies without attraction. `modulus` is E* in Pa,
+  // or the stiffness of boxes in Pa/m. No outline if outline_area() gives none, or if the bodies do not cover
+  // the tile.
   State with_outline(double modulus, bool boxes = false) const;
   const std::optional<OutlineArea>& outline() const { return outline_; }
   // Of pressures, load and approach, and of what earlier events left that effects read and no solve does.

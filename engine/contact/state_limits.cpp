@@ -59,7 +59,7 @@ SofterBody softer_body(const ContactGeometry& geometry) {
   return softer;
 }
 
-// What the rim of a free tile cuts off; empty where it is nothing, and for flats, which are meant to be cut.
+// The warning about a contact or an attraction at the rim of a free tile; empty without one, and for flats.
 std::string cut_off_at_the_rim(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   const Grid& grid = state.grid();

@@ -95,8 +95,8 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   }
 }
 
-// What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about. A
-// layer gives way by as much less as its greatest compliance is below that of a half-space.
+// Length scale of gaps for flat heights: roughly the displacement of the tile as one punch. For a layer the
+// length is smaller by its greatest compliance over the compliance of a half-space.
 double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   const double length = mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
   if (!problem.share) return length;
@@ -384,7 +384,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   return answer;
 }
 
-// The problem under a load in cell units, all of it facing the ground.
+// The problem under a load in cell units, with every node facing the ground.
 CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
                              bool flat) {
   CellProblem cell;
