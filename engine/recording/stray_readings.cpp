@@ -66,7 +66,7 @@ class StraySearch {
   struct Side {
     double nearest = 0, time = 0;
     LineMoments line{};
-    double at(double time) const { return line.y + line.slope() * (time - line.t); }
+    double at(double t) const { return line.y + line.slope() * (t - line.t); }
   };
   std::optional<Side> side_of(std::size_t k, std::size_t step) const {
     std::array<std::size_t, 4> at{};
