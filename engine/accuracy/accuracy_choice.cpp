@@ -18,7 +18,6 @@
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/quantity.hpp"
@@ -521,7 +520,6 @@ void plan_choice(const Scene& scene, Plan& plan) {
 
 AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
                                const PressRequest& request, Monitor& monitor) {
-  laws_met().meet(Law::asked_error);
   return Choice(scene, geometry, request, monitor).run();
 }
 

@@ -18,7 +18,6 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
@@ -322,7 +321,6 @@ ExpectedTransforms expected_transforms(const Scene& scene, const ContactGeometry
   check(request, plan.attracts());
   if (!std::holds_alternative<HalfSpaceOperator>(plan.elasticity)) return {};
   if (request.value == 0 && !plan.attracts()) return {};
-  const LawsUnheard unheard;
   const double before = cost::transforms();
   ExpectedTransforms expected = tried(scene, geometry, plan, request, effort);
   expected.work = cost::transforms() - before;

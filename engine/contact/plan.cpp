@@ -5,7 +5,6 @@
 
 #include "engine/contact/effects/list.hpp"
 #include "engine/core/files/json.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -93,7 +92,6 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan;
   plan.title = tile_text(geometry.grid(), scene.boundary);
   plan.overlap = geometry.overlap_fraction();
-  if (geometry.overhangs()) laws_met().meet(Law::overlap);
   plan.accuracy = scene.accuracy;
   if (!geometry.upper_is_flat())
     plan.buffers.push_back(

@@ -17,7 +17,6 @@
 #include "engine/contact/state_limits.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -235,7 +234,6 @@ double State::separation() const {
     const ContactGeometry& bodies = geometry();
     const double before = bodies.combined_range().max - known_mean(bodies.combined().values()) - approach();
     if (!(plastic_volume() > 0)) return before;
-    laws_met().meet(Law::separation);
     return before + plastic_volume() / (static_cast<double>(bodies.facing()) * bodies.grid().cell_area());
   });
 }
@@ -245,9 +243,7 @@ double State::displacement() const {
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
   // A flat on a flat over all of a periodic tile: it gives nowhere way before anywhere else.
-  if (!(approach() == 0 && pressure() > 0)) return 0.0;
-  laws_met().meet(Law::flat_stiffness);
-  return std::numeric_limits<double>::infinity();
+  return approach() == 0 && pressure() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
 

@@ -10,7 +10,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -151,7 +150,6 @@ void RecordingMarks::take_samples() {
   for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
   interval_ = median_of(steps);
   stray_ = mend_stray_readings(t_, y_, options_.noise);
-  if (!stray_.empty()) laws_met().meet(Law::stray_readings);
   shortest_hold_ = options_.shortest_hold.value_or(4 * interval_);
   evidence_ = options_.evidence.value_or(10 + 4 * elementary::log(static_cast<double>(t_.size())));
   top_ = highest_of_three(y_, 1);
@@ -195,7 +193,6 @@ void RecordingMarks::follow_correlation() {
   for (int round = 0; round < rounds; ++round) {
     const std::optional<NoiseCorrelation> found = noise_correlation(t_, y_, pieces_);
     if (!found || !(range_ > 8 * found->deviation)) return;
-    laws_met().meet(Law::alike_readings);
     effective_noise_ = noise_ = found->deviation;
     independent_ = found->independent;
     pieces_ = straight_pieces(t_, y_, piece_noise(), evidence_, monitor_);

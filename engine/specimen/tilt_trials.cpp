@@ -12,7 +12,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -267,10 +266,8 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     if (half_space && tile_share == 1 && grows_alone(probes))
       resolved = 0.01 * std::min(resolved, weight_pressure);
     if (!flat) weight.reset();
-    if (half_space && weight_pressure > resolved && !weight) {
-      laws_met().meet(Law::tilt_weight);
+    if (half_space && weight_pressure > resolved && !weight)
       weight.emplace(*solver, law, options, resolved, weight_pressure, monitor);
-    }
     std::int64_t contacts = 0;  // under the greatest load of the trial
     const auto friction = [&](double normal_force) {
       if (half_space) {

@@ -9,7 +9,6 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -88,7 +87,6 @@ std::string csv_number(double number) {
   std::string text = format_exact(number);
   if (std::abs(number) >= most || number != std::floor(number)) return text;
   if (text.find('e') == std::string::npos) return text;
-  laws_met().meet(Law::whole_numbers);
   return std::to_string(static_cast<std::int64_t>(number));
 }
 

@@ -12,7 +12,6 @@
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
@@ -172,13 +171,10 @@ TEST(ExpectedTransforms, AreTriedWithinALimitOfMemory) {
     }
 }
 
-TEST(ExpectedTransforms, ThatAreTriedAreNotCountedAndMeetNoLaw) {
+TEST(ExpectedTransforms, ThatAreTriedAreNotCounted) {
   const Contact contact(rough(40, 40));
   const double before = cost::transforms();
-  laws_met().follow([] { return 1; });
   const ExpectedTransforms expected = contact.expected(PressBy::approach, 1e-2);
-  EXPECT_EQ(laws_met().first_line(Law::approach_control), 0);
-  laws_met().follow(nullptr);
   EXPECT_GT(expected.work, 0);
   EXPECT_EQ(cost::transforms(), before);
 }

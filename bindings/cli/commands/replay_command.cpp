@@ -19,10 +19,8 @@
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/across_versions.hpp"
-#include "engine/run/changed_laws.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
@@ -64,136 +62,56 @@ void print_differences(const std::vector<Difference>& found, const char* first, 
   if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
 }
 
-void print_explained(const std::vector<ExplainedDifference>& found, const char* first, const char* second) {
-  for (std::size_t k = 0; k < std::min(found.size(), most_shown); ++k) {
-    print_difference(found[k].difference, first, second);
-    std::vector<std::string> names;
-    for (const ChangedLaw* law : found[k].laws) names.emplace_back(law->name);
-    std::printf("    by        %s\n", joined(names, " or ").c_str());
-  }
-  if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
-}
-
 std::string count_text(std::size_t count, const char* one, const char* many) {
   return count == 1 ? one : std::to_string(count) + many;
 }
 
-// What the run that has just ended met of the laws that changed since the recorded one.
-std::vector<LawMet> met_of(const std::vector<const ChangedLaw*>& changed) {
-  std::vector<LawMet> met;
-  for (const ChangedLaw* law : changed)
-    if (const std::int64_t line = laws_met().first_line(law->law); line > 0) met.push_back({law, line});
-  return met;
-}
-
-// Says which version recorded it, where that is another one, and which laws changed in between. Empty: the
-// two are compared to the byte.
-std::vector<const ChangedLaw*> say_what_changed(const RecordedRun& recorded) {
+// Differences from the recorded run, to the byte. For a run of another minor version: a line that names this
+// version, and differences of its results.
+std::vector<Difference> differences_from(const RecordedRun& recorded, const RecordedRun& again) {
   const std::string then = program_version(recorded), now = lua::version_text();
-  if (then == now) return {};
-  std::printf("%s was recorded by %s, and this is %s", recorded.root.c_str(),
-              then.empty() ? "a version it does not name" : ("version " + then).c_str(), now.c_str());
-  std::vector<const ChangedLaw*> changed = laws_changed_between(then, now);
-  if (changed.empty()) {
-    std::printf("%s\n", is_earlier(then, now).value_or(false)
-                            ? "; no law changed in between"
-                            : ", which cannot tell what changed in between: compared to the byte");
-    return {};
-  }
-  std::printf(". Laws that changed in between:\n");
-  std::vector<std::string> others;
-  for (const ChangedLaw* law : changed) {
-    const std::int64_t line = laws_met().first_line(law->law);
-    if (law->law != Law::last_digits && line == 0) {
-      others.emplace_back(law->name);
-      continue;
-    }
-    const std::string met = line > 0 ? ", met by line " + std::to_string(line) : "";
-    std::printf("  %s (since %s%s)\n    before    %s\n    now       %s\n    moves     %s\n",
-                std::string(law->name).c_str(), std::string(law->since).c_str(), met.c_str(),
-                std::string(law->before).c_str(), std::string(law->now).c_str(),
-                std::string(law->moves).c_str());
-  }
-  if (!others.empty()) std::printf("  not met by this run: %s\n", joined(others, " and ").c_str());
-  return changed;
+  if (same_minor_version(then, now)) return differences(recorded, again);
+  AcrossVersions across = compare_across_versions(recorded, again);
+  std::printf(
+      "%s was recorded by %s, and this is %s; CHANGELOG.md lists the changes\n"
+      "  %lld results compared to %s of their values\n",
+      recorded.root.c_str(), then.empty() ? "a version without a name" : ("version " + then).c_str(),
+      now.c_str(), static_cast<long long>(across.compared), format_short(digits_kept).c_str());
+  return std::move(across.differences);
 }
 
-// Prints what came out otherwise.
+// Prints the results that a changed argument moves.
 void show_variation(const RecordedRun& recorded, const std::filesystem::path& place,
-                    const std::string& what) {
-  const RecordedRun again = read_run(place);
-  const std::vector<const ChangedLaw*> changed = say_what_changed(recorded);
-  std::vector<Difference> found;
-  if (changed.empty()) {
-    found = differences(recorded, again);
-  } else {
-    AcrossVersions across = compare_across_versions(recorded, again, {});
-    found = std::move(across.differences);
-  }
-  std::printf("%s with %s: %s\n", recorded.root.c_str(), what.c_str(),
-              found.empty() ? "nothing came out otherwise"
+                    const std::string& changed) {
+  const std::vector<Difference> found = differences_from(recorded, read_run(place));
+  std::printf("%s with %s: %s\n", recorded.root.c_str(), changed.c_str(),
+              found.empty() ? "every result is the same"
                             : count_text(found.size(), "one difference", " differences").c_str());
   print_differences(found, "recorded", "varied");
 }
 
-// Of a run by an earlier version, within the laws that changed; the exit status.
-int compare_within(const RecordedRun& recorded, const RecordedRun& again,
-                   const std::vector<const ChangedLaw*>& changed) {
-  const AcrossVersions across = compare_across_versions(recorded, again, met_of(changed));
-  const char* const root = recorded.root.c_str();
-  if (across.differences.empty() && across.explained.empty())
-    std::printf("%s: the same again within these laws, %lld lines of the journal%s\n", root,
-                static_cast<long long>(across.lines), recorded.ended() ? "" : ", as far as it had come");
-  if (!across.explained.empty()) {
-    std::printf("%s: %s\n", root,
-                count_text(across.explained.size(), "one difference that a changed law explains",
-                           " differences that changed laws explain")
-                    .c_str());
-    print_explained(across.explained, "recorded", "now");
-  }
-  if (!across.differences.empty()) {
-    std::printf("%s: %s\n", root,
-                count_text(across.differences.size(), "one difference that no changed law explains",
-                           " differences that no changed law explains")
-                    .c_str());
-    print_differences(across.differences, "recorded", "now");
-    print_versions(recorded, again);
-    print_machines(recorded, again);
-  }
-  if (across.in_last_digits > 0)
-    std::printf("  other last digits, by less than %s of the number: %lld\n",
-                format_short(digits_kept).c_str(), static_cast<long long>(across.in_last_digits));
-  if (across.digests > 0)
-    std::printf("  digests that other last digits change, not comparable: %lld\n",
-                static_cast<long long>(across.digests));
-  if (!across.outputs.empty()) {
-    std::vector<std::string> names;
-    for (const std::string& file : across.outputs) names.push_back(quoted(file));
-    std::printf("  files with another digest, not comparable: %s\n", joined(names, " and ").c_str());
-  }
-  return across.differences.empty() ? equal : different;
-}
-
-// Prints how the two compare; the exit status. `altered`: files of the record are not what the run wrote.
+// Prints the comparison; returns the exit status. `altered`: files of the record differ from its manifest.
 int compare(const RecordedRun& recorded, const std::filesystem::path& place, bool altered) {
   const RecordedRun again = read_run(place);
-  const std::vector<Difference> found = differences(recorded, again);
-  const std::vector<const ChangedLaw*> changed = say_what_changed(recorded);
-  if (found.empty()) {
-    std::printf("%s: the same again, %zu lines of the journal%s\n", recorded.root.c_str(),
+  const std::vector<Difference> found = differences_from(recorded, again);
+  const bool replayed = same_minor_version(program_version(recorded), lua::version_text());
+  const char* const root = recorded.root.c_str();
+  if (!found.empty()) {
+    std::printf("%s: %s\n", root, count_text(found.size(), "one difference", " differences").c_str());
+    print_differences(found, "recorded", "now");
+    print_versions(recorded, again);
+    print_machines(recorded, again);
+  } else if (replayed) {
+    std::printf("%s: the same again, %zu lines of the journal%s\n", root,
                 recorded.ended() ? recorded.journal.size() : again.journal.size(),
                 !recorded.ended() ? ", as far as it had come"
                 : altered         ? " and every file as the run wrote it"
                                   : " and every file");
-    return equal;
+  } else {
+    std::printf("%s: the same results; only version %s replays the run to the byte\n", root,
+                program_version(recorded).c_str());
   }
-  if (!changed.empty()) return compare_within(recorded, again, changed);
-  std::printf("%s: %s\n", recorded.root.c_str(),
-              count_text(found.size(), "one difference", " differences").c_str());
-  print_differences(found, "recorded", "now");
-  print_versions(recorded, again);
-  print_machines(recorded, again);
-  return different;
+  return !replayed ? another_version : found.empty() ? equal : different;
 }
 
 CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> barriers) {
@@ -217,10 +135,10 @@ CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> ba
   add_confinement(options, asked.run, given->disk);
   options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
   options.footer(
-      "Every call, row, expectation and file is compared by its digest; times and dates are not. Of a run by "
-      "an earlier version the laws that changed since are listed, and it is compared within them: numbers to "
-      "1e-05, digests of what has other last digits not at all. Exit status 1 where anything differs that no "
-      "changed law explains. What the script prints is dropped.");
+      "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
+      "1 if anything differs. A run recorded by another minor version is repeated too: its rows and "
+      "verdicts are compared to 1e-05 of their values, and the exit status is 3. The script's own output is "
+      "dropped.");
 
   return [given, barriers]() -> CommandWork {
     RunCommand& run = given->replay.run;
@@ -315,10 +233,6 @@ int replay(const ReplayCommand& command) {
   std::optional<Muted> muted(std::in_place);
   const int status = in_run_directory(run, [&](RunContext& context) {
     place = context.run->path();
-    laws_met().follow([of = std::weak_ptr(context.run)] {
-      const std::shared_ptr<RunDirectory> again = of.lock();
-      return again != nullptr ? again->journal().count() + 1 : 1;
-    });
     if (variation && command.from)
       variation->in_force = [journal = &context.run->journal(), from = *command.from] {
         return journal->count() + 1 >= from;

@@ -7,7 +7,6 @@
 
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
-#include "engine/core/laws_met.hpp"
 
 namespace asperity::lua {
 
@@ -40,7 +39,6 @@ void keep_quantity(Entry& entry, const std::string& unit) {
     if (!begins_a_number(*text)) return;  // "worn" stays text
     try {
       entry.value = parse_quantity_in(*text, unit);
-      laws_met().meet(Law::column_units);
     } catch (const Error& error) {
       throw Error(ErrorCode::bad_unit, "column " + quoted(entry.column) + ": " + error.sentence(),
                   error.hint());
@@ -69,10 +67,8 @@ std::optional<Cell> cell_of(const Argument& value) {
 }
 
 Value value_of(const Cell& cell, const TableColumn& column) {
-  if (const auto* whole = std::get_if<std::int64_t>(&cell); whole != nullptr && column.unit.empty()) {
-    laws_met().meet(Law::whole_numbers);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell); whole != nullptr && column.unit.empty())
     return *whole;
-  }
   if (is_number(cell)) return *number_in(cell);
   if (const auto* truth = std::get_if<bool>(&cell)) return *truth;
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;

@@ -12,7 +12,6 @@
 #include "engine/contact/solution.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -78,10 +77,6 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
                 "a rigid body and a flat counter-body take no share: give a rough body a material with "
                 "`hardness`, or leave the effect out");
   yield.modulus_ratio = modulus_ratio_of(geometry, plan);
-  const bool alike =
-      yield.lower_hardness == yield.upper_hardness && yield.modulus_ratio == 1 && !yield.hardens();
-  if (std::isfinite(yield.lower_hardness) && std::isfinite(yield.upper_hardness) && !alike)
-    laws_met().meet(Law::plastic_shares);
   std::string sentence =
       std::isfinite(yield.hardness())
           ? "pressure up to " + format_quantity(yield.hardness(), dimension::pressure) +

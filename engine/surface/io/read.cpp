@@ -10,7 +10,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -229,7 +228,6 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
 void stand_upright(HeightMap& map, const Format& format) {
   if (map.trace || map.heights.ny() < 2) return;
   if (map.first_line.value_or(format.lines.first) == FirstLine::bottom) return;
-  laws_met().meet(Law::line_order);
   turn_over(map.heights);
 }
 

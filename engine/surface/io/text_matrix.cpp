@@ -10,7 +10,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
@@ -180,7 +179,6 @@ void check_count(const SourceFile& file, const std::optional<double>& said, int 
 HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const SourceFile& file,
                   Monitor& monitor) {
   map.pairs = map.named_columns = true;
-  laws_met().meet(Law::point_units);
   map.position_unit = head_unit(head[0], file, monitor);
   map.unit = head_unit(head[1], file, monitor);
   return map;

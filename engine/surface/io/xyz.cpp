@@ -13,7 +13,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
@@ -187,7 +186,6 @@ void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const So
   const auto x = head_unit(columns[0], file, monitor), y = head_unit(columns[1], file, monitor);
   map.unit = head_unit(columns[2], file, monitor);
   map.named_columns = map.unit || x || y;
-  if (map.named_columns) laws_met().meet(Law::point_units);
   if (x.has_value() != y.has_value())
     refuse_file(
         file,

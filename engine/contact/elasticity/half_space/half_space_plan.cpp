@@ -13,7 +13,6 @@
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -63,7 +62,6 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   plan.bytes_to_flatten = grids(7.5);
   const double aspect = grid.hy() / grid.hx();
   if (keeps_line_loads(aspect)) {
-    laws_met().meet(Law::long_cells);
     const bool along_lines = LineExtension::serves(aspect, geometry.boundary());
     plan.buffers.push_back({"lines of cells much longer than wide", grids(along_lines ? 3.5 : 1), false});
   }

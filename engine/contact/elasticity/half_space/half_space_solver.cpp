@@ -16,7 +16,6 @@
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -353,7 +352,6 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
       asked.prescribed = Prescribed::flattening;
       break;
   }
-  if (by != "pressure") laws_met().meet(Law::approach_control);
   Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, start, monitor, [&] {
     return by == "approach"  ? solve_at_approach(problem, value, monitor)
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
