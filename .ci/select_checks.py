@@ -69,6 +69,7 @@ GROUPS = {
     "page": ("page:", ("bindings/web", "scripts/lessons", "engine/plot/palette"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "worked": ("worked examples: ?", CONTACT + ("docs/contributor.md",), ("tests/contributor",)),
+    "guards": ("guards: ", PROGRAM + ("docs/asperity.d.lua", "examples/data", "tests/data", "tests/fuzz/corpus"), ("tests/guards",)),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
 }
 
