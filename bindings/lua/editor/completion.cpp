@@ -216,8 +216,7 @@ class Completer {
         for (const auto& [name, field] : *list->fields) add({name, "value", type_text(field), ""});
     } else if (const auto* table = of.as<ScriptType::Table>()) {
       for (const auto& [name, field] : *table->fields)
-        if (!methods_only || field.as<ScriptType::Closure>() != nullptr)
-          add({name, kind_of(field), type_text(field), ""});
+        if (!methods_only) add({name, kind_of(field), type_text(field), ""});
     } else if (const auto* library = of.as<ScriptType::Library>()) {
       if (!methods_only) of_library(library->path);
     } else if (of.as<ScriptType::Text>() != nullptr && methods_only) {
@@ -227,8 +226,7 @@ class Completer {
 
   static std::string kind_of(const ScriptType& type) {
     if (type.as<const Module*>() != nullptr) return "module";
-    const bool function = type.as<const Function*>() != nullptr || type.as<ScriptType::Closure>() != nullptr;
-    return function ? "method" : "global";
+    return type.as<const Function*>() != nullptr ? "method" : "global";
   }
 
   void of_library(const std::string& path) {
@@ -359,8 +357,7 @@ class Completer {
     const auto variable = [&](const std::string& name, const ScriptType& type) {
       if (seen.insert(name).second) add({name, "global", type_text(type), ""});
     };
-    for (const auto& [name, type] : types().locals()) variable(name, type);
-    for (const auto& [name, type] : types().globals()) variable(name, type);
+    for (const auto& [name, type] : types().names()) variable(std::string(name), type);
     for (const LuaName& name : lua_names())
       if (name.library.empty() && seen.insert(name.name).second)
         add({name.name, "global", name.is_function ? "a function of Lua" : "of Lua", ""});

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The walk through the statements of a script: which names there are, and where. What a value is worth is
-// found in script_values.cpp.
 #include "bindings/lua/editor/script_types.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
+
+#include "bindings/lua/registry/registry.hpp"
 
 namespace asperity::lua {
 
 namespace {
-// What closes a bracket or block; empty for words that open none.
+
+constexpr int deepest_brackets = 40;  // brackets in brackets; deeper values are unknown
+
+// The word that closes a bracket or block; empty for other words.
 std::string_view closing_of(std::string_view word) {
   static constexpr std::pair<std::string_view, std::string_view> pairs[] = {
       {"(", ")"},    {"[", "]"},    {"{", "}"},         {"function", "end"},
@@ -19,30 +22,151 @@ std::string_view closing_of(std::string_view word) {
   return {};
 }
 
-bool is_bracket(std::string_view word) { return word == "(" || word == "[" || word == "{"; }
-
 bool closes(std::string_view word) {
   return word == ")" || word == "]" || word == "}" || word == "end" || word == "until";
 }
+
+bool is_binary(std::string_view sign) {
+  static constexpr std::array<std::string_view, 21> signs = {"+",  "-",  "*",  "/",  "//", "%",   "^",
+                                                             "..", "==", "~=", "<=", ">=", "<",   ">",
+                                                             "&",  "|",  "~",  "<<", ">>", "and", "or"};
+  return std::find(signs.begin(), signs.end(), sign) != signs.end();
+}
+
+// "State", "ProtocolEvent and State?": one type a turn.
+ScriptTypeList types_of_turn(std::string_view text) {
+  constexpr std::string_view separator = " and ";
+  ScriptTypeList types;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    types.push_back(script_type(text.substr(0, end)));
+    text.remove_prefix(std::min(end + separator.size(), text.size()));
+  }
+  return types;
+}
+
+ScriptTypeList results_of(const Function& function) {
+  ScriptTypeList types;
+  for (const std::string& type : result_types(function)) types.push_back(script_type(type));
+  return types;
+}
+
+// The operator of a native value on either side; "" is the sign before a value.
+const Operator* operator_of(const ScriptType& left, const ScriptType& right, std::string_view sign) {
+  const std::string_view event = sign == "+"   ? "__add"
+                                 : sign == "-" ? "__sub"
+                                 : sign == "*" ? "__mul"
+                                 : sign == "/" ? "__div"
+                                 : sign == ""  ? "__unm"
+                                               : "";
+  for (const ScriptType* side : {&left, &right})
+    if (const auto* type = side->as<const Class*>())
+      for (const Operator& operation : (*type)->operators)
+        if (operation.event == event) return &operation;
+  return nullptr;
+}
+
+ScriptType live_type(const LiveGlobal& global) {
+  if (global.fields.empty()) return script_type(global.type);
+  auto fields = std::make_shared<ScriptType::Fields>();
+  for (const LiveGlobal& field : global.fields) (*fields)[field.name] = live_type(field);
+  return {ScriptType::Table{std::move(fields)}};
+}
+
+ScriptType member(const ScriptType& of, std::string_view name) {
+  const auto named = [&](const auto& list) {
+    const auto entry = std::find_if(list.begin(), list.end(), [&](const auto& e) { return e.name == name; });
+    return entry == list.end() ? nullptr : &*entry;
+  };
+  const auto in = [&](const auto& fields) {
+    const auto field = fields->find(name);
+    return field == fields->end() ? ScriptType{} : field->second;
+  };
+  if (const auto* module = of.as<const Module*>()) {
+    if (const auto* function = named((*module)->functions)) return {function};
+    if (const auto* constant = named((*module)->constants)) return script_type(constant->type);
+    return script_type((*module)->path + "." + std::string(name));
+  }
+  if (const auto* type = of.as<const Class*>()) {
+    if (const auto* method = named((*type)->methods)) return {method};
+    const auto* field = named((*type)->fields);
+    return field != nullptr ? script_type(field->type) : ScriptType{};
+  }
+  if (const auto* record = of.as<const RecordInfo*>()) {
+    const auto* field = named((*record)->fields);
+    return field != nullptr ? script_type(field->type) : ScriptType{};
+  }
+  if (const auto* map = of.as<ScriptType::Map>()) return *map->element;
+  if (const auto* list = of.as<ScriptType::List>())
+    return list->fields != nullptr ? in(list->fields) : ScriptType{};
+  if (const auto* table = of.as<ScriptType::Table>()) return in(table->fields);
+  if (const auto* library = of.as<ScriptType::Library>())
+    return {ScriptType::Library{library->path + "." + std::string(name)}};
+  if (of.as<ScriptType::Text>() != nullptr) return {ScriptType::Library{"string." + std::string(name)}};
+  return {};
+}
+
 }  // namespace
+
+ScriptType script_type(std::string_view text) {
+  if (text.ends_with("?")) return script_type(text.substr(0, text.size() - 1));
+  if (const std::size_t at = text.find("[] with "); at != std::string_view::npos) {
+    auto fields = std::make_shared<ScriptType::Fields>();
+    for (const auto& [name, type] : named_fields(text)) (*fields)[std::string(name)] = script_type(type);
+    return {ScriptType::List{std::make_shared<const ScriptType>(script_type(text.substr(0, at))), fields}};
+  }
+  constexpr std::string_view map = "table<string, ";
+  if (text.starts_with(map))
+    return {ScriptType::Map{std::make_shared<const ScriptType>(
+        script_type(text.substr(map.size(), text.size() - map.size() - 1)))}};
+  if (text.starts_with("iterator<"))
+    return {ScriptType::Iterator{
+        std::make_shared<const ScriptTypeList>(types_of_turn(text.substr(9, text.size() - 10)))}};
+  if (text.starts_with("\"")) return {ScriptType::Text{}};
+  if (const std::size_t bar = text.find('|'); bar != std::string_view::npos) {
+    const ScriptType first = script_type(text.substr(0, bar));
+    return first.known() ? first : script_type(text.substr(bar + 1));
+  }
+  if (text.ends_with("[]"))
+    return {
+        ScriptType::List{std::make_shared<const ScriptType>(script_type(text.substr(0, text.size() - 2)))}};
+  if (text == "number" || text == "integer") return {ScriptType::Number{}};
+  if (text == "string") return {ScriptType::Text{}};
+  if (const Class* type = find_class(text)) return {type};
+  if (const RecordInfo* type = find_record_type(text)) return {type};
+  for (const Module* module : modules())
+    if (module->path == text) return {module};
+  return {};
+}
+
+std::string type_text(const ScriptType& type) {
+  struct Shower {
+    std::string operator()(ScriptType::Unknown) const { return ""; }
+    std::string operator()(ScriptType::Number) const { return "a number"; }
+    std::string operator()(ScriptType::Text) const { return "a string"; }
+    std::string operator()(const Module* module) const { return module->path; }
+    std::string operator()(const Class* type) const { return type->article_name; }
+    std::string operator()(const RecordInfo* type) const { return "a " + type->title + " result"; }
+    std::string operator()(const Function* function) const { return qualified_name(*function); }
+    std::string operator()(const ScriptType::List& list) const {
+      const std::string element = type_text(*list.element);
+      return "a list" + (element.empty() ? "" : ", each " + element);
+    }
+    std::string operator()(const ScriptType::Map&) const { return "a result"; }
+    std::string operator()(const ScriptType::Iterator&) const { return "an iterator"; }
+    std::string operator()(const ScriptType::Table&) const { return "a table"; }
+    std::string operator()(const ScriptType::Library&) const { return ""; }
+  };
+  return std::visit(Shower{}, type.data);
+}
 
 ScriptTypes::ScriptTypes(std::string_view text, std::vector<Token> tokens,
                          const std::vector<LiveGlobal>& live)
     : text_(text), tokens_(std::move(tokens)), partner_(tokens_.size(), none), around_(tokens_.size(), none) {
-  const auto type_of = [](const LiveGlobal& global, const auto& self) -> ScriptType {
-    if (global.fields.empty()) return script_type(global.type);
-    auto fields = std::make_shared<ScriptType::Fields>();
-    for (const LiveGlobal& field : global.fields) (*fields)[field.name] = self(field, self);
-    return {ScriptType::Table{std::move(fields)}};
-  };
-  for (const LiveGlobal& global : live) globals_[global.name] = type_of(global, type_of);
+  for (const LiveGlobal& global : live) live_names_.push_back(global.name);
+  for (std::size_t k = 0; k < live.size(); ++k) names_[live_names_[k]] = live_type(live[k]);
   match_brackets();
-  scan();
-}
-
-// A table that holds itself, as after `t.self = t`, would hold itself for ever.
-ScriptTypes::~ScriptTypes() {
-  for (const auto& fields : extended_) fields->clear();
+  read_assignments();
 }
 
 bool ScriptTypes::is(std::size_t k, std::string_view word_or_sign) const {
@@ -52,8 +176,8 @@ bool ScriptTypes::is(std::size_t k, std::string_view word_or_sign) const {
 }
 
 void ScriptTypes::match_brackets() {
-  std::vector<std::pair<std::size_t, std::string_view>> open;  // and what closes it
-  std::map<std::string_view, std::size_t> awaited;             // how many of them each would close
+  std::vector<std::pair<std::size_t, std::string_view>> open;  // the token, and the word that closes it
+  std::map<std::string_view, std::size_t> awaited;             // how many of the open ones a word would close
   for (std::size_t k = 0; k < size(); ++k) {
     around_[k] = open.empty() ? none : open.back().first;
     const Token::Kind kind = tokens_[k].kind;
@@ -63,7 +187,7 @@ void ScriptTypes::match_brackets() {
       open.emplace_back(k, closing);
       ++awaited[closing];
     } else if (closes(here) && awaited[here] > 0) {
-      // What was left open inside ends here too; a sign that closes nothing is passed over.
+      // Brackets left open inside end here too. A sign that closes nothing is skipped.
       while (open.back().second != here) {
         ++steps_;
         --awaited[open.back().second];
@@ -78,233 +202,216 @@ void ScriptTypes::match_brackets() {
   open_at_end_ = open.empty() ? none : open.back().first;
 }
 
-void ScriptTypes::scan() {
-  for (std::size_t k = 0; k < size();) {
+// `a, b = values`, `local a <const>, b = values`, `for a, b in values do`, `for a = values do`, `function
+// f(a, b)`.
+void ScriptTypes::read_assignments() {
+  std::size_t first = none;  // of the list of names that ends here
+  for (std::size_t k = 0; k < size(); ++k) {
     ++steps_;
-    bind_pending(k);
-    const Token::Kind kind = tokens_[k].kind;
-    const std::string_view here = word(k);
-    if (kind == Token::Kind::keyword && here == "local") {
-      scan_local(k);
-      continue;
+    if (is(k, "function")) {
+      std::size_t n = k + 1;
+      if (is_name(n) && !is(n + 1, ".") && !is(n + 1, ":")) names_[word(n)] = {};
+      while (is_name(n) || is(n, ".") || is(n, ":")) ++n;
+      if (!is(n, "(")) continue;
+      for (++n; is_name(n) || is(n, ",") || is(n, "..."); ++n)
+        if (is_name(n)) names_[word(n)] = {};
+      steps_ += n - k;
+      k = n - 1;
+    } else if (is_name(k) && (k == 0 || (!is(k - 1, ".") && !is(k - 1, ":")))) {
+      if (first == none || !is(k - 1, ",")) first = k;
+      if (is(k + 1, "<")) k = std::min(k + 3, size() - 1);  // <const>, <close>
+    } else if (first != none && (is(k, "=") || is(k, "in"))) {
+      const std::size_t bracket = around_[k];
+      const bool key = is(bracket, "{") || is(bracket, "(") || is(bracket, "[");
+      if (!key) assign(first, k + 1, is(k, "in"));
+      first = none;
+    } else if (!is(k, ",")) {
+      if (first != none && is(first - 1, "local"))
+        for (std::size_t n = first; n < k; ++n)
+          if (is_name(n) && !is(n - 1, "<")) names_[word(n)] = {};
+      first = none;
     }
-    if (kind == Token::Kind::keyword && here == "function") {
-      scan_function(k);
-      continue;
-    }
-    if (kind == Token::Kind::keyword || kind == Token::Kind::sign) {
-      if (const std::string_view closing = closing_of(here); !closing.empty()) {
-        open_.push_back({k, is_bracket(here), bindings_.size(), closing});
-        if (here == "do")
-          if (const auto loop = of_loop_.find(k); loop != of_loop_.end())
-            for (std::size_t n = 0; n < loop->second.names.size(); ++n)
-              bind(loop->second.names[n],
-                   n < loop->second.types.size() ? loop->second.types[n] : ScriptType{});
-      } else if (closes(here)) {
-        if (partner_[k] != none) close_to(partner_[k]);
-      } else if ((here == "else" || here == "elseif") && !open_.empty() && is(open_.back().token, "if")) {
-        forget_from(open_.back().bindings);
-      } else if (here == "for") {
-        scan_for(k);
-      } else if (here == "return") {
-        scan_return(k);
-      } else if (here == "=" && !in_bracket()) {
-        scan_assignment(k);
-      }
-    }
-    ++k;
   }
-  bind_pending(size());
 }
 
-bool ScriptTypes::names_at(std::size_t k, Token::Kind kind) const {
-  return k < size() && tokens_[k].kind == kind;
-}
-
-void ScriptTypes::scan_local(std::size_t& k) {
-  ++k;
-  if (is(k, "function") && names_at(k + 1, Token::Kind::name)) {
-    bind(word(k + 1), {ScriptType::Closure{k}});
-    return;  // the function itself comes next
-  }
-  std::vector<std::string_view> names;
-  while (names_at(k, Token::Kind::name)) {
-    names.push_back(word(k++));
-    if (is(k, "<")) k = std::min(k + 3, size());  // <const>, <close>
-    if (!is(k, ",")) break;
-    ++k;
-  }
-  if (!is(k, "=")) {
-    for (const std::string_view name : names) bind(name, {});
-    return;
-  }
-  std::size_t end = ++k;
-  ScriptTypeList types = values(end, 0);
-  declare_later(end, std::move(names), std::move(types), true);
-}
-
-void ScriptTypes::scan_function(std::size_t& k) {
-  const std::size_t opening = k++;
-  ScriptType self;
-  if (names_at(k, Token::Kind::name)) {
-    // `function f`, `function a.b.f`, `function a:f`
-    std::size_t end = k;
-    ScriptType owner = name_type(word(k));
-    while ((is(end + 1, ".") || is(end + 1, ":")) && names_at(end + 2, Token::Kind::name)) {
-      if (end > k) owner = member(owner, word(end));
-      if (is(end + 1, ":")) self = owner;
-      end += 2;
-    }
-    const bool is_local = opening > 0 && is(opening - 1, "local");
-    if (end == k && !is_local) assign(word(k), {ScriptType::Closure{opening}});
-    if (end > k)
-      if (const auto* fields = owner.as<ScriptType::Table>())
-        (*fields->fields)[std::string(word(end))] = {ScriptType::Closure{opening}};
-    k = end + 1;
-  }
-  open_.push_back({opening, false, bindings_.size(), "end"});
-  if (self.known()) bind("self", self);
-  if (!is(k, "(")) return;
-  for (++k; names_at(k, Token::Kind::name) || is(k, ",") || is(k, "..."); ++k)
-    if (names_at(k, Token::Kind::name)) bind(word(k), {});
-  if (is(k, ")")) ++k;
-}
-
-void ScriptTypes::scan_for(std::size_t k) {
-  std::vector<std::string_view> names;
-  ++k;
-  while (names_at(k, Token::Kind::name)) {
-    names.push_back(word(k++));
-    if (!is(k, ",")) break;
-    ++k;
-  }
+void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
+  std::size_t k = values;
   ScriptTypeList types;
-  std::size_t end = k + 1;
-  if (is(k, "=")) {
-    values(end, 0);
-    types.push_back({ScriptType::Number{}});
-  } else if (is(k, "in")) {
-    const ScriptTypeList iterated = values(end, 0);
-    if (!iterated.empty()) types = turn_of(iterated.front());
+  for (;;) {
+    const std::size_t from = k;
+    ScriptTypeList found = value(k, size(), 0);
+    // The reader is inside these values: the names do not exist yet.
+    if (k == from || (k == size() && is(k - 1, "=")) ||
+        (k == size() && open_at_end_ != none && open_at_end_ >= values))
+      return;
+    if (found.empty()) found.emplace_back();
+    if (is(k, ",")) found.resize(1);
+    types.insert(types.end(), found.begin(), found.end());
+    if (!is(k, ",")) break;
+    ++k;
   }
-  if (is(end, "do")) of_loop_[end] = {end, std::move(names), std::move(types), true};
-}
-
-void ScriptTypes::scan_return(std::size_t k) {
-  const auto function = std::find_if(open_.rbegin(), open_.rend(),
-                                     [this](const Open& open) { return is(open.token, "function"); });
-  if (function == open_.rend() || results_.contains(function->token)) return;
-  ScriptTypeList types = values(++k, 0);
-  if (!types.empty() && types.front().known()) results_[function->token] = std::move(types);
-}
-
-void ScriptTypes::scan_assignment(std::size_t k) {
-  if (k == 0 || !names_at(k - 1, Token::Kind::name)) return;
-  std::size_t end = k + 1;
-  // `a.b = value` gives a table of the script's own one more field.
-  if (k >= 3 && is(k - 2, ".") && names_at(k - 3, Token::Kind::name) &&
-      (k == 3 || (!is(k - 4, ".") && !is(k - 4, ":")))) {
-    const ScriptType owner = name_type(word(k - 3));
-    const auto* fields = owner.as<ScriptType::Table>();
-    if (fields == nullptr) return;
-    const ScriptType given = value(end, 0);
-    if (!ends_value(end)) return;
-    extended_.push_back(fields->fields);
-    (*fields->fields)[std::string(word(k - 1))] = given;
-    return;
+  if (loop) {
+    const auto* iterator = types.front().as<ScriptType::Iterator>();
+    types = iterator != nullptr ? *iterator->turn : ScriptTypeList{};
   }
-  std::size_t first = k - 1;
-  while (first >= 2 && is(first - 1, ",") && names_at(first - 2, Token::Kind::name)) first -= 2;
-  if (first > 0 && (is(first - 1, ".") || is(first - 1, ":") || is(first - 1, ","))) return;
-  std::vector<std::string_view> names;
-  for (std::size_t n = first; n < k; n += 2) names.push_back(word(n));
-  ScriptTypeList types = values(end, 0);
-  declare_later(end, std::move(names), std::move(types), false);
+  std::size_t n = 0;
+  for (std::size_t at = first; at + 1 < values; ++at) {
+    if (!is_name(at) || is(at - 1, "<")) continue;
+    names_[word(at)] = n < types.size() ? types[n] : ScriptType{};
+    ++n;
+  }
 }
 
-void ScriptTypes::declare_later(std::size_t after_values, std::vector<std::string_view> names,
-                                ScriptTypeList types, bool local) {
-  if (!ends_value(after_values)) return;  // the reader stands inside these values
-  pending_.push_back({after_values, std::move(names), std::move(types), local});
+// The type of an operator's result is that of the native value on either side; `or` gives the first known
+// one.
+ScriptTypeList ScriptTypes::value(std::size_t& k, std::size_t stop, int depth) const {
+  if (depth >= deepest_brackets) return {};
+  ScriptTypeList types = operand(k, stop, depth);
+  while (k < stop && tokens_[k].kind != Token::Kind::text && is_binary(word(k))) {
+    const std::string_view sign = word(k);
+    const std::size_t next = ++k;
+    const ScriptTypeList others = operand(k, stop, depth);
+    if (k == next) return {};  // nothing follows the sign
+    const ScriptType left = types.empty() ? ScriptType{} : types.front(),
+                     right = others.empty() ? ScriptType{} : others.front();
+    if (sign == "or" || sign == "and")
+      types = {sign == "or" && left.known() ? left : right};
+    else if (const Operator* operation = operator_of(left, right, sign))
+      types = {script_type(operation->returns)};
+    else
+      types = {sign == ".." ? ScriptType{ScriptType::Text{}} : ScriptType{ScriptType::Number{}}};
+  }
+  return types;
 }
 
-void ScriptTypes::bind_pending(std::size_t k) {
-  while (!pending_.empty() && pending_.back().at <= k) {
-    const Pending now = std::move(pending_.back());
-    pending_.pop_back();
-    for (std::size_t n = 0; n < now.names.size(); ++n) {
-      const ScriptType type = n < now.types.size() ? now.types[n] : ScriptType{};
-      now.local ? bind(now.names[n], type) : assign(now.names[n], type);
+ScriptTypeList ScriptTypes::operand(std::size_t& k, std::size_t stop, int depth) const {
+  const std::size_t begin = k;
+  while (k < stop && (is(k, "not") || is(k, "-") || is(k, "#") || is(k, "~"))) ++k;
+  steps_ += k - begin + 1;
+  if (k >= stop) return {};
+  ScriptTypeList types;
+  if (tokens_[k].kind == Token::Kind::number) {
+    ++k;
+    types = {{ScriptType::Number{}}};
+  } else if (tokens_[k].kind == Token::Kind::text) {
+    ++k;
+    types = {{ScriptType::Text{}}};
+  } else if (is(k, "function") || is(k, "{")) {
+    k = past(k, stop);
+    types = {{}};
+  } else if (is(k, "(")) {
+    std::size_t inner = k + 1;
+    types = value(inner, stop, depth + 1);
+    types.resize(1);
+    k = past(k, stop);
+    suffixes(k, stop, depth, types);
+  } else if (is_name(k)) {
+    types = {name_type(word(k++))};
+    suffixes(k, stop, depth, types);
+  } else if (is(k, "nil") || is(k, "true") || is(k, "false") || is(k, "...")) {
+    ++k;
+    types = {{}};
+  }
+  if (begin == k || !(is(begin, "not") || is(begin, "-") || is(begin, "#") || is(begin, "~"))) return types;
+  const Operator* negative =
+      is(begin, "-") && !types.empty() ? operator_of(types.front(), types.front(), "") : nullptr;
+  return {negative != nullptr ? script_type(negative->returns) : ScriptType{ScriptType::Number{}}};
+}
+
+void ScriptTypes::suffixes(std::size_t& k, std::size_t stop, int depth, ScriptTypeList& types) const {
+  while (k < stop) {
+    ++steps_;
+    const ScriptType now = types.empty() ? ScriptType{} : types.front();
+    if ((is(k, ".") || is(k, ":")) && k + 1 < stop && is_name(k + 1)) {
+      types = {member(now, word(k + 1))};
+      k += 2;
+    } else if (is(k, "[")) {
+      const auto* list = now.as<ScriptType::List>();
+      const auto* map = now.as<ScriptType::Map>();
+      types = {list != nullptr ? *list->element : map != nullptr ? *map->element : ScriptType{}};
+      k = past(k, stop);
+    } else if (is(k, "(") || is(k, "{")) {
+      types = call(now, k, depth);
+      k = past(k, stop);
+    } else if (tokens_[k].kind == Token::Kind::text) {
+      types = call(now, k++, depth);
+    } else {
+      return;
     }
   }
 }
 
-void ScriptTypes::bind(std::string_view name, ScriptType type) {
-  places_[name].push_back(bindings_.size());
-  bindings_.push_back({name, std::move(type)});
-}
-
-void ScriptTypes::assign(std::string_view name, const ScriptType& type) {
-  const auto place = places_.find(name);
-  ScriptType& kept = place != places_.end() && !place->second.empty() ? bindings_[place->second.back()].type
-                                                                      : globals_[std::string(name)];
-  if (type.known()) kept = type;
-}
-
-void ScriptTypes::close_to(std::size_t opening) {
-  while (!open_.empty()) {
-    const Open last = open_.back();
-    open_.pop_back();
-    forget_from(last.bindings);
-    if (last.token <= opening) return;
+ScriptTypeList ScriptTypes::call(const ScriptType& function, std::size_t arguments, int depth) const {
+  ++steps_;
+  if (const auto* native = function.as<const Function*>()) return results_of(**native);
+  if (const auto* module = function.as<const Module*>())
+    return (*module)->call ? results_of(*(*module)->call) : ScriptTypeList{};
+  const auto* library = function.as<ScriptType::Library>();
+  if (library == nullptr) return {};
+  const std::string& path = library->path;
+  std::size_t k = is(arguments, "(") ? arguments + 1 : arguments;
+  if (path == "require")
+    return k < size() && tokens_[k].kind == Token::Kind::text &&
+                   text_.substr(tokens_[k].content, tokens_[k].end - tokens_[k].content).substr(0, 9) ==
+                       "asperity" &&
+                   tokens_[k].end - tokens_[k].content == 9
+               ? ScriptTypeList{script_type("lab")}
+               : ScriptTypeList{};
+  if (path == "ipairs" || path == "pairs" || path == "assert" || path == "setmetatable") {
+    ScriptTypeList first = value(k, size(), depth + 1);
+    first.resize(1);
+    if (path == "assert" || path == "setmetatable") return first;
+    const auto* list = first[0].as<ScriptType::List>();
+    const auto* map = path == "pairs" ? first[0].as<ScriptType::Map>() : nullptr;
+    const ScriptType key = map == nullptr ? ScriptType{ScriptType::Number{}} : ScriptType{ScriptType::Text{}};
+    const ScriptType of = list != nullptr ? *list->element : map != nullptr ? *map->element : ScriptType{};
+    return {{ScriptType::Iterator{std::make_shared<const ScriptTypeList>(ScriptTypeList{key, of})}}};
   }
+  if (path.starts_with("math.")) return {{ScriptType::Number{}}};
+  if (path.starts_with("string.") || path == "tostring" || path == "type" || path == "table.concat")
+    return {{ScriptType::Text{}}};
+  return {};
 }
 
-void ScriptTypes::forget_from(std::size_t count) {
-  while (bindings_.size() > count) {
-    places_[bindings_.back().name].pop_back();
-    bindings_.pop_back();
+std::size_t ScriptTypes::chain_begin(std::size_t last) const {
+  for (std::size_t k = last; k < size();) {
+    ++steps_;
+    const bool group = is(k, ")") || is(k, "]") || is(k, "}");
+    if (group) {
+      if (partner_[k] == none) return none;
+      k = partner_[k];
+    }
+    const bool text = tokens_[k].kind == Token::Kind::text;
+    if (!group && !text && !is_name(k)) return none;
+    if (!group && !text) {
+      if (k < 2 || (!is(k - 1, ".") && !is(k - 1, ":"))) return k;
+      k -= 2;
+      continue;
+    }
+    // A group or text after a name or another group is an argument; otherwise the chain begins here.
+    const bool argument = k > 0 && (is_name(k - 1) || is(k - 1, ")") || is(k - 1, "]") || is(k - 1, "}"));
+    if (!argument) return k;
+    --k;
   }
+  return none;
 }
 
-bool ScriptTypes::ends_value(std::size_t k) const {
-  if (k < size()) return true;
-  if (open_at_end_ != none && (open_.empty() || open_at_end_ != open_.back().token)) return false;
-  if (size() == 0) return false;
-  const Token& last = tokens_.back();
-  if (last.kind == Token::Kind::text) return !last.open;
-  if (last.kind != Token::Kind::sign && last.kind != Token::Kind::keyword) return true;
-  const std::string_view end = word(size() - 1);
-  for (const std::string_view whole : {")", "]", "}", "end", "nil", "true", "false", "..."})
-    if (end == whole) return true;
-  return false;
+ScriptType ScriptTypes::chain_ending_at(std::size_t last) const {
+  std::size_t k = chain_begin(last);
+  if (k == none) return {};
+  const ScriptTypeList types = operand(k, last + 1, 0);
+  return types.empty() ? ScriptType{} : types.front();
 }
 
 ScriptType ScriptTypes::name_type(std::string_view name) const {
-  if (const auto place = places_.find(name); place != places_.end() && !place->second.empty())
-    return bindings_[place->second.back()].type;
-  if (const auto global = globals_.find(std::string(name)); global != globals_.end()) return global->second;
-  // A script that has not yet required it means the laboratory all the same.
+  if (const auto place = names_.find(name); place != names_.end()) return place->second;
+  // A script that has not yet required the laboratory means it all the same.
   if (name == "lab") return script_type("lab");
   for (const std::string_view library :
        {"string", "table", "math", "os", "io", "coroutine", "utf8", "require", "ipairs", "pairs", "assert",
         "setmetatable", "tostring", "type"})
     if (name == library) return {ScriptType::Library{std::string(name)}};
   return {};
-}
-
-std::vector<std::pair<std::string, ScriptType>> ScriptTypes::locals() const {
-  std::map<std::string_view, const ScriptType*> visible;
-  for (const Binding& binding : bindings_) visible[binding.name] = &binding.type;
-  std::vector<std::pair<std::string, ScriptType>> result;
-  for (const auto& [name, type] : visible) result.emplace_back(name, *type);
-  return result;
-}
-
-std::vector<std::pair<std::string, ScriptType>> ScriptTypes::globals() const {
-  std::vector<std::pair<std::string, ScriptType>> result(globals_.begin(), globals_.end());
-  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  return result;
 }
 
 }  // namespace asperity::lua
