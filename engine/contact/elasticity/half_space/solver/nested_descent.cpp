@@ -30,30 +30,29 @@ double greatest(std::span<const double> values) {
   return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
 }
 
-// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height. What is
-// right to a share of the rms then says nothing of how the load is shared. So the solve goes on, its gaps
-// counted from the height that matters, where they are sums of small terms and not small differences of large
-// heights, and measured by how far the ground there moves.
+// Contacts so light, or ground so soft, that displacements are far below the rms height: a residual relative
+// to the rms is too coarse. Continues the solve with gaps counted from the decisive height (sums of small
+// terms instead of differences of large heights) and measured by the displacement there.
 class LightContact {
  public:
   LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
       : level_(level), fields_(fields), problem_(problem) {}
 
-  // From the feasible pressures and gaps in `fields`, where a chain left them; what it cannot better stays as
-  // it was, and ordinary contacts are left alone. `gap` belongs to the pressures again afterwards. Returns
-  // whether gaps and offset are counted from the highest node, so that the offset is the approach.
+  // From the feasible pressures and gaps in `fields`; keeps them if no round converges, and leaves ordinary
+  // contacts unchanged. Recomputes `gap`. Returns whether gaps and offset are counted from the highest node:
+  // the offset is then the approach.
   bool refine(DescentEnd& end);
 
  private:
-  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
-  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+  static constexpr double light = 0.01;  // approach per length unit of gaps
+  static constexpr double soft = 1e-3;   // displacement of one node at the cap, the same unit
 
-  // Once more from the pressures there are; false, and they stay, where that does not converge.
+  // Solves again with the unit `length`. On failure returns false and restores the pressures.
   bool again(double length, DescentEnd& end);
   void by_approach(double approach, DescentEnd& end);
   void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // What one node sinks, about, under the pressure `p` on it alone.
+  // Approximate displacement of one node under the pressure `p` on it alone.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
 
   ContactLevel& level_;
@@ -73,10 +72,10 @@ bool LightContact::again(double length, DescentEnd& end) {
 }
 
 void LightContact::by_approach(double approach, DescentEnd& end) {
-  constexpr double right = 0.5;  // of the approach that gaps were measured by
+  constexpr double right = 0.5;  // ratio of the approach to the unit of gaps
   constexpr int most_rounds = 60;
-  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
-  // only what the tolerance left.
+  // Upper bound without a pressure limit: displacement of the highest node under the whole load. The first
+  // approach may be a residual of the tolerance.
   const double alone = sunk(level_.total_load());
   const bool elastic =
       !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
@@ -88,8 +87,8 @@ void LightContact::by_approach(double approach, DescentEnd& end) {
   }
 }
 
-// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
-// rest.
+// Soft ground: nodes above some height are at the cap, lower ones are open, and nodes at this height share
+// the rest.
 void LightContact::at_the_cap(double cap, DescentEnd& end) {
   const UnsetArray<double>& p = fields_.pressure;
   for (std::size_t k = 0; k < p.size(); ++k)
@@ -123,9 +122,9 @@ constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
 struct Step {                       // one grid of the nest
-  std::optional<CoarserGrid> from;  // how it came from the finer one
+  std::optional<CoarserGrid> from;  // restriction from the finer grid
   LevelShape shape;
-  Array<double> heights;  // empty on the finest, whose heights are the caller's
+  Array<double> heights;  // empty on the finest grid, which uses the caller's
   Array<double> yield;
   double pitch = 1;          // hx in cells of the finest grid
   double mean_pressure = 0;  // cell units of this grid
@@ -146,7 +145,7 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
   return limit;
 }
 
-// In place of pressures at their bounds, how far their gaps are from leaving them.
+// Replaces pressures at a bound by a multiple of their gap: the level-set field.
 void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
                   std::span<double> p) {
   for_nodes(p.size(), [&](std::size_t k) {
@@ -158,7 +157,7 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
   });
 }
 
-// The level-set field of `start`, from its nodes to those of `level`.
+// Interpolates the level-set field of `start` to `level`.
 void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
   const LevelShape& shape = level.shape;
   CoarserGrid from{shape, static_cast<double>(shape.nx) / start.nx, static_cast<double>(shape.ny) / start.ny};
@@ -198,9 +197,9 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
-// A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
-// alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
-// under a light load all of them are nothing beside the bound.
+// Snaps pressures within rounding of a bound: off the bound they would count as free and could alone fix the
+// offset. Rounding is relative to the greatest pressure; under a light load all pressures are small compared
+// with the bound.
 void snap_to_bounds(double upper, std::span<double> p) {
   const double rounding =
       std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
@@ -221,7 +220,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
-  UnsetArray<double> carried;  // the level-set field of the grid below
+  UnsetArray<double> carried;  // level-set field of the coarser grid
   double all_work = 0, work_done = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
 
@@ -272,7 +271,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
     } else {
       if (gap_known) to_level_set(upper, level.short_wave_stiffness, 0, start.gap, p);
       if (std::isfinite(lowest)) {
-        // Less than any shift to the load can make up for.
+        // Below the reach of any shift to the load.
         for (std::size_t k = 0; k < nodes; ++k)
           if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
       }
@@ -284,7 +283,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
         if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
         at = contact_quality(level, p, fields.gap);
         if (!finest || answer.from_peak || !end.converged || at.residual <= tolerance) break;
-        // Nodes that were snapped to the limit no longer balance the load.
+        // Snapped nodes no longer balance the load.
         end.converged = round < most_snaps;
         if (!end.converged) break;
         end = run_chain(level, fields, tolerance, problem.effort);
@@ -308,9 +307,8 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   return answer;
 }
 
-// The least load of all, or the softest ground: products of pressures and displacements, and their squares,
-// must stay within the range of a double. The power of two to multiply heights and pressures by; rounds
-// nothing.
+// Power of two for heights and pressures of extremely small loads or caps, so that squares and products of
+// pressures and displacements stay in the range of a double. Exact.
 int power_within_range(const CellProblem& problem) {
   constexpr double least = 1e-100;
   const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
@@ -341,7 +339,7 @@ UnsetArray<double> times_power_of_two(std::span<const double> values, int power)
 }  // namespace
 
 CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
-  // A given offset is near 1, and so are the pressures.
+  // At an offset, heights and pressures are near 1 already.
   const int power = problem.offset ? 0 : power_within_range(problem);
   if (power == 0) return descend_nest(problem, start, monitor);
   const UnsetArray<double> pressure = times_power_of_two(start.pressure, power),
@@ -367,8 +365,8 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
   level.compliance.apply_inverse(p, p);
   answer.applications = 1;
-  // The mean moves nothing, and may be so large that beside it pressures lose their digits: gaps come from
-  // what they differ by.
+  // On a periodic tile the mean moves nothing and can be so large that pressures lose precision: gaps use
+  // the differences from the mean.
   answer.gap = p;
   const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
     p[k] += problem.mean_pressure;
