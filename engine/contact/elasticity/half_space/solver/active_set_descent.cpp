@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The quick stage: preconditioned conjugate gradients on the current free set. Pressures may leave their
-// bounds until the next pass settles (clips) them. The change by settling shares one application of K with a
-// fixed preconditioned (Richardson) step. On cells much longer than wide, settling preserves the loads of
-// lines (load_projection.hpp). Two-cycles of a few nodes are broken by averaging two passes, exact because g
-// is linear in p. Without proof of convergence; stops without gain.
+// bounds until the next pass settles (clips) them. Settling shares one application of K with a fixed
+// preconditioned (Richardson) step and, on long cells, preserves line loads (load_projection.hpp).
+// Two-cycles are broken by averaging two passes, exact because g is linear in p. No proof of convergence;
+// stops without gain.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,28 +23,25 @@ namespace asperity {
 namespace {
 using namespace descent_rules;
 
-// Applications of K in a pass that settles; two if K is expensive or with hardening, where settling includes
-// a fixed step. A pass without settling takes one: more cost up to two thirds more in total. With hardening,
-// one step stalled three times as many random scenes (6 of 20 000).
+// Applications of K in a pass that settles; fewer if K is expensive or with hardening. A pass without
+// settling takes one: more cost up to two thirds more. With hardening, one stalled three times as many
+// random scenes (6 of 20 000).
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
-// Single precision directions from this tolerance up: half the memory traffic. Pressures of mirrored
-// contacts then differ by 1e-9 of the greatest.
+// From this tolerance up directions are single: half the memory traffic, mirrored contacts equal to 1e-9.
 constexpr double single_enough = 5e-9;
 constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images of fewer save no time
-// Error of the gaps per pass, relative to the residual (measured 1.3e-6 for a whole solve on 2048²). The
-// error adds up until a settling pass recomputes the gaps, at no cost.
+// Relative error of the gaps per pass; 1.3e-6 measured for a whole solve on 2048². A settling pass can
+// recompute the gaps at no cost.
 constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance
 constexpr double load_slack = 1e-6;                               // relative load error left to a later pass
 
-// Row of a direction before the load balance: stored M r, plus beta times the previous direction, plus a
-// smooth field.
+// Row of a direction: stored M r, beta times the previous direction, smooth field; load not balanced.
 template <class Stored>
 struct Along {
   const Stored *values, *before;
   double beta;
   SmoothRow<double> smooth;
 
-  // Node k, or as many nodes as a vector has lanes.
   template <class Value>
   void read(std::size_t k, Value& to) const {
     Value old, low, high;
@@ -56,16 +53,14 @@ struct Along {
   }
 };
 
-// The last two directions and the pending steps along them. The next loop over pressures and gaps takes the
-// steps, which saves passes over memory. Rounding a direction to Stored (float or double) is harmless:
-// pressures and gaps both use the rounded values.
+// The last two directions and pending steps along them, taken by the next loop over the fields to save a
+// pass over memory. Rounding a direction is harmless: pressures and gaps use the rounded values.
 template <class Stored>
 class DescentDirections {
  public:
-  // Memory for a new direction, reusing the one before the last after its pending step.
+  // Memory for a new direction; takes the oldest pending step.
   Stored* next(std::span<double> pressure);
   Stored* last() { return now_.data(); }
-  // Row j of the direction: stored values, `beta` times the previous direction, smooth field.
   Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
     const auto begin = static_cast<std::ptrdiff_t>(j) * nx;
     smooth.low -= begin;
@@ -73,20 +68,19 @@ class DescentDirections {
     return {now_.data(), beta != 0 ? before_.data() : now_.data(), beta, smooth};
   }
 
-  // Step along the last direction; `image` must persist until the gaps have taken the step.
+  // `image` must persist until the gaps have taken the step.
   void go(double length, const double* image) {
     step_.along[0].length = step_.gap_length = length;
     step_.image = image;
   }
-  // Discards the last direction, which may contain NaN, as may its image; `finite` replaces the image.
+  // The last direction and its image may contain NaN; `finite` replaces the image.
   void drop_last(std::span<const double> finite) {
     step_.along[0] = {0, step_.along[1].direction};
     step_.image = finite.data();
   }
 
-  // Returns the pending steps and clears them.
   PressureStep<Stored> hand_over() { return std::exchange(step_, {}); }
-  // The pending step of the gaps only.
+  // For the gaps only.
   ContactPreconditioner::Step hand_over_gaps(std::span<double> gap) {
     const double length = std::exchange(step_.gap_length, 0);
     return length != 0 ? ContactPreconditioner::Step{gap.data(), length, step_.image}
@@ -158,7 +152,7 @@ class Descent {
   ContactQuality quality();
   void project(const ContactQuality& at, std::span<double> target);
   std::optional<double> shift_to_load(const ContactQuality& at) const;
-  // Makes the pressures feasible and recomputes their gap.
+  // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
     project(at, f_.pressure);
     level_.gap(f_.pressure, f_.gap);
@@ -167,7 +161,6 @@ class Descent {
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double turn();
-  // Row j of the direction on the free set.
   Along<Stored> along(int j) const;
   void settle_step(const ContactQuality& at, bool afresh);
   bool descend(int steps);
@@ -186,7 +179,7 @@ class Descent {
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // load of the direction per balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double beta_ = 0;   // of conjugate gradients
+  double beta_ = 0;
   double drift_ = 0;  // bound on the rounding of the gaps, as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
@@ -200,8 +193,8 @@ ContactQuality Descent<Limit, Stored>::quality() {
   return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
 }
 
-// target = settled pressures, with the elastic interior shifted to the load. If the interior cannot carry
-// the load, all nodes move by their gaps.
+// target = settled pressures, the elastic interior shifted to the load. If the interior cannot carry the
+// load, all nodes move by their gaps.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
@@ -223,13 +216,12 @@ void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double>
   project_to_load(target, {}, upper, level_.total_load(), target);
 }
 
-// First of the two Newton steps to the shift of project().
+// First of two Newton steps to the shift of project().
 double first_shift(const ContactQuality& at, double load) {
   return at.interior > 0 ? (load - at.load) / at.interior : 0.0;
 }
 
-// Shift after two Newton steps; the next pass removes the remaining load error. Empty if the error is not
-// small.
+// Shift after two Newton steps; empty if the first leaves an error of 1 % of the load or more.
 template <class Limit, class Stored>
 std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
   if (keeps_line_loads_) return {};
@@ -238,13 +230,12 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// direction = M r, r = mean gap − gap on the free nodes, made conjugate to the previous direction. Returns
-// r·M r for a balanced M r.
+// Sets the direction from M r, r = mean gap − gap on the free nodes. Returns r·M r.
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
   const double shrink = 1 / level_.pressure_unit();
   Stored* const direction = directions_.next(f_.pressure);
-  // r and the previous direction carry no load, so r·M r needs no balance.
+  // r carries no load, so r·M r needs no balance.
   double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
@@ -300,12 +291,12 @@ Along<Stored> Descent<Limit, Stored>::along(int j) const {
   return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
-// Settling and, if K is expensive, a fixed preconditioned step, with one application of K, which updates the
-// gaps or (`afresh`) recomputes them in double precision.
+// Settling (and a fixed step if K is expensive) with one application, which updates the gaps or recomputes
+// them in double.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) {
   const std::optional<double> shift = shift_to_load(at);
-  if (!shift) {                       // the image of the last step is free memory
+  if (!shift) {                       // the last image is free memory
     std::swap(f_.free, f_.old_free);  // project() overwrites the marks
     project(at, f_.image);
     std::swap(f_.free, f_.old_free);
@@ -347,7 +338,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
       move(j, to, [from = f_.image.data()](std::size_t k) { return from[k]; });
     return step;
   };
-  // Nodes that yield after settling do not balance the load here.
+  // Nodes that yield after settling do not balance.
   const Freedom balances = set_.balancing();
   Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
   const auto sink = [&](int j, const double* image) {
@@ -374,7 +365,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
   mean_gap_ = sums[0] / set_.balancing_count();
 }
 
-// Conjugate gradients on the free set; `steps` were taken already. Returns false without any step.
+// `steps` were taken already. Returns false without any step.
 template <class Limit, class Stored>
 bool Descent<Limit, Stored>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);

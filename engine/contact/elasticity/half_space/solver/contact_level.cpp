@@ -81,7 +81,7 @@ void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<
 namespace {
 constexpr int least_side = 32;
 
-// Nodes of the coarser side: even if possible, so that nesting can continue.
+// Even if possible, so that nesting can continue.
 int coarser_side(int n, Boundary boundary) {
   if (n < 2 * least_side) return n;
   if (n % 2 == 0) return n / 2;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact problem on one of the nested grids, in its cell units: hx = 1, hy = aspect, E* = 1, heights
-// divided by the rms of the finest grid, pressures by E*·rms/hx. Contains K and the preconditioner; heights
-// are read from the caller's field. Also restriction (node values; linear interpolation between nodes) and
-// bilinear prolongation between grids. Sides below 64 cells are not halved.
+// The contact problem on one nested grid, in its cell units: hx = 1, hy = aspect, E* = 1, heights divided by
+// the rms of the finest grid, pressures by E*·rms/hx. Also restriction (node values; linear between nodes)
+// and bilinear prolongation. Sides below 64 cells are not halved.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +31,7 @@ struct LevelShape {
 
 class ContactLevel {
  public:
-  // heights: any unit, shifted by `height_origin` and multiplied by `height_factor`.
+  // Heights are (raw_heights − height_origin) · height_factor.
   ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights, double height_origin,
                double height_factor, PressureLimit pressure_limit, double mean_pressure);
 
@@ -41,21 +40,20 @@ class ContactLevel {
   const double mean_pressure;
   HalfSpaceCompliance compliance;
   ContactPreconditioner preconditioner;
-  // Pressure per gap of a short wave: orders nodes at the edge of contact.
+  // Pressure per gap of a short wave: orders nodes at the contact edge.
   const double short_wave_stiffness;
-  // Gap per pressure of the most compliant wave except the mean; on a half-space the longest.
+  // Gap per pressure of the most compliant wave but the mean.
   const double greatest_compliance;
-  // Called with the residual after each pass; throws to stop the solve.
+  // Receives the residual of each pass; throws to stop.
   std::function<void(double)> report;
   int applications = 0;  // of K
-  // Unit of gaps: the rms of the finest grid, unless its heights are flat.
+  // Unit of gaps: the rms of the finest grid, unless flat.
   double length = 1;
 
   std::size_t nodes() const { return shape.nodes(); }
   double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
   // g = −h of n nodes from `first`.
   void unpressed_gap(std::size_t first, std::size_t n, double* g) const;
-  // Changes the origin of heights and gaps.
   void count_from(double height_origin) { origin_ = height_origin; }
   // A power of two near the mean pressure.
   double pressure_unit() const { return unit_; }
@@ -65,7 +63,7 @@ class ContactLevel {
     ++applications;
     compliance.apply(p, u);
   }
-  // Row by row, see HalfSpaceCompliance; pressures in pressure_unit().
+  // As HalfSpaceCompliance, pressures in pressure_unit().
   void apply(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink, bool rounded) {
     ++applications;
     if (rounded)
@@ -73,21 +71,21 @@ class ContactLevel {
     else
       compliance.apply(source, sink, {});
   }
-  // Always in double precision; overwrites `work`, one value per node.
+  // Overwrites `work`, one value per node.
   void apply_in_double(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink,
                        std::span<double> work) {
     ++applications;
     compliance.apply_in_double(source, sink, work);
   }
-  // Whether a uniform pressure moves nothing: on a periodic tile without a compressible layer.
+  // Whether a uniform pressure moves nothing.
   bool mean_is_immobile() const {
     return shape.boundary == Boundary::periodic && !(shape.multiplier.uniform > 0);
   }
-  // The mean pressure if immobile: it can be large enough that p loses precision.
+  // It can be large enough that p loses precision.
   double immobile_pressure() const { return mean_is_immobile() ? mean_pressure : 0; }
-  // g = K p − h, always in double precision.
+  // g = K p − h, always double.
   void gap(std::span<const double> p, std::span<double> g);
-  // The same for p without the immobile pressure. g may be p.
+  // For p without the immobile pressure. g may be p.
   void gap_beside_mean(std::span<const double> p, std::span<double> g);
 
  private:
@@ -97,14 +95,14 @@ class ContactLevel {
   double origin_, factor_, unit_;
 };
 
-// The next coarser grid, pitches in cells of the finer one; empty if no side can be halved.
+// Pitches in cells of the finer grid; empty if no side can be halved.
 struct CoarserGrid {
   LevelShape shape;  // weight not set
   double pitch_x = 2, pitch_y = 2;
 };
 std::optional<CoarserGrid> coarser(const LevelShape& fine);
 
-// Neighbours along a side of n nodes, and interpolation weight, of `position` in cells.
+// Linear interpolation at `position` (cells) along a side of n nodes.
 struct Between {
   int low, high;
   double share;  // weight of `high`
@@ -113,7 +111,7 @@ Between between(double position, int n, Boundary boundary);
 
 Array<double> restrict_to(const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field);
 
-// Interpolates from `coarse` to `fine`, times `factor`.
+// `coarse` to `fine`, times `factor`.
 void prolong(const CoarserGrid& coarse, std::span<const double> values, double factor, const LevelShape& fine,
              std::span<double> target);
 

@@ -9,11 +9,10 @@
 namespace asperity {
 
 namespace {
-// Weight of a single node's opening. Complementarity averages over the load; but if yielding nodes carry
-// nearly all load, the few other nodes fix the offset and thus the whole plastic volume.
+// Complementarity averages over the load. If yielding nodes carry nearly all load, the few others fix the
+// offset and thus the plastic volume.
 constexpr double open_weight = 0.125;
 
-// Terms of one hardening node for measure_hardening().
 void weigh(const LinearHardening& limit, std::size_t k, double p, double g, double balance, double* v) {
   const double q = limit.settle(k, p, g, balance);
   const double opening = limit.opening(k, q), gap = g + opening;
@@ -30,7 +29,6 @@ void weigh(const LinearHardening& limit, std::size_t k, double p, double g, doub
   v[9] = open ? infinity : -gap;
 }
 
-// Terms of elastic nodes without a cap.
 template <class Value>
 void weigh_uncapped(const Value& p, const Value& g, Value* v) {
   const Value none = {}, one = none + 1.0, q = p <= none ? none : p;
@@ -77,7 +75,7 @@ void weigh_capped(const Value& p, const Value& g, const Value& upper, Value* v) 
   v[5] = p >= upper ? -g : never;
 }
 
-// Interior gap without an elastic interior, from the nodes at their bounds.
+// Without an elastic interior.
 double middle(double least_open, double greatest_saturated) {
   if (std::isfinite(least_open) && std::isfinite(greatest_saturated))
     return 0.5 * (least_open + greatest_saturated);
@@ -147,7 +145,7 @@ ContactQuality measure_hardening(const ContactLevel& level, const LinearHardenin
   return quality;
 }
 
-// take(k, p, g) returns pressure and gap of a node, or of as many nodes as a vector has lanes.
+// take(k, p, g) returns pressure and gap of a node or a vector of nodes.
 template <class Limit, class Take>
 ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<const double> p,
                        std::span<const double> g, double balance, Take take) {

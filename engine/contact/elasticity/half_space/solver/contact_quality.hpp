@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Error of pressures on one grid: the best offset δ and the greater of the certificate's penetration and
-// complementarity for it. With a cap the penetration is pointwise; without one both agree if δ is the
-// pressure-weighted mean gap. Pressures outside their bounds count as settled; the load is not judged.
+// Error of pressures on one grid: the best offset δ and the greater of penetration and complementarity for
+// it. With a cap penetration is pointwise; without one both agree if δ is the pressure-weighted mean gap.
+// Pressures outside their bounds count as settled; the load is not judged.
 #pragma once
 
 #include <limits>
@@ -16,12 +16,12 @@ struct ContactQuality {
   double residual = 0;  // greatest entry
   double penetration = 0, complementarity = 0;
   double offset = 0;        // δ of the residual
-  double interior_gap = 0;  // mean g of the elastic interior, or the middle of the bracket
-  double interior = 0;      // elastic nodes strictly between the bounds
+  double interior_gap = 0;  // mean g of the elastic interior, or a substitute
+  double interior = 0;      // elastic nodes
   double yielded = 0;       // nodes past their yield pressure
   double load = 0;          // Σ p, settled
-  double settled = 0;       // count of settled nodes
-  bool within = true;       // nothing was settled
+  double settled = 0;       // settled nodes
+  bool within = true;
 };
 
 // Pending steps: p += Σ length · direction, g += gap_length · image.
@@ -51,12 +51,12 @@ struct PressureStep {
   }
 };
 
-// One pass over the nodes, two with a cap. g = K p − h. `balance` as in PressureLimit::settle.
+// One pass over the nodes, two with a cap. `balance` as in PressureLimit::settle.
 ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p,
                                std::span<const double> g,
                                double balance = std::numeric_limits<double>::quiet_NaN());
 
-// The same after `step`, taken in the same pass.
+// After `step`, taken in the same pass.
 template <class Stored>
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
                                const PressureStep<Stored>& step, double balance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Descents on one grid: their fields, stopping rules and stages, and the chains of stages under a load and
-// at an offset. Each stage starts from feasible pressures of the one before.
+// Descents on one grid: fields, stopping rules, stages and chains of stages, under a load and at an offset.
+// Each stage starts from the feasible pressures of the one before.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +19,15 @@ struct DescentFields {
 
   UnsetArray<double> pressure;               // feasible between stages
   UnsetArray<double> gap;                    // K p − h
-  UnsetArray<double> image;                  // K times a direction, times a power of two
-  UnsetArray<double> old_pressure, old_gap;  // of the previous pass; allocated on first use
-  Array<std::uint8_t> free, old_free;        // nodes free in this pass
+  UnsetArray<double> image;                  // K·direction times a power of two
+  UnsetArray<double> old_pressure, old_gap;  // previous pass; allocated on first use
+  Array<std::uint8_t> free, old_free;
 
   void remember_pass() {
     old_pressure = pressure;
     old_gap = gap;
   }
-  // Exact, since the gap is linear in p.
+  // Exact: the gap is linear in p.
   void average_passes() {
     for_nodes(pressure.size(), [p = pressure.data(), g = gap.data(), old_p = old_pressure.data(),
                                 old_g = old_gap.data()](std::size_t k) {
@@ -40,12 +40,11 @@ struct DescentFields {
 // Rules shared by the serial and the distributed descent.
 namespace descent_rules {
 
-inline constexpr double richardson_step = 0.65;  // of the preconditioner, in a pass that settles
+inline constexpr double richardson_step = 0.65;  // of the preconditioner
 inline constexpr int passes_without_gain = 4;
 inline constexpr int most_renewals = 50;
 
-// Watches the residuals: whether a descent still gains, and whether a few nodes alternate between two
-// passes.
+// Whether a descent still gains, and whether a few nodes alternate between two passes.
 class Watch {
  public:
   void take(double residual) {
@@ -59,7 +58,7 @@ class Watch {
   int without_gain() const { return without_gain_; }
 
   enum class Advice { go_on, remember_pass, average_passes };
-  // At the end of a pass. If the next pass also reverses, its result is averaged with the stored one.
+  // If the next pass also reverses, its result is averaged with the stored one.
   Advice advice() {
     if (remembers_ && goes_back(0)) {
       slow_ones_ = jumps_ = 0;
@@ -71,8 +70,8 @@ class Watch {
   }
 
  private:
-  static constexpr double slow = 0.7;  // residual ratio to the best residual of a slow pass
-  static constexpr double jump = 10;   // residual ratio to the previous pass of a reversal
+  static constexpr double slow = 0.7;  // of the best residual
+  static constexpr double jump = 10;   // of the residual before
   static constexpr int slow_passes = 2, jumps_in_a_cycle = 2;
   static constexpr double none = std::numeric_limits<double>::infinity();
 
@@ -92,32 +91,30 @@ struct DescentEnd {
   std::string stage;  // last stage of a chain
 };
 
-// From feasible fields.pressure. Returns whether residual < tolerance; otherwise the pressures are feasible.
-// `exact`: converged pressures are feasible too, with a freshly computed gap.
+// From feasible pressures. Returns whether residual < tolerance; if not, pressures are feasible. `exact`:
+// converged pressures are feasible too, with a fresh gap.
 bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
                         bool exact);
 
 // Spectral projected gradients (Birgin, Martínez & Raydan 2000, SIAM J. Optim. 10, 1196): alternating
-// Barzilai–Borwein steps, exact projection on bounds and load, nonmonotone over a window. Slow, feasible
-// throughout, convergent in theory: the last resort, and a few steps that shake the free set. Returns
-// whether residual < tolerance, with a fresh gap.
+// Barzilai–Borwein steps, exact projection, nonmonotone over a window. Slow, feasible, convergent in theory:
+// last resort, and shaker of the free set. Returns whether residual < tolerance, gap fresh.
 bool spectral_gradient(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications);
 
 enum class ChainEffort {
-  start,  // start of a finer grid: pressures may leave their bounds, gaps are not recomputed
+  start,  // start of a finer grid: pressures may leave their bounds
   brief,  // an answer without the last resort
   quick,  // at an offset: the same with a fresh gap
   less,   // at an offset: fewer downhill passes
   full    // an answer, with up to thousands of projected gradients
 };
 
-// Under a mean pressure: stages in turn until one converges, the quick one first.
+// Stages in turn until one converges, the quick one first.
 DescentEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort);
 
-// offset_descent.cpp: at an offset. Starts from fields.pressure, feasible unless `gap_known`; `gap_known`:
-// fields.gap is K p − h. Ends with feasible pressures; if converged, with a fresh gap (full), an updated gap
-// (brief) or the gap before settling (start). The residual is relative to level.length. Elastic full contact
-// of a periodic tile has no solution and does not converge.
+// offset_descent.cpp. `gap_known`: fields.gap is K p − h and pressures may be infeasible. Ends with feasible
+// pressures and, if converged, a fresh (full), updated (brief) or unsettled (start) gap. The residual is
+// relative to level.length. Elastic full contact of a periodic tile does not converge.
 DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
                             ChainEffort effort, bool gap_known);
 

@@ -44,8 +44,7 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
 
 namespace {
 
-// Throws Error{infeasible} if no load reaches the approach. Pressures so large that the height terms vanish
-// in rounding are rejected.
+// Pressures so large that the height terms vanish in rounding are rejected.
 void check_approach_within_full_contact(const HalfSpaceProblem& problem, double approach) {
   if (problem.boundary != Boundary::periodic) return;
   const auto heights = problem.heights->values();
@@ -84,8 +83,7 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
                 "ask for a smaller `approach`, or press by `pressure`");
 }
 
-// Mean pressure of a layer at an approach beyond full contact, where the layer is linear. Empty below full
-// contact, with yield, and on a half-space.
+// Beyond full contact a layer is linear. Empty below full contact, with yield, and on a half-space.
 std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem, double approach) {
   const double uniform = uniform_compliance(problem);
   const double compression = approach - approach_of_full_contact(problem);
@@ -113,7 +111,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     answer.approach = approach;  // exact up to rounding
     return answer;
   }
-  // Within rounding of full contact: all loads from the least on have this approach.
+  // At full contact up to rounding: all loads from the least on have this approach.
   const double full = approach_of_full_contact(problem);
   const double apart = std::abs(approach - full) / std::min(full, problem.rms);
   const bool rough = known_range(problem.heights->values()).span() > 0;
@@ -133,8 +131,8 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       if (const auto pressure = pressure_of_full_contact(problem)) sought.above = {*pressure, full};
   };
   HalfSpaceAnswer answer;
-  // Near full contact on long cells descents at the approach mostly stall: search the load first. Not if
-  // most nodes are at the cap, unless the approach is just past full contact.
+  // Near full contact on long cells descents at the approach mostly stall: search the load first. Not with
+  // most nodes at the cap, unless just past full contact.
   constexpr double nearly = 0.9, just_past = 1.02, begin_at = 0.35, well_below = 0.5;
   const bool past = approach > full && approach < just_past * full;
   if (problem.boundary == Boundary::periodic && long_cells && !problem.yield.hardens() &&

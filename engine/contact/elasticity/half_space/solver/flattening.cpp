@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Press until a share of the peak-to-valley is flattened. The flattened share never falls as approach or
-// load grow. The search variable is the approach or, where the approach is insensitive, the load
-// (load_search.hpp); on long cells with yield, small steps of the approach supplement the load.
+// Presses until a share of the peak-to-valley is flattened. The share never falls as approach or load grow.
+// The search is in the approach or, where the approach is insensitive, in the load (load_search.hpp).
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -24,13 +23,12 @@ namespace asperity {
 
 namespace {
 
-// Plastic displacement w of node k, m.
+// w of node k, m.
 double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t k) {
   return law.hardens() ? std::max(0.0, answer.pressure[k] - law.yields_at(k)) / law.hardening : 0.0;
 }
 
-// Flattened height, m: descent of the highest point of h − u − w less that of the lowest. Computed from u
-// itself, whose terms are small for light loads. One application.
+// Flattened height, m, from u itself: for light loads all terms are small. One application.
 double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, double approach,
                     Range span) {
   const Field& h = *problem.heights;
@@ -51,13 +49,13 @@ double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answ
   return ends[0] + ends[1];
 }
 
-// Depth of node k below the contacting surface, m: −(h − u − w) − δ.
+// Depth below the contacting surface, m: −(h − u − w) − δ.
 double depth(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, std::size_t k) {
   const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
   return capped ? std::max(0.0, answer.gap[k]) : answer.gap[k] + hardened(problem.yield, answer, k);
 }
 
-// Whether the approach is so small that differences of gaps have too few digits.
+// The approach is so small that gaps have too few digits.
 bool presses_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
   constexpr double few_digits = 1e-4;
   // Uniform compression of a layer flattens nothing.
@@ -117,8 +115,8 @@ std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
 
 namespace {
 
-// Steps from the second answer, in units of their difference, at which the line through both answers has the
-// wanted flattening. Secants converge from one side: the maximum of linear depths is convex.
+// Multiple of the difference from the second answer to the first at which the line has the wanted
+// flattening. The greatest of linear depths is convex: secants converge from one side.
 std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
                                             const HalfSpaceAnswer& before, double wanted) {
   constexpr int most_looks = 8;
@@ -142,13 +140,13 @@ std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, con
   return at;
 }
 
-// Upper end of the bracket in load for a periodic tile.
+// Upper end of the bracket in load.
 std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
   if (problem.boundary != Boundary::periodic) return {};
   return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
 }
 
-// Coarser grids give a start value; grids with fewer nodes are not worth a solve.
+// Grids with fewer nodes are not worth a solve.
 constexpr std::size_t coarse_nodes = 64 * 64;
 
 std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
@@ -167,7 +165,7 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
     return std::make_shared<const Field>(std::move(values));
   };
   result.heights = on_coarse(*problem.heights);
-  if (!(known_range(result.heights->values()).span() > 0)) return {};  // the restricted heights are all equal
+  if (!(known_range(result.heights->values()).span() > 0)) return {};  // all restricted heights are equal
   if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
   const auto work = [](const Grid& of) {
     const auto n = static_cast<double>(of.nodes());
@@ -177,8 +175,8 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
   return result;
 }
 
-// Extrapolates pressures and gaps by `steps` from the second answer towards the first, reusing the memory of
-// the second. Returns the first answer's fields if the extrapolation is too far.
+// Extrapolates pressures and gaps beyond the first answer by `steps` times its difference from the second,
+// in the memory of the second. Too far: the fields of the first.
 HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
   constexpr double furthest_guess = 2;
   if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
@@ -196,27 +194,25 @@ HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer befor
   return before;
 }
 
-// Near elastic full contact of a periodic tile the approach hardly affects gaps: the load is the better
-// variable. Under a cap with most nodes yielded, the approach is.
+// Near elastic full contact of a periodic tile the approach hardly affects gaps.
 bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   return problem.boundary == Boundary::periodic && 2 * answer.yielded < answer.contacts &&
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
-// Complete flattening holds at all loads from full contact on: aim just below it, within the accuracy.
+// Complete flattening continues beyond full contact: aim just below it.
 double wanted_share(double fraction, double accuracy) {
   return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
 }
 
-// Searches the approach that flattens a share, to `accuracy` relative. Returns an unconverged answer if the
-// load is the better variable. `met`: returns the nearest loads on both sides. `alone`: never switch to the
-// load.
+// Searches the approach that flattens a share, to `accuracy`. Returns an unconverged answer if the load is
+// the better variable. `met`: receives the nearest loads on both sides. `alone`: never switch.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor, bool alone = false) {
   constexpr int most_solves = 60;
-  // Solves, or applications, after which the search continues in the load; fewer solves if the error exceeds
-  // `far`.
+  // The search continues in the load after this many solves, few if the error exceeds `far`, or
+  // applications.
   constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
   constexpr double far = 1e-2, decades = 1e2;
   constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
@@ -241,7 +237,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   now.tolerance = std::max(accuracy, loosest);
   HalfSpaceAnswer answer, before;
   double pressed = 0;
-  double gain = 1;  // change of flattened height or of its error per approach, >= 1
+  double gain = 1;  // d(flattened height)/d(approach), >= 1
   bool afresh = false, stalled = false, by_load = false;
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
@@ -255,7 +251,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const bool warm = !start.pressure.empty();
     answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, effort, monitor);
     applications += answer.iterations;
-    if (warm && !answer.converged && now.tolerance > accuracy) {  // the start may have been too far
+    if (warm && !answer.converged && now.tolerance > accuracy) {  // the start may be too far
       answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, effort, monitor);
       applications += answer.iterations;
     }
@@ -264,14 +260,14 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
     const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
-    // Residuals are relative to the rms height, which may far exceed the flattened height.
+    // The residual is relative to the rms height.
     const double rough = cautious * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
     if (sure && answer.converged)
       met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
     if (load_tells_more(problem, answer)) break;
     const double tightest = std::max(least_tolerance, accuracy / gain);
     const bool loose = now.tolerance > tightest;
-    // A failure below the requested tolerance may be rounding.
+    // Below the requested tolerance a failure may be rounding.
     stalled = !answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy);
     if (stalled) break;
     const bool near_enough = error <= 0.5 * accuracy;
@@ -285,12 +281,12 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       afresh = true;
       continue;
     }
-    // From complete flattening on, more approach changes nothing: no value for a secant.
+    // Complete: more approach changes nothing.
     const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
-    if (near_enough && !too_far) continue;  // repeat with a tighter tolerance
-    // The load spans decades within a small change of approach.
+    if (near_enough && !too_far) continue;  // tighter
+    // Decades of the load within a small change of approach.
     const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
                        std::abs(approach / before.approach - 1) < near;
     const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
@@ -323,14 +319,13 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
-// Continues in the approach from a solved contact: each solve starts from the last converged one, within
-// `furthest` of its approach, and halves the step on failure. With yield on long cells such solves take a
-// few passes, where solves at a load need the last resort. About `most_applications` in total; on failure
-// returns the last converged contact, marked unconverged.
+// Continues in the approach from a solved contact, in steps of at most `furthest`, halved on failure. With
+// yield on long cells such solves take a few passes, while solves at a load need the last resort. Failure:
+// the last converged contact, marked unconverged.
 HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
                                      int most_applications, Monitor& monitor) {
   constexpr int most_solves = 40, most_stalls = 5;
-  constexpr double furthest = 0.3;  // greatest relative step of the approach
+  constexpr double furthest = 0.3;  // greatest relative step
   constexpr double more = 4;        // growth of steps until both sides are known
   constexpr double good = 0.1;      // greatest certificate of a useful start
   constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
@@ -342,7 +337,6 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
   if (!(answer.certificate.worst() < good)) return answer;
   const double span = known_range(problem.heights->values()).span();
   const double wanted = wanted_share(fraction, problem.tolerance) * span;
-  // Residuals are relative to the rms height, which may far exceed the flattened height.
   const double unit = std::max(1.0, problem.rms / wanted);
   const double tightest = std::max(least_tolerance, problem.tolerance / unit);
   BracketedSecant root(wanted);
@@ -371,7 +365,7 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     }
     if (below && above) reach = furthest;
     now.tolerance = std::clamp(next_error * error, tightest, now.tolerance);
-    // Repeat with a tighter tolerance if the side is unclear or the error is small enough.
+    // Repeat with a tighter tolerance if the side is unclear or the error small enough.
     const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
     if (!(next > 0)) break;
     double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
@@ -396,7 +390,6 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
   return answer;
 }
 
-// Search in the load, from the start `begun`.
 HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
                                 const LoadsMet& met, Monitor& monitor) {
   SoughtByLoad sought;
@@ -417,8 +410,7 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   return solve_by_load(problem, sought, std::move(begun), monitor);
 }
 
-// Just below elastic full contact of a periodic tile the load is the better variable. Returns a first load;
-// empty if the approach is as good.
+// A first load near elastic full contact of a periodic tile; empty if the approach is as good a variable.
 std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
   constexpr double mostly = 0.6, on_long_cells = 0.3;
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
@@ -428,12 +420,12 @@ std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, do
   return full ? std::optional(*full * (1 - std::sqrt(1 - fraction))) : std::nullopt;
 }
 
-// Complete flattening with hardening or on a free tile: any sufficient load is a solution and solves more
-// easily than the least. Empty if no try converges.
+// Complete flattening with hardening or on a free tile: any sufficient load is a solution, and more load
+// solves more easily. Empty if no try converges.
 std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, double fraction,
                                               Monitor& monitor) {
   constexpr int tries = 3;
-  constexpr double more = 4;      // load for the next try
+  constexpr double more = 4;      // factor of the load in the next try
   constexpr double to_a_rim = 2;  // a punch carries half its mean pressure at the centre
   if (problem.yield.caps()) return {};
   auto pressure = load_of_all(problem);
@@ -455,7 +447,6 @@ std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, d
   return {};
 }
 
-// Start value of the search.
 struct FlatteningGuess {
   std::optional<double> approach;  // m
   std::optional<double> pressure;  // Pa, if the load is the better variable
@@ -478,7 +469,7 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
   const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
   if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
   if (by_load && there.converged) return {{}, there.mean_pressure};
-  // Coarser grids miss the highest node: useless if the miss is a large part of the approach.
+  // Coarser grids miss the highest node.
   const double higher =
       known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
   if (!(there.approach > 2 * higher)) return {};

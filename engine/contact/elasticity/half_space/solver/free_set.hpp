@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The free set: nodes whose pressure may change in a pass. Free are nodes strictly between the bounds, and
-// nodes at a bound whose gap pulls them off it; a node settled in this pass may not return on its stale gap.
-// Free nodes are elastic or yielding (past their yield pressure); elastic nodes balance the load, unless
-// there are too few. Also the node loops of a descent and the preconditioner on the free set.
+// The free set: nodes strictly between the bounds, and nodes at a bound whose gap pulls them off it, but not
+// nodes settled in this pass, whose gap is stale. Free nodes are elastic or yielding (past their yield
+// pressure). Also node loops of a descent and the preconditioner on the free set.
 #pragma once
 
 #include <algorithm>
@@ -23,20 +22,19 @@ enum Freedom : std::uint8_t {
   fixed = 0,
   elastic = 1,
   yielding = 2,
-  settling = 3,  // passed its yield pressure in an elastic step: settle first, then yielding
+  settling = 3,  // passed its yield pressure: settle first, then yielding
 };
 
 struct FreeSet {
   double elastic_count = 0, yielding_count = 0, settling_count = 0;
   double elastic_gap = 0, yielding_gap = 0;  // Σ total gap
   bool changed = true;
-  double yielding_worth = 0;  // load balance of a yielding node relative to an elastic one
-  // Load and count of unstopped nodes after a trial `shift` of the settled elastic interior, clipped to the
-  // bounds.
+  double yielding_worth = 0;  // load balance relative to an elastic node
+  // After a trial shift of the settled elastic interior: load, count of nodes not stopped at a bound.
   double shifted_load = 0, shifted_count = 0;
 
   double count() const { return elastic_count + yielding_count; }
-  // A few elastic nodes among many yielding ones would take too much of the load.
+  // A few elastic nodes would take too much of the load.
   bool elastic_balance() const {
     return elastic_count > 0 && elastic_count >= yielding_worth * yielding_count;
   }
@@ -45,7 +43,7 @@ struct FreeSet {
   double balancing_gap() const { return elastic_balance() ? elastic_gap : yielding_gap; }
 };
 
-// Without hardening: marks the free nodes; sums count, gaps, changed marks, shifted load and count.
+// Count, gaps, changed marks, shifted load and count.
 inline constexpr std::size_t free_sums = 5;
 
 template <bool capped>
@@ -86,8 +84,7 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
   });
 }
 
-// Sets `free`, compared with `before`. Gaps below `offset` pull nodes off zero pressure; `shift` is a trial
-// shift of the elastic interior.
+// Sets `free`. Gaps below `offset` pull nodes off zero pressure.
 template <class Limit>
 FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
                    std::span<const double> g, std::span<const std::uint8_t> before,
@@ -98,7 +95,7 @@ FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shi
                ? mark_elastic<true>(limit.upper(), offset, shift, p, g, before, free)
                : mark_elastic<false>(limit.upper(), offset, shift, p, g, before, free);
   else
-    // Captures by value: a byte store may alias anything reached by reference.
+    // By value: a byte store may alias a reference.
     sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                                 free = free.data(), limit = limit](std::size_t k, double* v) {
       const double q = limit.settle(k, p[k], g[k], balance);
@@ -135,8 +132,7 @@ FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shi
   return set;
 }
 
-// The same with the interior gap as offset. Frees at least two nodes: if need be, the nearest to leaving
-// their bounds.
+// The same about the interior gap. Frees at least two nodes: the nearest to leaving their bounds.
 template <class Limit>
 FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
                       std::span<const double> p, std::span<const double> g,
@@ -160,7 +156,7 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
   return set;
 }
 
-// One node's fields and pressure law for the node loops: plain pointers, copied into each loop.
+// Plain pointers and the pressure law, copied into each loop.
 template <class Limit>
 struct DescentNodes {
   double *pressure, *gap;
@@ -169,7 +165,7 @@ struct DescentNodes {
   double balance;
 
   double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
-  // Gap plus the opening of a node marked as yielding.
+  // With the opening of a node marked as yielding.
   double total_gap(std::size_t k) const {
     const double elastic_gap = gap[k];
     if constexpr (Limit::hardens) {
@@ -185,7 +181,7 @@ struct DescentNodes {
     else
       return free[k] != fixed;
   }
-  // Whether the settled pressure q is in the elastic interior, which the load shift moves.
+  // Whether q, settled, is in the elastic interior.
   bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
     if constexpr (Limit::hardens)
       return q > 0 && (q < limit.yields_at(k) || !any_interior);
@@ -194,7 +190,7 @@ struct DescentNodes {
   }
 };
 
-// gap += unit · image for nodes from `begin`. Returns the sum of the total gaps of the balancing nodes.
+// gap += unit · image from `begin` on. Returns the sum of total gaps of the balancing nodes.
 template <class Limit>
 std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
                                  const double* image, double unit, Freedom balancing) {
@@ -218,8 +214,8 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
     });
 }
 
-// For the nodes from `begin` on: copies `image` = K·direction to `to`. Returns Σ direction · image (plus the
-// opening of yielding nodes), Σ image over the balancing nodes and, without hardening, Σ direction · (mean −
+// For the nodes from `begin` on: copies `image` = K·direction to `to`. Returns Σ direction · image (with the
+// opening of yielding nodes), Σ image over balancing nodes and, without hardening, Σ direction · (mean −
 // gap).
 template <class Limit, class Stored>
 std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
@@ -247,15 +243,15 @@ std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t 
   });
 }
 
-// Preconditioner of a pass: restricted |q|/2 on elastic free nodes. Soft yielding nodes (opening slope above
-// `stiff_slope`) are treated as independent; stiff ones are part of the restricted |q|/2, scaled down.
+// Restricted |q|/2 on elastic nodes. Soft yielding nodes are independent; stiff ones join the restricted
+// |q|/2, scaled.
 template <class Limit>
 class SetPreconditioner {
  public:
   SetPreconditioner(ContactLevel& level, const Limit& limit) : level_(level) {
     if constexpr (Limit::hardens) {
       slope_ = limit.yielding_slope();
-      // A line of cells along the short side moves as one, `aspect` times further than a single node.
+      // A line along the short side moves as one.
       own_ = Limit::own_compliance * std::max(1.0, level.shape.aspect);
       apart_ = slope_ > stiff_slope * std::sqrt(level.shape.aspect);
       scale_ = std::sqrt(1 / (1 + slope_ / own_));
@@ -276,7 +272,7 @@ class SetPreconditioner {
 
   bool apart() const { return apart_; }
 
-  // z = M r in place; the load is not balanced.
+  // z = M r in place, load not balanced.
   void apply(std::span<const std::uint8_t> free, std::span<double> z) {
     if constexpr (Limit::hardens) {
       if (apart_) {
@@ -301,7 +297,7 @@ class SetPreconditioner {
   }
 
  private:
-  // dw/dp in cell units, measured: fewest steps with scaled |q|/2 below it, with independent nodes above.
+  // dw/dp in cell units; measured by the number of steps.
   static constexpr double stiff_slope = 3;
 
   ContactLevel& level_;

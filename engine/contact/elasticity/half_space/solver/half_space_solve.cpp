@@ -53,7 +53,6 @@ namespace {
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 
-// Share of nodes with a counterpart.
 double facing_share(const HalfSpaceProblem& problem) {
   if (!problem.overhangs) return 1;
   return static_cast<double>(known_count(problem.heights->values())) /
@@ -79,7 +78,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   const YieldLaw& law = problem.yield;
   const double facing = facing_share(problem);
   if (law.caps() && mean_pressure >= law.cap * facing) {
-    // Print all digits if the short forms are equal.
+    // All digits if the short forms are equal.
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     if (facing < 1)
@@ -95,8 +94,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   }
 }
 
-// Length scale of gaps for flat heights: roughly the displacement of the tile as one punch. On a layer,
-// times the greatest compliance of the layer relative to a half-space.
+// Length scale of gaps for flat heights: about the displacement of the tile as one punch.
 double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   const double length = mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
   if (!problem.share) return length;
@@ -104,9 +102,8 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   return 0.5 * longest * multiplier_of(problem).greatest_from(longest) * length;
 }
 
-// Whether the heights differ by more than rounding. On a free tile, heights within a millionth of the
-// approach count as flat: rounding of the pressures hides such roughness. On a periodic tile the limit is
-// 1e-9.
+// Whether the heights differ by more than rounding. On a free tile, rounding of the pressures hides
+// roughness below a millionth of the approach.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   const auto heights = problem.heights->values();
   if (!(problem.rms > 0)) return false;
@@ -125,7 +122,6 @@ bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.rms > least * punch_length(problem, mean_pressure);
 }
 
-// Scales that convert the problem to cell units.
 struct CellUnits {
   double height = 1;    // m
   double pressure = 1;  // Pa
@@ -206,7 +202,7 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
 
 double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   double lengths = std::abs(answer.approach) + known_range(problem.heights->values()).span();
-  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // w is a difference of such pressures
+  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // w is a difference of pressures
     lengths += problem.yield.cap / problem.yield.hardening;
   const double weight =
       problem.yield.caps() && answer.mean_pressure > 0 ? problem.yield.cap / answer.mean_pressure : 1.0;
@@ -224,8 +220,7 @@ ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_me
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
   const Grid& grid = problem.grid;
-  // Love's kernel is greatest at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy));
-  // asinh x < x.
+  // Love's kernel at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
   const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
   const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
   const double most = mean_pressure * static_cast<double>(grid.nodes());
@@ -324,13 +319,12 @@ HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   return answer;
 }
 
-// Whether a flat touches a whole periodic tile without yield. Every node then carries the mean pressure.
+// A flat on a whole periodic tile without yield.
 bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
          (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
 }
 
-// Adds the uniform compression of a layer, which K excludes under a load.
 void add_uniform_compression(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const double compression = uniform_compliance(problem) * answer.mean_pressure;
   if (!(compression > 0)) return;
@@ -364,7 +358,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
     pressure[k] = p >= cell_cap ? cap : within;
     gap[k] = (gap[k] - offset) * units.height;
   });
-  // Passes may leave pressures of rounding size at nodes without a counterpart.
+  // Passes may leave rounding at nodes without a counterpart.
   if (problem.overhangs)
     for (std::size_t k = 0; k < answer.pressure.size(); ++k)
       if (!problem.faces(k)) answer.pressure[k] = 0;
@@ -382,7 +376,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   return answer;
 }
 
-// The problem under a load in cell units; `heights` may still be NaN.
+// The caller replaces heights that are NaN.
 CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
                              bool flat) {
   CellProblem cell;
@@ -423,7 +417,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   const Range ends = known_range(problem.heights->values());
   CellUnits units;
   units.origin = ends.max;
-  // On a free tile, heights that vary by less than a millionth of the approach count as flat.
+  // On a free tile smaller variations of the heights count as flat.
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   units.height = std::min(approach, length);
   if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
@@ -433,7 +427,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.shape = level_shape(problem, true);
   Field out_of_the_way;
   if (problem.overhangs) {
-    // On a free tile pressure lifts no node, so deeper nodes never touch.
+    // Pressure lifts no node of a free tile, so deeper nodes never touch.
     cell.lowest = ends.min;
     out_of_the_way =
         with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
@@ -477,8 +471,8 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 
 namespace {
 
-// Solves at an approach; after each failure, at 0.3 of the previous approach. Sets `approach` to the last
-// one solved. Only the first solve uses `start`, which may be far from the solution.
+// Solves at an approach; each failure multiplies the approach by 0.3. Returns the last in `approach`. Only
+// the first solve uses `start`.
 HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
                                    Monitor& monitor) {
   constexpr double less = 0.3;
@@ -495,8 +489,8 @@ HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& appr
   return answer;
 }
 
-// Hardening so soft that no descent balances the load: searches the approach for the prescribed load, which
-// never falls as the approach grows. Empty if a solve fails. `begun`: the unconverged answer.
+// For soft hardening, where no descent balances the load: searches the approach of the load. Empty if a
+// solve fails. `begun`: the unconverged answer.
 std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
                                                   const HalfSpaceAnswer& begun, Monitor& monitor) {
   constexpr int most_solves = 80, most_applications = 2000;
@@ -530,7 +524,7 @@ HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_press
   if (problem.boundary != Boundary::periodic || flat || mean_pressure == 0) return {};
   const CellUnits units = cell_units(problem, mean_pressure, flat);
   CellAnswer found = full_contact(cells_under_load(problem, units, mean_pressure, flat), monitor);
-  constexpr int as_far_as_gaps = 2;  // applications, enough to reach the gaps
+  constexpr int as_far_as_gaps = 2;  // applications that include the gaps
   if (found.applications == as_far_as_gaps) return in_si(problem, units, mean_pressure, std::move(found));
   HalfSpaceAnswer none;
   none.iterations = found.applications;

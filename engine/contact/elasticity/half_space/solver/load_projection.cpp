@@ -13,7 +13,6 @@
 namespace asperity {
 
 namespace {
-// No sum of a grid is more exact.
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
 constexpr double noticed = 1e-13;  // of the load
 
@@ -66,9 +65,8 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
   }
   if (!all && load == fixed) return false;
 
-  // Bracket: all moved nodes at 0; all at the bound, or the least carries the whole load. If the load is
-  // small compared with the values, shifts count from the greatest, since rounding must not decide the few
-  // nodes in contact.
+  // From all moved nodes at 0 to all at the bound, or one with the whole load. Shifts for small loads count
+  // from the greatest value: rounding must not decide the few nodes in contact.
   const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
   double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
   double shift = std::clamp(origin, low, std::max(low, high));
@@ -82,8 +80,7 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     }
     if (std::abs(excess) <= round_off * load) break;
     (excess > 0 ? high : low) = shift;
-    // Newton's step without cancellation; otherwise a step by the excess, which resolves finer shifts than
-    // the sums.
+    // Without cancellation; otherwise by the excess, which resolves finer shifts than the sums.
     double next = (load - fixed - at.bound - at.values) / at.interior;
     if (!(next > low && next < high)) next = shift - excess / at.interior;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -99,7 +96,7 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     for_nodes(y.size(), [=, target = target.data()](std::size_t k) { target[k] = clipped(k, best_shift); });
     return true;
   }
-  // Two neighbouring shifts carry too little and too much, since the values are huge: interpolate.
+  // Huge values: two neighbouring shifts carry too little and too much.
   const double least = carried(y, where, upper, origin, low).load;
   const double most = carried(y, where, upper, origin, high).load;
   const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
@@ -139,7 +136,6 @@ void keep_line_loads(const LevelShape& shape, std::span<const double> before,
       same = same && before[k] == settled[k];
     }
     if (same) return;
-    // Newton's method for a monotone, piecewise linear function.
     double shift = 0;
     for (int step = 0; step < most_steps; ++step) {
       double load = bound, inside = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inexact Newton method (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982) by secants. Near full
-// contact of a periodic tile the load is the well-posed variable: the deepest gap falls as a power above one
-// of the missing load, but below one of the missing approach. While the contact area hardly changes,
-// pressures and gaps are linear in the load, and the search follows the line through two answers.
+// contact of a periodic tile the load is well-posed: the deepest gap falls as a power above one of the
+// missing load, but below one of the missing approach. With nearly constant contact area pressures and gaps
+// are linear in the load: the search follows the line through two answers.
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
 namespace {
 
 // Full contact by the exact filter: multiplies the least load by ten until the filter converges, then
-// bisects in logarithms to within a factor of two. Unconverged if no load works.
+// bisects to within a factor of two.
 HalfSpaceAnswer full_under_more(const HalfSpaceProblem& problem, double least, Monitor& monitor) {
   constexpr int tries = 3;
   constexpr double more = 10, near = 2;
@@ -71,8 +71,7 @@ HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double me
     applications += found.iterations;
     return found;
   };
-  // The certificate multiplies rounding of the gaps by hardness / load, and no descent can reduce rounding.
-  // A larger load reduces the factor and moves nothing.
+  // The certificate multiplies rounding of the gaps by hardness / load: more load helps, a descent does not.
   HalfSpaceAnswer answer;
   if (problem.yield.caps()) {
     answer = counted(solve_if_full(problem, mean_pressure, monitor));
@@ -131,7 +130,7 @@ class LoadSearch {
         sought_(sought),
         monitor_(monitor),
         end_(upper_end(problem, sought)),
-        // Share of the wanted measure per unit residual.
+        // Relative measure per unit residual.
         unit_(problem.rms > 0 ? std::min(problem.rms / sought.length, 1.0) : 1.0),
         bracket_(sought.wanted, {0, 0}, end_, BracketedSecant::Scale::logarithmic),
         root_(bracket_),
@@ -148,40 +147,39 @@ class LoadSearch {
 
  private:
   static constexpr int most_solves = 60, most_applications = 6000;
-  // Applications before the other way; its budget as a multiple of them; its last budget.
+  // Applications before the other way; its budget as a multiple; its last budget.
   static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
-  static constexpr int most_doubts = 4;      // of a bracket
+  static constexpr int most_doubts = 4;
   static constexpr double good_start = 0.1;  // greatest certificate of a warm start
-  static constexpr double near_start = 0.3;  // greatest relative change of the load for a warm start
-  static constexpr double near_if_easy = 2;  // the same after a solve with few applications
+  static constexpr double near_start = 0.3;  // greatest relative change of load for a warm start
+  static constexpr double near_if_easy = 2;  // the same after an easy solve
   static constexpr int few_applications = 40;
-  static constexpr double loosest = 5e-3;     // tolerance of a solve
-  static constexpr double next_error = 2e-3;  // tolerance of the next solve, of the present error
-  // Error of the deepest gap per residual: complementarity averages over the load, and penetration ignores
-  // open nodes. Seen: 20.
+  static constexpr double loosest = 5e-3;
+  static constexpr double next_error = 2e-3;  // tolerance per present error
+  // Complementarity averages over the load, and penetration ignores open nodes. Seen: 20.
   static constexpr double gap_per_residual = 20;
   // A smaller step relative to the error means a false bracket.
   static constexpr double least_step = 0.01;
-  // Factors below the requested tolerance if the measure is too rough.
+  // Factors below the requested tolerance for a rough measure.
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
-  // Greatest relative change of the contact count on a line.
+  // Relative change of the contact count.
   static constexpr double same_contact = 0.1;
-  static constexpr double furthest_along = 3;  // greatest extrapolation, in steps between the answers
-  static constexpr double enough_gain = 0.5;   // greatest error, of the error before, after a step on a line
+  static constexpr double furthest_along = 3;  // in steps between the answers
+  static constexpr double enough_gain = 0.5;   // ratio of errors after a step on the line
 
   struct Measured {
     double pressure = 0, found = 0, certificate = infinity;
     std::int64_t contacts = 0, yielded = 0;
   };
 
-  // The two greatest loads below complete contact; their line extrapolates to the load of complete contact.
+  // The two greatest loads below complete contact, extrapolated to complete contact.
   struct ShortOfAll {
     BracketedSecant::Point last{}, before{};
     void take(BracketedSecant::Point found) {
       if (found.at <= last.at) return;
       before = std::exchange(last, found);
     }
-    // Empty if the line leads about as far as the load just tried.
+    // Empty if about as far as the load just tried.
     std::optional<double> go_on(double wanted, double tried) const {
       constexpr double less = 0.9;
       if (!(before.at > 0) || !(last.value > before.value)) return {};
@@ -225,7 +223,7 @@ class LoadSearch {
   int applications_;
   const bool long_cells_;
   bool easy_ = false, hard_ = false;  // last solve: few applications; last resort
-  // The last measure was too rough to show a side; the next one replaces it.
+  // The last measure was too rough; the next replaces it.
   bool rough_ = false, in_place_ = false;
   bool went_the_other_way_ = false;
 };
@@ -242,21 +240,20 @@ double LoadSearch::first_load() {
   return pressure < end_.at ? pressure : 0.5 * end_.at;
 }
 
-// Unit of gaps: the rms height or, for a light contact, the approach (nested_descent.cpp).
 void LoadSearch::set_unit() {
   constexpr double light = 0.01;
   if (!sought_.on_the_line || !(problem_.rms > 0)) return;
   unit_ = (answer_.approach < light * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
 }
 
-// A solve was on the wrong side: rebuilds the bracket, trusting only earlier points that were certain.
+// A solve was on the wrong side: rebuilds the bracket from the certain points.
 void LoadSearch::doubt(BracketedSecant::Point found) {
   root_ = bracket_;
   for (const Told& before : told_) root_.take(before.point, before.certainly);
   root_.take(found, false);
 }
 
-// Start fields, moved out of the last answer or the one before.
+// Moved out of the last answer or the one before.
 HalfSpaceAnswer LoadSearch::beginning(double pressure) {
   in_place_ = false;
   if (!sought_.on_the_line) return std::move(answer_);
@@ -296,13 +293,13 @@ void LoadSearch::solve(double pressure) {
     before_ = {};
     in_place_ = rough_;
   }
-  // On long cells brief solves often fail and would repeat the whole descent.
+  // On long cells brief solves often fail and would repeat the descent.
   const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells_;
   const bool tight = now_.tolerance < problem_.tolerance;
   now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
   applications_ += answer_.iterations;
-  // The start may have prevented convergence. An unconverged answer is enough if its side is clear.
+  // The start may have failed. An unconverged answer is enough if its side is clear.
   set_unit();
   const auto will_do = [&] {
     const double residual = answer_.certificate.worst();
@@ -321,7 +318,7 @@ void LoadSearch::solve(double pressure) {
            answer_.yielded};
 }
 
-// Next load on the line, if the contact areas of the last two answers are alike.
+// Empty if the contact areas differ.
 std::optional<double> LoadSearch::along_the_line() const {
   const auto alike = [](std::int64_t a, std::int64_t b) {
     return static_cast<double>(std::abs(a - b)) <= same_contact * static_cast<double>(std::max(a, b));
@@ -329,7 +326,7 @@ std::optional<double> LoadSearch::along_the_line() const {
   if (!sought_.on_the_line) return {};
   if (!(previous_.pressure > 0) || !alike(last_.contacts, previous_.contacts) ||
       !alike(last_.yielded, previous_.yielded)) {
-    // Nearly full contact: secant to the load of full contact.
+    // Nearly full: secant to the load of full contact.
     const auto nodes = static_cast<std::int64_t>(problem_.grid.nodes());
     if (end_.at != sought_.above.at || !(end_.value < infinity) || !alike(last_.contacts, nodes) ||
         !(last_.found < sought_.wanted))
@@ -353,7 +350,7 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
   return std::move(answer_);
 }
 
-// On success `answer_` is the result, otherwise the start of further search.
+// On success `answer_` is the result, otherwise the next start.
 bool LoadSearch::go_the_other_way(int most) {
   before_ = {};
   answer_ = sought_.other_way(std::move(answer_), most);
@@ -385,13 +382,13 @@ HalfSpaceAnswer LoadSearch::run() {
     const bool kept = !sought_.on_the_line || no_tighter;
     const bool sure = told || (tightest && kept && answer_.converged);
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
-    // Above full contact the measure is constant: no value for a secant.
+    // Beyond full contact the measure is constant.
     const bool nothing_more =
         found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
     const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
-    if (near_enough) continue;  // repeat with a tighter tolerance
+    if (near_enough) continue;  // tighter
     // On long cells a wrong step is expensive: repeat until the side is clear.
     if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
     const bool line_fails = by_line && error > enough_gain * error_before;

@@ -30,29 +30,27 @@ double greatest(std::span<const double> values) {
   return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
 }
 
-// Contacts so light, or ground so soft, that displacements are far below the rms height: a residual relative
-// to the rms is too coarse. Continues the solve with gaps counted from the decisive height (sums of small
-// terms instead of differences of large heights) and measured by the displacement there.
+// Contacts so light, or surfaces so soft, that a residual relative to the rms height is too coarse. Gaps
+// count from the decisive height (sums of small terms) and are measured by the displacement there.
 class LightContact {
  public:
   LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
       : level_(level), fields_(fields), problem_(problem) {}
 
-  // From the feasible pressures and gaps in `fields`; keeps them if no round converges, and leaves ordinary
-  // contacts unchanged. Recomputes `gap`. Returns whether gaps and offset are counted from the highest node:
-  // the offset is then the approach.
+  // Needs feasible pressures and gaps in `fields`; keeps them if no round converges. Recomputes `gap`.
+  // Returns whether gaps count from the highest node: the offset is then the approach.
   bool refine(DescentEnd& end);
 
  private:
-  static constexpr double light = 0.01;  // approach per length unit of gaps
-  static constexpr double soft = 1e-3;   // displacement of one node at the cap, the same unit
+  static constexpr double light = 0.01;  // greatest approach, per unit of gaps
+  static constexpr double soft = 1e-3;   // displacement of a node at the cap, same unit
 
-  // Solves again with the unit `length`. On failure returns false and restores the pressures.
+  // On failure returns false and restores the pressures.
   bool again(double length, DescentEnd& end);
   void by_approach(double approach, DescentEnd& end);
   void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // Approximate displacement of one node under the pressure `p` on it alone.
+  // Displacement of one node under `p` alone.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
 
   ContactLevel& level_;
@@ -74,8 +72,7 @@ bool LightContact::again(double length, DescentEnd& end) {
 void LightContact::by_approach(double approach, DescentEnd& end) {
   constexpr double right = 0.5;  // ratio of the approach to the unit of gaps
   constexpr int most_rounds = 60;
-  // Upper bound without a pressure limit: displacement of the highest node under the whole load. The first
-  // approach may be a residual of the tolerance.
+  // Upper bound without a pressure limit. The first approach may be a residual of the tolerance.
   const double alone = sunk(level_.total_load());
   const bool elastic =
       !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
@@ -87,8 +84,7 @@ void LightContact::by_approach(double approach, DescentEnd& end) {
   }
 }
 
-// Soft ground: nodes above some height are at the cap, lower ones are open, and nodes at this height share
-// the rest.
+// Nodes above some height are at the cap, lower ones open; nodes at this height share the rest.
 void LightContact::at_the_cap(double cap, DescentEnd& end) {
   const UnsetArray<double>& p = fields_.pressure;
   for (std::size_t k = 0; k < p.size(); ++k)
@@ -121,7 +117,7 @@ bool LightContact::refine(DescentEnd& end) {
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
-struct Step {                       // one grid of the nest
+struct Step {                       // grid of the nest
   std::optional<CoarserGrid> from;  // restriction from the finer grid
   LevelShape shape;
   Array<double> heights;  // empty on the finest grid, which uses the caller's
@@ -145,7 +141,7 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
   return limit;
 }
 
-// Replaces pressures at a bound by a multiple of their gap: the level-set field.
+// Replaces pressures at a bound by a multiple of their gap.
 void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
                   std::span<double> p) {
   for_nodes(p.size(), [&](std::size_t k) {
@@ -157,7 +153,6 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
   });
 }
 
-// Interpolates the level-set field of `start` to `level`.
 void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
   const LevelShape& shape = level.shape;
   CoarserGrid from{shape, static_cast<double>(shape.nx) / start.nx, static_cast<double>(shape.ny) / start.ny};
@@ -197,9 +192,8 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
-// Snaps pressures within rounding of a bound: off the bound they would count as free and could alone fix the
-// offset. Rounding is relative to the greatest pressure; under a light load all pressures are small compared
-// with the bound.
+// Off the bound by rounding, a pressure would count as free and could alone fix the offset. Under a light
+// load all pressures are small compared with the bound.
 void snap_to_bounds(double upper, std::span<double> p) {
   const double rounding =
       std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
@@ -271,7 +265,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
     } else {
       if (gap_known) to_level_set(upper, level.short_wave_stiffness, 0, start.gap, p);
       if (std::isfinite(lowest)) {
-        // Below the reach of any shift to the load.
+        // Below any shift to the load.
         for (std::size_t k = 0; k < nodes; ++k)
           if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
       }
@@ -307,8 +301,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   return answer;
 }
 
-// Power of two for heights and pressures of extremely small loads or caps, so that squares and products of
-// pressures and displacements stay in the range of a double. Exact.
+// Power of two (exact) that keeps squares and products of tiny pressures in the range of a double.
 int power_within_range(const CellProblem& problem) {
   constexpr double least = 1e-100;
   const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
@@ -365,8 +358,7 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
   level.compliance.apply_inverse(p, p);
   answer.applications = 1;
-  // On a periodic tile the mean moves nothing and can be so large that pressures lose precision: gaps use
-  // the differences from the mean.
+  // The mean moves nothing but can cost pressures their precision.
   answer.gap = p;
   const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
     p[k] += problem.mean_pressure;

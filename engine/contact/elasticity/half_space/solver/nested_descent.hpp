@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact problem on nested grids, in cell units of the finest grid. Each coarse solution is
-// interpolated as a field whose level sets are the edges of contact and of the capped area; a chain of
-// descents finishes on the finest grid. Also light contacts, solved further, and full contact, an exact
-// filter.
+// Nested grids, in cell units of the finest. Each coarse solution is interpolated as a field whose level
+// sets are the edges of contact and of the capped area; a chain of descents finishes on the finest grid.
+// Also light contacts and full contact.
 #pragma once
 
 #include <limits>
@@ -16,11 +15,11 @@
 
 namespace asperity {
 
-// Progress on a logarithmic scale of the residual. Throws if the user stops the run.
+// Logarithmic in the residual. Throws if the user stops the run.
 class DescentProgress {
  public:
   DescentProgress(Monitor& monitor, const char* of) : task_(monitor, of, total) {}
-  // Reports the residual on a grid; `begin` to `end` is its share of the total work.
+  // `begin` to `end`: the grid's share of the work.
   void report(double begin, double end, double residual, double tolerance);
 
  private:
@@ -33,8 +32,7 @@ struct CellProblem {
   LevelShape shape;
   std::span<const double> heights;  // any unit; (height − origin)·factor is in cell units
   double origin = 0, factor = 1;
-  // Lower nodes have no counterpart, start without pressure and must be out of reach of the contact. Unit of
-  // `heights`; free tile only, where coarse nodes are fine nodes.
+  // Lower nodes have no counterpart and must be out of reach. Unit of `heights`; free tile only.
   double lowest = -std::numeric_limits<double>::infinity();
   PressureLimit limit;
   double mean_pressure = 0;
@@ -47,9 +45,9 @@ struct CellProblem {
 
 struct CellAnswer {
   UnsetArray<double> pressure;  // feasible, exact at the bounds
-  UnsetArray<double> gap;       // K p − h, without offset, freshly computed
+  UnsetArray<double> gap;       // K p − h, freshly computed
   double offset = 0;
-  // Light contact: gap and offset are counted from the highest node; the offset is the approach.
+  // Light contact: gap and offset count from the highest node; the offset is the approach.
   bool from_peak = false;
   bool converged = false;
   int applications = 0;  // on the finest grid
@@ -58,19 +56,18 @@ struct CellAnswer {
   std::string stage;
 };
 
-// Start on nx × ny nodes of the same tile, in cell units of the problem: pressures and gaps (without
-// offset); empty for none. At an offset with gaps on the problem's own nodes, pressures may be outside their
-// bounds.
+// On nx × ny nodes of the same tile, in cell units of the problem, gaps without offset; empty for none. At
+// an offset on the same nodes pressures may be outside their bounds.
 struct CellStart {
   int nx = 0, ny = 0;
   std::span<const double> pressure, gap;
 };
 
-// From `start`, or on nested grids without one. Does not throw if the solve fails.
+// Nested grids are used without a start. Does not throw if the solve fails.
 CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor);
 
-// Full elastic contact of a periodic tile, p = p̄ + (|q|/2) h. `converged` is false if the solution is
-// infeasible. Two applications.
+// Full elastic contact of a periodic tile, p = p̄ + (|q|/2) h. `converged` is false if this is infeasible.
+// Two applications.
 CellAnswer full_contact(const CellProblem& problem, Monitor& monitor);
 
 }  // namespace asperity

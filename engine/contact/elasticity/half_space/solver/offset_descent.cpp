@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact at an offset δ on one grid: 0 <= p <= H, g = K p − h − δ (plus w) as the pressure law requires,
-// without a prescribed load. Preconditioned conjugate gradients on the free set as in
-// active_set_descent.cpp, but with free gaps brought to δ; no load is searched. If this stalls, passes that
-// each lower the energy ½ p·Kp − (h + δ)·p follow.
+// Contact at an offset δ on one grid: g = K p − h − δ (+ w) with the pressure law, no prescribed load.
+// Conjugate gradients as in active_set_descent.cpp, with free gaps brought to δ. If this stalls, passes that
+// each lower the energy ½ p·Kp − (h + δ)·p.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -17,16 +16,16 @@ namespace asperity {
 
 namespace {
 
-// Conjugate gradient steps of a pass: quick, quick with an expensive K, and downhill.
+// Steps of a pass: quick, with an expensive K, downhill.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
-constexpr double careful_gain = 0.03;            // relative residual that ends the steps
+constexpr double careful_gain = 0.03;            // relative residual that ends a pass
 constexpr int careful_passes_without_gain = 40;  // the energy falls, the residual may not
 // As in contact_quality.cpp.
 constexpr double touching_weight = 0.125;
 
 struct OffsetQuality {
   double residual = 0;
-  bool within = true;  // nothing was settled
+  bool within = true;
 };
 
 template <class Limit>
@@ -77,7 +76,7 @@ class OffsetDescent {
   bool descend(int steps);
   bool go_downhill();
   struct Change {
-    double slope = 0, energy = 0;  // change of energy, first order and total
+    double slope = 0, energy = 0;  // change of energy: first order, total
     bool enough() const { return slope < 0 && energy <= 0.1 * slope; }
   };
   Change change_since() const;
@@ -97,8 +96,7 @@ class OffsetDescent {
   double residual_ = infinity;
 };
 
-// Gap of the present pressures. On a periodic tile the mean moves nothing and can be so large that p loses
-// precision: it is subtracted first.
+// A periodic mean moves nothing but can cost p its precision: it is subtracted first.
 template <class Limit>
 void OffsetDescent<Limit>::find_gap() {
   double mean = 0;
@@ -153,13 +151,12 @@ double OffsetDescent<Limit>::turn(double target) {
     v[1] = counts(k) ? 1.0 : 0.0;
   });
   preconditioner_.apply(f_.free, work_);
-  // On a periodic tile the preconditioner ignores a constant. Its stiffness comes from the longest wave, the
-  // yielding nodes and K(0) of a layer. If all nodes are free, a constant moves only the gaps of yielding
-  // nodes (on a layer, of all).
+  // On a periodic tile the preconditioner ignores a constant. Its stiffness comes from the longest wave,
+  // yielding nodes and K(0). With all nodes free a constant moves only yielding nodes (on a layer all).
   double level = 0;
   if (periodic_ && sums[1] > 0) {
     const double all = static_cast<double>(nodes()), others = all - sums[1];
-    // A constant on nearly all nodes acts as the negative of one on the others.
+    // A constant on nearly all nodes acts as its negative on the others.
     const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
     const double elastically = std::min(level_.greatest_compliance * sums[1], lacking);
     const double yields = all_that_moves ? limit_.yielding_slope() * set_.yielding_count : 0.0;
@@ -173,7 +170,7 @@ double OffsetDescent<Limit>::turn(double target) {
   })[0];
 }
 
-// Settled pressures; on long cells with unchanged line loads.
+// On long cells with unchanged line loads.
 template <class Limit>
 void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
   for_nodes(nodes(), [n = view(), to = target.data()](std::size_t k) { to[k] = n.settled(k); });
@@ -209,8 +206,8 @@ void OffsetDescent<Limit>::settle_step() {
   }
 }
 
-// Full contact of a periodic tile: a uniform pressure moves nothing. Shifts all pressures down until the
-// first node opens, or up until the first yields, and a little further.
+// Periodic full contact: a uniform pressure moves nothing. Shifts down until the first node opens, or up
+// until the first yields, and a little further.
 template <class Limit>
 void OffsetDescent<Limit>::shift_all() {
   const double upper = limit_.upper();
@@ -282,7 +279,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
   return any;
 }
 
-// Change of the energy ½ p·Kp − (h + δ)·p, and of the yield term, since the old pressures and gaps.
+// Change of the energy ½ p·Kp − (h + δ)·p with yield.
 template <class Limit>
 typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const {
   const auto sums = over_nodes<2>(nodes(), [n = view(), offset = offset_, p0 = f_.old_pressure.data(),
@@ -302,8 +299,8 @@ typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const
   return {sums[0], sums[1]};
 }
 
-// One pass that lowers the energy: steps on the free set; if they leave the bounds, a projected part of them
-// or of a step against the gaps.
+// Lowers the energy: steps on the free set or, out of bounds, a projected part of the steps or of a step
+// against the gaps.
 template <class Limit>
 bool OffsetDescent<Limit>::go_downhill() {
   const double upper = limit_.upper();
