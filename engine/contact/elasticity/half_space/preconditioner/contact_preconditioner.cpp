@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sweeps run tile by tile, with a margin as wide as the number of sweeps, so tiles are independent and stay
-// in cache; only groups of eight nodes near the edge are swept. The transpose distributes each node's value
-// to its four neighbours: v = D (y + N v), colours in reverse order, N the sum of neighbours, D = 1/4 off
-// the free set, 0 on it (1/2 on a line of nodes).
+// in cache. The transpose distributes each node's value to its neighbours: v = D (y + N v), colours in
+// reverse order, N the sum of the four neighbours, D = 1/4 off the free set, 0 on it (two and 1/2 on a line
+// of nodes).
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 
 #include <algorithm>
@@ -27,12 +27,11 @@ using namespace edge_rows;
 
 constexpr int tile_width = FreeTiles::width;
 
-// Cells; no extension on thinner layers. Measured on 512²: at 10 cells extension needs up to three times the
-// transforms, at 100 its absence up to twice.
+// Cells. Measured on 512²: up to three times the transforms with extension at 10 cells, up to twice without
+// at 100.
 constexpr double thin_layer = 20;
 bool carries_on(const ComplianceMultiplier& multiplier) { return multiplier.length >= thin_layer; }
 
-// From value k on.
 void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n) {
   if (step.length != 0) add_times(step.length, step.more + k, n, step.values + k);
 }
@@ -57,7 +56,6 @@ class ContactPreconditioner::Parts {
     float sums[2 * tile_width];
     explicit Patch(std::size_t places) : given(places), now(places) {}
   };
-  // Sums over hats: of the free nodes, of the distributed values.
   struct Hats {
     SmoothExtension::Sums free, passed;
   };
@@ -70,30 +68,30 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  // For long cells, and without extension.
+  // Also used without extension.
   double spread_along_lines(const Residual& scaled, const Step& step);
   void gather_along_lines(const Keep& keep);
   void no_smooth_field();
   double greatest(const Residual& r, const Step& step) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
-  // Converts sums over hats to values at their points.
+  // From sums over hats to values at their points.
   void divide(Array<double>& sums) const;
 
   int nx_, ny_;
   float share_;  // weight of a neighbour
   HalfOrderPyramid pyramid_;
   SmoothExtension smooth_;
-  Array<double> free_hats_, sums_;       // sums of hats: free set, distributed values
+  Array<double> free_hats_, sums_;       // over the free set, of distributed values
   SmoothExtension::Field<float> level_;  // of the residual
   SmoothExtension::Field<double> rest_;  // of the result
-  double rest_sum_ = 0;                  // sum of the rest_ field over the free set
+  double rest_sum_ = 0;                  // of rest_ over the free set
   std::span<const float> spread_;        // B Ext r/grow_; empty if r = 0
   double grow_ = 1;                      // a power of two
   FreeTiles tiles_;
-  bool tiled_;                          // extension by sweeps and smooth fields
-  std::optional<LineExtension> lines_;  // long cells instead
-  UnsetArray<float> gathered_;          // by lines, or without extension
+  bool tiled_;                          // sweeps and smooth fields
+  std::optional<LineExtension> lines_;  // on long cells
+  UnsetArray<float> gathered_;          // if not tiled
   std::vector<Hats> hats_;              // per tile
   ScratchPool<Patch> patches_;
 };
@@ -124,9 +122,9 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
   }
 }
 
-// Calls put(row start, column, node, length) for the parts of a patch on the grid; the rest is 0. Rows on
-// either side of the patch must be 0 too: no tile writes the first, but a taller tile may have written the
-// last. Other old values are too far away for the sweeps to reach.
+// Calls put(row start, column, node, length) for the parts of a patch on the grid; other places are 0. The
+// rows on either side must be 0 too: a taller tile may have written the last. Sweeps do not reach other old
+// values.
 template <class Put>
 void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, const Put& put) const {
   const int height = tiles_.patch_height(tile);
@@ -160,7 +158,7 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
   for (const Hats& hats : hats_) hats.free.add_to(free_hats_);
 }
 
-// total = sums over hats of the contributions of all tiles.
+// total: sums over hats of all tiles.
 template <class Add>
 void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
   parallel_for(static_cast<std::int64_t>(tiles_.count()), [&](std::int64_t k) {
@@ -201,7 +199,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
                level_.row(static_cast<int>(from / nx), from % nx), length, column,
                static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
   });
-  // Step s changes only nodes within s steps of the free set.
+  // Step s changes nodes within s steps of the free set.
   for (int s = 1; s <= tiles_.sweeps(); ++s)
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
@@ -212,8 +210,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
   }
 }
 
-// z = (y + N v) on the free set, v the distributed values, without the smooth field; adds its source to the
-// hats.
+// z = (y + N v) on the free set, without the smooth field; adds its source to the hats.
 void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
                                                const Keep& keep) {
   const FreeTile& tile = tiles_[number];
@@ -232,7 +229,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
       start_bound(y.data() + from, length, column, static_cast<std::size_t>(tiles_.half()),
                   patch.given.data() + row, patch.now.data() + row);
     });
-    // Nodes farther than the remaining sweeps do not matter.
+    // Farther nodes do not matter.
     for (int s = tiles_.sweeps(); s >= 1; --s)
       for (const int odd : {0, 1})
         sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_,
@@ -287,7 +284,7 @@ void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
     keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
 }
 
-// Estimate from a few rows; from all rows if these are 0.
+// Estimated from a few rows, or all if these are 0.
 double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
   constexpr int few = 32;
   const auto width = static_cast<std::size_t>(nx_);
@@ -309,7 +306,7 @@ double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& ste
 }
 
 double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step) {
-  // Scale to near 1 by a power of two: exact, and single precision has little range.
+  // Exact scaling to near 1: single precision has little range.
   const double most = greatest(r, step);
   spread_ = {};
   if (!(most > 0)) {
@@ -341,7 +338,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
   parallel_for(static_cast<std::int64_t>(tiles_.count()),
                [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
   spread_ = pyramid_.apply();
-  // gather() is the transpose of Ext: r·z = Ext r·B Ext r.
+  // Ext is the transpose of gather(): r·z = Ext r·B Ext r.
   return pyramid_.product() * grow_ * grow_;
 }
 
@@ -355,7 +352,7 @@ void ContactPreconditioner::Parts::gather(const Keep& keep) {
     gather_along_lines(keep);
     return;
   }
-  // Ext = L (1 − C) + C with sweeps L and smooth field C, so Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
+  // Ext = L (1 − C) + C, sweeps L, smooth field C: Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
   add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
   divide(sums_);
   rest_.set(sums_);

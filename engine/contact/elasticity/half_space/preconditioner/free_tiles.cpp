@@ -17,7 +17,7 @@ namespace edge_rows {
 
 namespace {
 
-// A register of nodes, at most a group; results do not depend on its width.
+// Results do not depend on the register width.
 constexpr int node_lanes = std::min(group, register_vectors::register_lanes<float>);
 constexpr int node_pairs = 2 * node_lanes;  // columns of as many even and odd nodes
 using NodeVector = register_vectors::Of<float, node_lanes>::Vector;
@@ -49,7 +49,7 @@ inline __attribute__((always_inline)) void along(const double* at, double slope,
   }
 }
 
-// Nonzero for nonzero even and odd bytes.
+// Nonzero for nonzero bytes, even and odd.
 inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& even,
                                                       MarkVector& odd) {
   using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
@@ -85,7 +85,7 @@ void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint
       std::uint64_t eight;
       std::memcpy(&eight, bytes + k, sizeof eight);
       if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
-      // Gathers the lowest bit of each byte in the highest byte.
+      // Lowest bits of the bytes, in the highest byte.
       const std::uint64_t packed = (eight * 0x0102040810204080u) >> 56;
       words[(place + k) / bits] |= packed << ((place + k) % bits);
     }
@@ -207,7 +207,6 @@ void add_values(const float* __restrict values, std::size_t n, const SmoothExten
   }
 }
 
-// Position of a column in a row.
 inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
 
 void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
@@ -265,7 +264,7 @@ void start_bound(const float* __restrict values, std::size_t n, std::size_t plac
 }
 
 Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
-  // Compacts the even bits of the sixteen.
+  // Compacts the even bits.
   std::uint64_t bound = marks >> lane & 0x5555;
   bound = (bound | bound >> 1) & 0x3333;
   bound = (bound | bound >> 2) & 0x0f0f;
@@ -275,7 +274,7 @@ Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
 
 namespace {
 inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
-// Nonzero for nodes of a group, from `first` on, that sweeps change.
+// Nonzero for the nodes that sweeps change.
 inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
   MarkVector bits_of;
   for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;
@@ -396,7 +395,6 @@ void FreeTiles::set(std::span<const std::uint8_t> free,
                     const std::function<void(std::size_t tile)>& renewed) {
   if (free.size() != free_.size()) throw Error(ErrorCode::internal, "a free set of another grid");
   const auto count = static_cast<std::int64_t>(tiles_.size());
-  // Late in a solve few tiles change.
   parallel_for(count, [&](std::int64_t k) {
     FreeTile& tile = tiles_[static_cast<std::size_t>(k)];
     for (int j = 0; j < patch_height(tile) && !tile.stale; ++j)
@@ -427,7 +425,7 @@ void FreeTiles::find_groups(FreeTile& tile) {
   const auto patch = bits_.borrow(
       [&] { return std::make_unique<Bits>(static_cast<std::size_t>(height + 2 * sweeps_) * row_words); });
   const auto clear = [&](Array<std::uint64_t>& field) { std::fill_n(field.begin(), words, 0); };
-  // Chessboard parity of patch row j on the whole grid.
+  // Chessboard parity on the whole grid.
   const auto parity = [&](int j) { return (tile.y + sweeps_ + j) % 2; };
   clear(patch->free);
   clear(patch->bound);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The free set of a contact in tiles with margins as wide as the number of sweeps. Each tile lists the
-// groups of eight nodes that sweeps change: one chessboard colour, not free, near the edge. A patch is a
-// tile with its margin; each patch row stores the even columns before the odd ones.
+// The free set in tiles with margins as wide as the number of sweeps, and the groups of eight nodes that
+// sweeps change: of one chessboard colour, not free, near the edge. A patch is a tile with its margin.
 #pragma once
 
 #include <algorithm>
@@ -18,33 +17,32 @@
 
 namespace asperity {
 
-// Row loops of the contact preconditioner on arrays that do not overlap. Sweeps alternate between the two
-// chessboard colours, in place. The odd columns of a row start `half` values after the even ones, so the
-// neighbours of eight nodes of one colour are contiguous. No bounds checks.
+// Row loops on arrays that do not overlap. Sweeps alternate between the chessboard colours, in place. A
+// patch row stores the even columns and, `half` values later, the odd ones, so neighbours of eight nodes are
+// contiguous. No bounds checks.
 namespace edge_rows {
 
 constexpr int group = 8;            // nodes of one colour in a sweep
-constexpr int columns = 2 * group;  // columns of a group
-constexpr int bits = 64;            // per word of marks
+constexpr int columns = 2 * group;  // of a group
+constexpr int bits = 64;            // of a word
 
-// Sets bit place + k for each byte k that is 1; bytes are 0 or 1.
+// Sets bit place + k if byte k is 1; bytes are 0 or 1.
 void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint64_t* words);
 bool differ(const std::uint8_t* a, const std::uint8_t* b, std::size_t n);
-// to = 1 for each nonzero byte, else 0.
 void copy_marks(const std::uint8_t* from, std::size_t n, std::uint8_t* to);
-// Sets the bits from `place` to place + n.
+// From `place` to place + n.
 void fill_bits(std::size_t place, std::size_t n, std::uint64_t* words);
-// Sets the four neighbours of every bit; `work` has the size of `field`.
+// Sets the four neighbours of every bit.
 void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<std::uint64_t>& work);
 
 void add_times(double factor, const double* from, std::size_t n, double* to);
 void convert(const double* from, double factor, double offset, std::size_t n, float* to);
 void convert(const float* from, double scale, std::size_t n, double* to);
-// to += smooth row on the free set.
+// to += row on the free set.
 void add_free(const std::uint8_t* free, const SmoothRow<double>& from, std::size_t n, double* to);
 void fill(const SmoothRow<float>& from, std::size_t n, float* to);
 
-// Contributions of a row to sums over hats: marks; offset + slope · values on the free set; a − b; values.
+// Adds a row to sums over hats.
 void add_marks(const std::uint8_t* free, std::size_t n, const SmoothExtension::Sums::Row<double>& to);
 void add_residual(const std::uint8_t* free, const double* values, double slope, double offset, std::size_t n,
                   const SmoothExtension::Sums::Row<float>& to);
@@ -52,49 +50,46 @@ void add_difference(const float* a, const float* b, std::size_t n,
                     const SmoothExtension::Sums::Row<float>& to);
 void add_values(const float* values, std::size_t n, const SmoothExtension::Sums::Row<float>& to);
 
-// Start of a forward sweep, from column `place` on: now = offset + slope · values − less on the free set,
-// else 0.
+// Forward start: now = offset + slope · values − less on the free set, else 0.
 void start_free(const std::uint8_t* free, const double* values, double slope, double offset,
                 const SmoothRow<float>& less, std::size_t n, std::size_t place, std::size_t half, float* now);
-// Start of a transposed sweep: given = values, now = 0.
+// Transposed start: now = 0.
 void start_bound(const float* values, std::size_t n, std::size_t place, std::size_t half, float* given,
                  float* now);
 
-// Place of eight nodes of one colour in a patch (less than 2^24 places); the upper bits mark nodes that are
-// not free.
+// Place of eight nodes in a patch (below 2^24), and a bit for each that is not free.
 using Group = std::uint32_t;
 constexpr int start_bits = 24;
-// From every second of sixteen marks, starting at bit `lane`.
+// Every second of sixteen marks from bit `lane`.
 Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks);
 
-// now = share · sum of the four neighbours off the free set, for groups in odd or even columns; rows are
-// 2·half apart.
+// now = share · sum of the four neighbours, off the free set. Rows are 2·half apart.
 void sweep_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share, float* now);
-// now = share · (given + sum of the four neighbours) off the free set, 0 on it.
+// now = share · (given + sum of the four neighbours), 0 on the free set.
 void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share,
                        const float* given, float* now);
-// Restores the column order of a row and adds `more`.
+// Restores the column order and adds `more`.
 void merge(const float* row, std::ptrdiff_t half, const SmoothRow<float>& more, std::size_t n, float* to);
-// to = values + the four neighbours on the free set, else 0.
+// to = values + the four neighbours if free, else 0.
 void add_neighbours(const std::uint8_t* free, const float* values, const float* row, std::ptrdiff_t half,
                     std::size_t n, float* to);
 
 }  // namespace edge_rows
 
 struct FreeTile {
-  // In order of their distance from the free set.
+  // By distance from the free set.
   struct Groups {
     Array<edge_rows::Group> starts;
-    Array<std::uint32_t> reached;  // number within 0, 1, … steps
+    Array<std::uint32_t> reached;  // count within 0, 1, … steps
     std::span<const edge_rows::Group> within(int steps) const {
       return std::span(starts.data(), reached[static_cast<std::size_t>(steps)]);
     }
   };
   int x, y, width, height;
-  bool stale = true;          // changed marks in the patch
+  bool stale = true;          // the patch changed
   bool holds_free = false;    // a free node in the tile
   bool reaches_free = false;  // a free node in the patch
-  bool swept = false;         // a node in the patch that is not free
+  bool swept = false;         // a node of the patch is not free
   Groups groups[2][2] = {};   // by colour and column parity
 };
 
@@ -102,11 +97,10 @@ class FreeTiles {
  public:
   static constexpr int width = 512, height = 32;
 
-  // nx, ny >= 1; sweeps >= 0. Initially no node is free.
+  // Initially no node is free.
   FreeTiles(int nx, int ny, Boundary boundary, int sweeps);
 
-  // Sets the nodes with free[k] != 0. Calls renewed(tile) for each tile with a changed patch, from several
-  // threads.
+  // Free: free[k] != 0. Calls renewed(tile) for each changed patch, from several threads.
   void set(std::span<const std::uint8_t> free, const std::function<void(std::size_t tile)>& renewed);
 
   std::size_t count() const { return tiles_.size(); }
@@ -118,14 +112,14 @@ class FreeTiles {
   const std::uint8_t* marks(std::size_t k) const { return free_.data() + k; }
 
   int sweeps() const { return sweeps_; }
-  // Whether a patch may extend beyond the grid.
+  // A patch may extend beyond the grid.
   bool bounded() const { return !wraps_x_ || !wraps_y_; }
   int patch_height(const FreeTile& tile) const { return tile.height + 2 * sweeps_; }
   std::size_t patch_width() const { return static_cast<std::size_t>(width + 2 * margin_); }
-  // From the even to the odd columns of a patch row.
+  // From even to odd columns.
   std::ptrdiff_t half() const { return width / 2 + margin_ + edge_rows::group; }
   std::size_t row_places() const { return 2 * static_cast<std::size_t>(half()); }
-  // Start of patch row j, with one extra row on either side; start of row j of its tile.
+  // Start of patch row j (one extra row on either side), and of tile row j.
   std::size_t patch_row(int j) const { return static_cast<std::size_t>(j + 1) * row_places(); }
   std::size_t core_row(int j) const { return patch_row(j + sweeps_) + static_cast<std::size_t>(margin_ / 2); }
   std::size_t patch_places() const { return patch_row(height + 2 * sweeps_ + 1) + edge_rows::group; }
@@ -135,7 +129,7 @@ class FreeTiles {
   void each_run(const FreeTile& tile, int j, const Run& run) const;
 
  private:
-  // One bit per node of a patch: free, on the grid but not free, near free nodes.
+  // Free, on the grid but not free, near free.
   struct Bits {
     Array<std::uint64_t> free, bound, near, nearer, found;
     explicit Bits(std::size_t words) : free(words), bound(words), near(words), nearer(words), found(words) {}

@@ -14,18 +14,17 @@ namespace asperity {
 
 namespace {
 
-// Factors of cos(iX) cos(jY): minimax fit of S(t) + w(t)² |alias|/2 to |t|/2 with S(0) = 0, required by the
-// long waves.
+// Factors of cos(iX) cos(jY): minimax fit of S(t) + w(t)² |alias|/2 to |t|/2 with S(0) = 0.
 constexpr float s00 = 1.13600f, s10 = -0.53897f, s11 = -0.25386f;
 constexpr float s20 = 0.06862f, s21 = 0.01861f, s22 = 0.02134f;
 
-// The stencil of the square cell is good enough up to this aspect.
+// Up to this aspect the square cell's stencil serves.
 constexpr double squareness = 1.15;
 
 constexpr int coarsest = 16;
 
-// Least thickness, in cells, of a layer whose grid is halved: the stencil's waves then have |q| t >= 2.4 and
-// a share >= .75, except on nearly incompressible layers. Measured: fewer transforms than with 4.
+// Thickness in cells: the stencil's waves then have |q| t >= 2.4 and a share >= .75, except on nearly
+// incompressible layers. Fewer transforms than with 4.
 constexpr double least_thickness = 1.5;
 constexpr int halo = 2;
 
@@ -34,7 +33,7 @@ std::int64_t block_count(int items, int block) {
   return (static_cast<std::int64_t>(items) + block - 1) / block;
 }
 
-// A row with margins: 0 beyond a free rim, else the other end.
+// Margins: 0 beyond a free rim, else the other end.
 class MarginedRow {
  public:
   MarginedRow(int nx, bool wraps)
@@ -63,7 +62,7 @@ void weigh(const float* __restrict below, const float* __restrict here, const fl
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (below[i] + above[i]) + 0.5f * here[i];
 }
 
-// to = (a + b)/4: 2 W up of one coarse row (a = b) or of the two nearest.
+// (a + b)/4: 2 W up of one coarse row or of the two nearest.
 void add_quarters(const float* a, const float* b, int n, float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (a[i] + b[i]);
 }
@@ -89,7 +88,7 @@ inline __attribute__((always_inline)) void put(const Nodes& from, float* to) {
   *reinterpret_cast<NodesAnywhere*>(to) = from;
 }
 inline __attribute__((always_inline)) void put(const float& from, float* to) { *to = from; }
-// Values of a row with twice the nodes of `coarse`, from node i on: coarse values and their means.
+// Coarse values and, between them, their means.
 inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Nodes& to) {
   const HalfOfNodes even = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2);
   const HalfOfNodes next = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2 + 1);
@@ -100,7 +99,7 @@ inline __attribute__((always_inline)) void interpolate(const float* coarse, int 
   to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
 }
 
-// Calls loop.operator()<Value>(i) for registers of nodes, then for single nodes.
+// For registers of nodes, then for single nodes.
 template <class Loop>
 inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
   int i = 0;
@@ -112,7 +111,7 @@ struct FiveRows {
   const float *far_below, *below, *here, *above, *far_above;
 };
 
-// Column sums of the stencil: own column plus the coarse grid's part, columns ±1, columns ±2.
+// Column sums: own column with the coarse part, ±1, ±2.
 void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
   each(n, [=, rows = five]<class Value>(int i) {
     Value far_below, below, here, above, far_above, from_coarse;
@@ -141,7 +140,7 @@ void stencil_rows(const float* c0, const float* c1, const float* c2, int n, floa
   });
 }
 
-// a·b: sixteen partial sums of up to 32 terms in single precision, added in double.
+// Sums of up to 32 terms in single precision, added in double.
 double product_of_rows(const float* a, const float* b, int n) {
   constexpr int sums = 16, chunk = 32 * sums, parts = sums / lanes;
   double total = 0;
@@ -172,8 +171,8 @@ std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, dou
   const bool wraps = boundary == Boundary::periodic;
   double thickness = multiplier.length;
   while (std::min(levels.back().nx, levels.back().ny) > coarsest && thickness >= least_thickness) {
-    // One coarse node beyond a free rim still feels the last fine node. On odd periodic sides the first and
-    // last coarse nodes are neighbours on the fine grid.
+    // A coarse node beyond a free rim still feels the last fine node. On odd periodic sides the first and
+    // last coarse nodes are neighbours.
     const auto half = [wraps](int n) { return wraps ? (n + 1) / 2 : n / 2 + 1; };
     levels.push_back({half(levels.back().nx), half(levels.back().ny), {}, {}});
     thickness /= 2;
@@ -258,7 +257,7 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int rows = rows_per_block(nx);
   const std::int64_t blocks = block_count(fine.ny, rows);
   const bool finest = &fine == &levels_.front();
-  // Odd side: the first and last nodes are coarse nodes and neighbours, coupled by W.
+  // On odd sides W couples the first and last nodes.
   const bool seam_x = wraps_ && nx % 2 != 0, seam_y = wraps_ && fine.ny % 2 != 0;
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {

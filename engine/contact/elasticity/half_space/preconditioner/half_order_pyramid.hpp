@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operator |q|/2 in cell units without a Fourier transform of the grid: a 5 × 5 stencil of sum zero for
-// short waves, a coarser grid for long ones, B a = S a + 2 W up(B(down(W a))). W: full weighting; down:
-// every second node; up: its transpose. Only the coarsest grid is transformed. Within 0.7 … 1.3 of |q|/2 for
-// every wave, symmetric, 0 for a constant on a periodic grid; single precision. A free field is 0 beyond the
-// rim. On odd periodic sides waves across the seam are less accurate. Cells far from square: one exact, more
-// expensive transform. On a layer: 1/K without the mean; grids are halved while the stencil's waves do not
-// feel the base, not below 1.5 cells of thickness.
+// |q|/2 in cell units without a Fourier transform of the grid: a 5 × 5 stencil of sum zero for short waves,
+// a coarser grid for long ones, B a = S a + 2 W up(B(down(W a))), W full weighting, down every second node,
+// up its transpose. Only the coarsest grid is transformed. Within 0.7 … 1.3 of |q|/2 for every wave;
+// symmetric; 0 for a periodic constant; single precision. A free field is 0 beyond the rim. Odd periodic
+// sides are less accurate across the seam. Cells far from square: one exact, more expensive transform.
+// Layers: 1/K without the mean, grids halved down to 1.5 cells of thickness.
 #pragma once
 
 #include <span>
@@ -20,19 +19,18 @@ namespace asperity {
 
 class HalfOrderPyramid {
  public:
-  // `weight`: cost of a transform of this grid in transforms of the finest.
+  // `weight`: of a transform, in transforms of the finest grid.
   HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                    const ComplianceMultiplier& multiplier = {});
 
-  // The input field, nx·ny values row by row; apply() preserves it.
+  // nx·ny values row by row; apply() preserves it.
   std::span<float> input() { return levels_.front().in; }
-  // B·input(); valid until the next call. Same bits for any number of threads.
+  // Valid until the next call. Same bits for any number of threads.
   std::span<const float> apply();
   // a·B a of the last call.
   double product() const { return product_; }
 
-  // Transforms of a call relative to one pair on this grid; 1 without coarser grids. Counted if above a
-  // thousandth.
+  // Relative to one transform pair on this grid. Counted if above a thousandth.
   double transform_share() const { return transform_share_; }
 
   static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,
@@ -55,7 +53,7 @@ class HalfOrderPyramid {
   bool wraps_;
   double weight_, transform_share_, product_ = 0;
   std::vector<Level> levels_;  // finest first
-  Array<float> zeros_;         // row beyond the rim
+  Array<float> zeros_;         // beyond the rim
   FourierFilter filter_;
   Array<double> multiplier_, work_;
 };

@@ -8,7 +8,7 @@
 namespace asperity {
 
 namespace {
-// Nodes between points; share of a hat's mass in its divisor. A factor of two in either changes little.
+// Nodes between points; share of a hat's mass. A factor of two in either changes little.
 constexpr int spacing = 32;
 constexpr double reluctance = 0.03;
 
@@ -16,7 +16,6 @@ struct Pair {
   double left, right;
 };
 
-// Sums of values·(1 − share) and values·share.
 template <class Real>
 Pair weighed(const Real* __restrict values, const Real* __restrict share, int n) {
   constexpr int lanes = 8;
@@ -161,8 +160,7 @@ template void SmoothExtension::Sums::finish(std::span<float>);
 template void SmoothExtension::Sums::finish(std::span<double>);
 
 namespace {
-// Aspect from which lines need fewer steps than sweeps, or sweeps fail; measured on 96 × 96 cells, aspect 4
-// to 1000.
+// Lines beat sweeps from this aspect; measured on 96 × 96 cells, aspect 4 to 1000.
 constexpr double long_cells = 25, long_cells_of_free_tile = 50;
 }  // namespace
 
@@ -191,7 +189,7 @@ void LineExtension::set_free(std::span<const std::uint8_t> free) {
   }
   begin_[static_cast<std::size_t>(lines_)] = free_.size();
 
-  std::vector<int> held;  // lines with free nodes
+  std::vector<int> held;  // with free nodes
   for (int line = 0; line < lines_; ++line)
     if (!free_of(line).empty()) held.push_back(line);
   std::fill(beside_.begin(), beside_.end(), Beside{});
@@ -254,7 +252,7 @@ void LineExtension::extend(std::span<float> field) const {
 }
 
 void LineExtension::gather(std::span<float> field) const {
-  // Serial: several lines may add to the same line.
+  // Serial: several lines add to one.
   for (int line = 0; line < lines_; ++line) {
     const Beside& beside = beside_[static_cast<std::size_t>(line)];
     if (beside.low == line) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Extension of a residual far beyond the edge of a free set: a bilinear field of local means at points 32
-// nodes apart or, on long cells, interpolation along lines. |q|/2 makes a jump around each contact
-// expensive; an extension across the gaps between contacts avoids these jumps.
+// Extends a residual far beyond the edge of a free set: a bilinear field of local means at points 32 nodes
+// apart or, on long cells, interpolation along lines. This avoids jumps around each contact, which |q|/2
+// makes expensive.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// Hat functions of one side. Periodic: they wrap. Free: one on either rim.
+// Hat functions of one side: periodic, or one on either rim.
 struct HatAxis {
   HatAxis(int nodes, Boundary boundary);
   int next(int hat) const { return hat + 1 == hats && wraps ? 0 : hat + 1; }
@@ -32,11 +32,11 @@ struct HatAxis {
   Array<int> before;    // per node: the last hat at or before it
   Array<double> share;  // per node: value of the next hat
   Array<float> single_share;
-  Array<int> end;      // per hat: end of the nodes with this `before`
+  Array<int> end;      // per hat: end of its nodes
   Array<double> mass;  // per hat: sum over all nodes
 };
 
-// Row of a smooth field: low_share·low[i] + high_share·high[i].
+// low_share·low[i] + high_share·high[i].
 template <class Real>
 struct SmoothRow {
   const Real *low, *high;
@@ -47,14 +47,13 @@ class SmoothExtension {
  public:
   SmoothExtension(int nx, int ny, Boundary boundary);
 
-  // Sums of values times hats over a rectangle, row by row from the first; rows without contribution may be
-  // skipped.
+  // Over a rectangle, row by row from the first; rows without contribution may be skipped.
   class Sums {
    public:
     Sums(const SmoothExtension& hats, int x, int y, int width, int height);
     void clear();
-    // Accumulators for row y: add low_share times each value to `low` and high_share times it to `high`.
-    // `work`: 2·width values, preserved between rows.
+    // Add low_share times each value of row y to `low`, high_share times to `high`. `work`: 2·width values,
+    // preserved between rows.
     template <class Work>
     struct Row {
       Work *low, *high;
@@ -70,11 +69,11 @@ class SmoothExtension {
     const SmoothExtension* hats_;
     int x_, y_, width_;
     int columns_, rows_;
-    int band_ = -1;  // hat before the rows that `work` holds
+    int band_ = -1;  // hat before the rows in `work`
     Array<double> sums_;
   };
 
-  // Bilinear field from values at the points.
+  // Bilinear between the points.
   template <class Real>
   class Field {
    public:
@@ -94,12 +93,12 @@ class SmoothExtension {
 
    private:
     const SmoothExtension* hats_;
-    Array<Real> rows_;  // rows through the points
+    Array<Real> rows_;  // through the points
   };
 
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
-  // Divisor of a hat's sum over the free nodes; `free`: the hat's sum of 1. It exceeds `free` so that a lone
-  // contact is not spread over the surface.
+  // Divisor for the hat's sum over the free nodes. It exceeds `free`, so a lone contact is not spread over
+  // the surface.
   double divisor(std::size_t hat, double free) const;
 
  private:
@@ -109,25 +108,24 @@ class SmoothExtension {
   HatAxis x_, y_;
 };
 
-// Extension on cells much longer than wide, where |q|/2 makes jumps along a line (short side) expensive and
-// jumps between lines cheap: linear interpolation between the free nodes of a line, then between the nearest
-// lines with free nodes. Linear, with its exact transpose.
+// For cells much longer than wide, where only jumps along a line (short side) are expensive. Linear
+// interpolation between the free nodes of a line, then between lines with free nodes. Linear, with its exact
+// transpose.
 class LineExtension {
  public:
-  // nx, ny >= 1. `along_x`: lines are rows, else columns.
+  // `along_x`: lines are rows.
   LineExtension(int nx, int ny, Boundary boundary, bool along_x);
 
-  // Whether the cells are long enough, in either direction.
   static bool serves(double aspect, Boundary boundary);
 
   void set_free(std::span<const std::uint8_t> free);
-  // Fills all other nodes from the free ones. Same bits for any number of threads.
+  // From the free nodes to all others. Same bits for any number of threads.
   void extend(std::span<float> field) const;
-  // Transpose of extend(): sums on the free nodes, 0 elsewhere.
+  // The transpose: sums on the free nodes, 0 elsewhere.
   void gather(std::span<float> field) const;
 
  private:
-  // Nearest lines with free nodes; the line itself twice if it has some, −1 if no line has.
+  // Nearest lines with free nodes; twice itself, or −1 if there are none.
   struct Beside {
     int low = -1, high = -1;
     float share = 0;  // weight of `high`
@@ -139,16 +137,15 @@ class LineExtension {
     const auto at = static_cast<std::size_t>(line);
     return std::span(free_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
   }
-  // Calls share(k, low, high, t) for each node that is not free: t is its relative position between the free
-  // nodes.
+  // share(k, low, high, t) for each node that is not free, t of the way between two free ones.
   template <class Share>
   void each_between(int line, const Share& share) const;
 
   int lines_, length_;
   std::size_t line_step_, node_step_;
   bool wraps_;
-  Array<int> free_;           // positions in their lines, line after line
-  Array<std::size_t> begin_;  // of each line in free_, and the end
+  Array<int> free_;           // positions, line after line
+  Array<std::size_t> begin_;  // per line in free_, and the end
   std::vector<Beside> beside_;
 };
 
