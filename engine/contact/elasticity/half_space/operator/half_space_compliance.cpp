@@ -42,7 +42,7 @@ ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean)
 
 namespace {
 
-// Half of Gauss's nodes and weights on [−1, 1], orders 4, 8 and 16.
+// Positive nodes of Gauss's rules of 4, 8 and 16 points on [−1, 1].
 struct Node {
   double at, weight;
 };
@@ -61,8 +61,7 @@ constexpr std::array<Node, 8> rule_16{{{0.095012509837637440, 0.1894506104550685
                                        {0.94457502307323258, 0.062253523938647893},
                                        {0.98940093499164993, 0.027152459411754095}}};
 
-// ∫ dη / √(x² + (y−η)²) over |η| < half = asinh((y+half)/x) − asinh((y−half)/x), x, y > 0, as one asinh
-// without cancellation.
+// ∫ dη / √(x² + (y−η)²) over |η| < half = asinh((y+half)/x) − asinh((y−half)/x), without cancellation.
 double line(double x, double y, double half) {
   const double near = y - half, beyond = y + half;
   if (near <= 0) return elementary::asinh(beyond / x) - elementary::asinh(near / x);
@@ -79,7 +78,7 @@ double gauss(const std::array<Node, n>& rule, double x, double half, double y, d
   return sum;
 }
 
-// The integrand is singular only at x = 0. Gauss's rule of n points has the relative error
+// The integrand is singular only at x = 0. Relative error of Gauss's rule of n points:
 // (2·distance/half)^(−2n).
 double integrate(double x, double half, double y, double other) {
   const double distance = x / half;
@@ -117,8 +116,8 @@ double LoveKernel::operator()(double i, double j) const {
   return integral * std::numbers::inv_pi;
 }
 
-// Taylor series of 1/R to fourth order; mean of x'^2m y'^2n over the rectangle: a^2m b^2n / ((2m+1)(2n+1)).
-// Next term: (half side / R)^6 < 2e-14.
+// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n over the
+// rectangle. Next term: (half side / R)^6 < 2e-14.
 double LoveKernel::far(double x, double y) const {
   const double xx = x * x, yy = y * y, rr = xx + yy;
   const double s = 1 / rr;
@@ -134,12 +133,12 @@ double LoveKernel::far(double x, double y) const {
 
 namespace {
 
-// Length of a convolution of n values without wrap.
+// Convolution of n values without wrap.
 int padded(int n) { return std::max(2, good_fourier_length(2 * n - 1)); }
 
 int period(int n, Boundary boundary) { return boundary == Boundary::periodic ? n : padded(n); }
 
-// The operator's period if FourierLaneFilter supports it, otherwise padded.
+// The operator's period if FourierLaneFilter supports it.
 int transform_period_x(int n, Boundary boundary) {
   return boundary == Boundary::periodic && n % 2 == 0 && LaneFourier<double>::possible(n) ? n : padded(n);
 }
@@ -161,7 +160,7 @@ void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny,
   if (a == 0) factors[0] = multiplier.uniform;
 }
 
-// Replaces even sequences, given from 0 to period/2, by their real transforms.
+// Even sequences, given from 0 to period/2, become their real transforms.
 constexpr int sequences_at_once = BatchFourier::rows;
 void transform_even(const BatchFourier& fourier, std::span<double* const> halves) {
   const int period = fourier.length();
@@ -183,8 +182,8 @@ void transform_even(const BatchFourier& fourier, std::span<double* const> halves
     std::transform(to[r], to[r] + bins, halves[r], [](std::complex<double> bin) { return bin.real(); });
 }
 
-// Transform of an even kernel; coefficient(i, j) is the displacement at i and j cells, up to half a period.
-// multiplier[a (period_y/2 + 1) + b] is the factor of wave (a, b).
+// coefficient(i, j): displacement at i and j cells, up to half a period. multiplier[a (period_y/2 + 1) + b]:
+// factor of wave (a, b).
 template <class Coefficient>
 void transform_kernel(int period_x, int period_y, const Coefficient& coefficient,
                       std::span<double> multiplier) {
@@ -217,8 +216,7 @@ void transform_kernel(int period_x, int period_y, const Coefficient& coefficient
   });
 }
 
-// The periodic tile on a longer period: its kernel at distances between nodes, below the sides; longer
-// distances meet only zeros.
+// The periodic tile on a longer period, by its kernel at distances below its sides.
 void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny, double aspect, int period_x,
                             int period_y, std::span<double> multiplier) {
   const auto half_y = static_cast<std::size_t>(ny / 2 + 1);
@@ -245,7 +243,7 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
 
 }  // namespace
 
-// One filter per precision. The inactive filter keeps its multiplier and frees its spectrum.
+// The inactive filter keeps its multiplier and frees its spectrum.
 struct HalfSpaceCompliance::Parts {
   int nx, ny;
   int period_x, period_y;        // of the operator
@@ -257,7 +255,7 @@ struct HalfSpaceCompliance::Parts {
   std::optional<FourierLaneFilter<double>> lanes;
   std::optional<FourierLaneFilter<float>> singles;
   double scale = 1;     // of pressures, for `singles`
-  Array<double> field;  // results without a caller's field
+  Array<double> field;  // results, if the caller stores none
 
   Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single,
         const ComplianceMultiplier& of_wave_)
@@ -292,7 +290,7 @@ struct HalfSpaceCompliance::Parts {
       lanes.emplace(nx, ny, transform_x, transform_y, factors);
   }
 
-  // Whether the transforms have the tile's own period: each factor is then a closed form.
+  // Each wave then has a factor in closed form.
   bool of_tile() const { return boundary == Boundary::periodic && transform_x == nx && transform_y == ny; }
   FourierLaneFilter<double>& in_double() {
     if (singles) singles->rest();
@@ -311,7 +309,7 @@ struct HalfSpaceCompliance::Parts {
   }
 
   std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
-  // Factors of the waves (a, b), b = 0 … period_y/2.
+  // Waves (a, b), b = 0 … period_y/2.
   void factors_of(int a, std::span<double> factors) {
     const bool periodic = boundary == Boundary::periodic;
     if (lanes && (!periodic || of_tile()))
@@ -405,7 +403,7 @@ void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::s
 
 HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
   const int period_x = parts_->period_x, period_y = parts_->period_y;
-  // Number of waves per bin of the quarter spectrum.
+  // Waves per bin of the quarter spectrum.
   const auto waves = [](int bin, int period) { return bin == 0 || 2 * bin == period ? 1.0 : 2.0; };
   Array<double> sums(static_cast<std::size_t>(period_x / 2 + 1)), inverse(sums.size());
   Array<double> column(parts_->bins_y());

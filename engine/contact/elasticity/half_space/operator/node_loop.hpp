@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops over grid nodes in fixed blocks shared by threads; sums and minima in fixed lanes and blocks: same
-// bits for any number of threads and vector width. A term may write to its own node, so an update and its
-// sums need one pass over memory. Nodes of a chunk form one loop for the vectoriser; chunks without marked
-// nodes can be skipped. Bodies and terms should capture by value (a byte store may alias a reference), read
-// before they decide, and select instead of branch.
+// Loops over grid nodes with sums and minima in fixed lanes and blocks: same bits for any number of threads
+// and vector width. A term may write to its own node: an update and its sums need one pass over memory.
+// Chunks vectorise, and chunks without marked nodes can be skipped. Terms should capture by value (a byte
+// store may alias a reference), read before they decide, and select instead of branch.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +85,7 @@ struct Lanes {
     for (std::size_t i = 0; i < size; ++i)
       for (LaneVector& part : lanes[i]) part = LaneVector{} + none(i);
   }
-  // `k` is a multiple of the lanes from the start of the block.
+  // `k`: whole lanes from the start of the block.
   template <class Term>
   void take_chunk(std::size_t k, const Term& term) {
     alignas(64) double values[size][nodes_a_chunk];
@@ -159,14 +158,14 @@ void for_nodes(std::size_t nodes, Body body) {
   node_loop::visit(nodes, node_loop::All{}, body);
 }
 
-// body(k) for each marked node and for some others.
+// body(k) for each marked node and some others.
 template <class Body>
 void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
   node_loop::visit(marks.size(), node_loop::Marked{marks.data()}, body);
 }
 
-// term(k, v) sets v[0 … sums) to node k's summands and the rest to its candidates for the minima. Returns
-// both in this order; a minimum over nothing is +∞.
+// term(k, v) sets v[0 … sums) to summands, the rest to candidates for minima; returned in this order. A
+// minimum over nothing is +∞.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
   return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
@@ -174,7 +173,7 @@ std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
   });
 }
 
-// Nodes from `begin` to `end` on this thread.
+// On this thread.
 template <class Body>
 void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
@@ -184,7 +183,7 @@ template <std::size_t sums, class Term>
 std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
   return node_loop::gather_range<sums, 0>(begin, end, term);
 }
-// Adds the sums of stretches in order.
+// Adds in order.
 template <std::size_t sums>
 std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) {
   std::array<double, sums> total{};
@@ -193,9 +192,9 @@ std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) 
   return total;
 }
 
-// The same sums and minima with the same bits for the hot loops of a descent, with the sums in registers. A
-// term is a template of Value: a vector of lanes or, for the last nodes, a double. read() and put() access
-// fields; comparisons select: `a < b ? c : d`.
+// The same bits for the hot loops of a descent, sums in registers. A term is a template of Value: a vector
+// of lanes or, for the last nodes, a double. read() and put() access fields; comparisons select: `a < b ? c
+// : d`.
 namespace lane_terms {
 
 using node_loop::lanes_a_part;
@@ -262,7 +261,7 @@ std::array<double, sums + minima> over_lanes(std::size_t nodes, Term term) {
     return lane_terms::gather_range<sums, minima>(begin, end, term);
   });
 }
-// As for_nodes and for_stretch; calls body.operator()<Value>(k).
+// As for_nodes and for_stretch; body.operator()<Value>(k).
 template <class Body>
 void for_lanes(std::size_t nodes, Body body) {
   for_node_blocks(nodes,
