@@ -13,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-// Of a sum or transform, whose rounding errors partly cancel.
+// Error of a sum or transform; roundings partly cancel.
 constexpr double relative_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 // Greatest a with a² <= linear·a + rest.
@@ -24,8 +24,8 @@ double greatest_root(double linear, double rest) {
 // 0 · ∞ = 0.
 double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
-// Error of a slope estimated by difference quotients of a convex function with values exact to `slack`,
-// curvature at most `curvature`, steps at most `room`: min over t of curvature·t/2 + slack/t.
+// Error of a slope from difference quotients of a convex function: values exact to `slack`, curvature at
+// most `curvature`, steps at most `room`: min over t of curvature·t/2 + slack/t.
 double slope_slack(double curvature, double slack, double room) {
   if (!(room > 0)) return infinity;
   if (!(slack > 0)) return 0;
@@ -34,7 +34,7 @@ double slope_slack(double curvature, double slack, double room) {
   return curvature > 0 ? 0.5 * curvature * room + slack / room : slack / room;
 }
 
-// Units: greatest pressure 1, half-space in cell units. Sums over nodes; `joule_` is the energy per node.
+// Cell units, with a greatest pressure of 1. Sums over nodes.
 class Bounds {
  public:
   Bounds(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, const Reported& reported)
@@ -75,7 +75,7 @@ class Bounds {
  private:
   bool faces(std::size_t k) const { return problem_.faces(k); }
   double pressure(std::size_t k) const { return pressure_[k]; }
-  // The cap or the yield pressure.
+  // Cap or yield pressure.
   double limit(std::size_t k) const {
     return problem_.yield.hardens() ? problem_.yield.yields_at(k) / pascal_ : cap_;
   }
@@ -96,7 +96,7 @@ class Bounds {
   const HalfSpaceAnswer& at_;
   const Reported& reported_;
   std::size_t nodes_;
-  double n_, facing_;  // all nodes, nodes with a counterpart
+  double n_, facing_;  // all nodes, those with a counterpart
   bool with_mean_;     // K(0) of a layer enters
   bool periodic_;      // the mean pressure moves nothing
   // Uniform compression of a layer, m; approach [m] and energy [J] without it.
@@ -106,22 +106,22 @@ class Bounds {
   HalfSpaceCompliance compliance_;
   HalfSpaceCompliance::Spectrum spectrum_;
 
-  Array<double> pressure_;             // of the answer, with exactly the prescribed load
-  double moved_ = 0, moved_most_ = 0;  // correction of the load: sum, greatest
+  Array<double> pressure_;             // the answer's, at exactly the prescribed load
+  double moved_ = 0, moved_most_ = 0;  // change of pressure_: sum, greatest
   Array<double> gap_, work_, image_;   // Kp − h − δ
   double total_ = 0;                   // Σ p
   double norm_ = 0;                    // ‖p‖_K
   double gap_rounding_ = 0;
   double residual_ = 0, rest_ = 0;  // ‖r‖_{K⁻¹}, Σ p s⁺ + Σ (H − p) s⁻
-  double mean_residual_ = 0;        // of r; outside the periodic operator
+  double mean_residual_ = 0;        // of r
 
-  double distance_ = 0;                             // bound on ‖d‖_K
-  double slack_ = 0;                                // bound on E(p) − E(p*)
+  double distance_ = 0;                             // bounds ‖d‖_K
+  double slack_ = 0;                                // bounds E(p) − E(p*)
   double approach_error_ = 0, load_error_ = 0;      // |δ − δ*|, |Σ d|
-  double near_gap_ = infinity, near_pressure_ = 0;  // bounds at any node
+  double near_gap_ = infinity, near_pressure_ = 0;  // at any node
 };
 
-// Distributes the load error of the solve over nodes with room.
+// Distributes the missing load over nodes with room.
 void Bounds::take_pressures() {
   pressure_ = Array<double>(nodes_);
   const auto room = [cap = cap_](double p) {
@@ -147,7 +147,7 @@ void Bounds::take_pressures() {
   moved_most_ = -moved[2];
 }
 
-// Freshly computed gaps; heights count from the highest node, near a light contact.
+// Fresh gaps; heights count from the highest node.
 void Bounds::take_gaps() {
   work_ = Array<double>(nodes_);
   gap_ = Array<double>(nodes_);
@@ -164,10 +164,9 @@ void Bounds::take_gaps() {
   const Field& h = *problem_.heights;
   const double peak = known_range(h.values()).max;
   for_nodes(nodes_, [&](std::size_t k) {
-    // Nodes without a counterpart are out of reach.
     gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - approach_) / metre_ : at_.gap[k] / metre_;
   });
-  // Rounding of the pressures and a remaining load error add to the distance.
+  // Rounding and a remaining load error add to the distance.
   const double miss =
       std::abs(total_ / n_ * pascal_ - at_.mean_pressure) / std::max(at_.mean_pressure, 1e-300);
   distance_ = relative_rounding * std::sqrt(spectrum_.node * sums[1]) + miss * norm_;
@@ -176,7 +175,7 @@ void Bounds::take_gaps() {
 void Bounds::take_residual() {
   const double own = spectrum_.inverse_node > 0 ? 1 / spectrum_.inverse_node : infinity;
   image_ = Array<double>(nodes_);
-  // Part of a gap that the node cannot close by moving its pressure to a bound belongs to `rest_`.
+  // The part of a gap that the node's own pressure cannot close belongs to `rest_`.
   const auto sums = over_nodes<4, 1>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), gap = yielding_gap(k), room = cap_ - p;
     const double most = gap > 0 ? p : room, wrong = std::abs(gap);
@@ -217,12 +216,11 @@ double Bounds::step_norm(std::span<const double> step) {
   return std::sqrt(std::max(0.0, squares));
 }
 
-// δ* is the slope of the least energy over Σ p: bracketed by difference quotients of the energy along
-// feasible directions, with energies known to `slack_`.
+// δ*, slope of the least energy over Σ p, is between difference quotients of energies known to `slack_`.
 void Bounds::bracket_approach() {
-  double above = infinity, below = infinity;  // distance of δ* on either side
+  double above = infinity, below = infinity;  // distance of δ*
   const double own = spectrum_.node;
-  // Direction: one node.
+  // Direction: one node alone.
   const auto single = over_nodes<1, 4>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), bound = limit(k), gap = yielding_gap(k);
     const double room = bound - p;
@@ -240,7 +238,7 @@ void Bounds::bracket_approach() {
     above = std::min(above, slope + slope_slack(norm_squared, slack_, room_up));
     below = std::min(below, slope_slack(norm_squared, slack_, room_down) - slope);
   };
-  // Direction: all pressures in proportion; nodes past their yield pressure also give way.
+  // Direction: all pressures in proportion; yielding nodes also give way.
   const bool at_limit = single[0] > 0;
   if (!at_limit || give_ > 0) {
     const auto sums = over_nodes<3>(nodes_, [&](std::size_t k, double* v) {
@@ -267,7 +265,7 @@ void Bounds::bracket_approach() {
       along(room[1] / room[0], norm * norm, room[0], room[0]);
     }
   }
-  // Direction: a uniform pressure, which moves nothing on a periodic tile.
+  // Direction: a uniform pressure.
   if (periodic_ && !at_limit && at_.contacts == static_cast<std::int64_t>(nodes_)) {
     const double slope = block_sum(gap_) / n_;
     const auto least = over_nodes<0, 2>(nodes_, [&](std::size_t k, double* v) {
@@ -279,8 +277,8 @@ void Bounds::bracket_approach() {
   approach_error_ = std::max({above, below, 0.0}) + gap_rounding_;
 }
 
-// Load at the requested approach: Σ d <= σ ‖d‖_K if neither solution touches outside a set. This is true on
-// the whole path between them if no gap changes by more than the least gap outside.
+// Load at the requested approach: Σ d <= σ ‖d‖_K if nothing touches outside a set on the whole path between
+// both solutions. This is true if no gap changes by more than the least gap outside.
 void Bounds::follow_asked_approach() {
   const double shift = (approach_ - reported_.asked_approach) / metre_;
   approach_error_ = std::abs(shift);
@@ -352,8 +350,8 @@ SolutionError Bounds::result() {
   const double greatest_peak = std::min(cap_, 1 + near_pressure_);
   error.peak_pressure = pascal_ * std::max(1 - least_peak, greatest_peak - 1);
 
-  // Σ w from gaps: surely negative gaps change together, the others individually.
-  double openings = counts[5];  // bound on the error of Σ g⁻
+  // Σ w: surely negative gaps change together, others individually.
+  double openings = counts[5];  // error of Σ g⁻
   if (caps || hardens) {
     error.yielded = {whole(counts[3]), whole(counts[4])};
     openings = counts[7] + product(counts[6], approach_error_ + gap_rounding_);
@@ -366,7 +364,7 @@ SolutionError Bounds::result() {
     const double volume = metre_ * problem_.grid.cell_area();
     const double apart = std::abs(reported_.plastic_volume / volume - counts[5]);
     double plastic = openings + apart;
-    // With hardening the energy is convex in w: Σ (Δw)²/give is bounded.
+    // Hardening makes the energy convex in w: Σ (Δw)²/give is bounded.
     if (hardens && reported_.prescribed != Prescribed::approach) {
       const double convex = std::sqrt(counts[4] * give_ * (0.25 * residual_ * residual_ + rest_)) +
                             give_ * (moved_ + relative_rounding * n_);
@@ -375,7 +373,7 @@ SolutionError Bounds::result() {
     }
     error.plastic_volume = plastic * volume + relative_rounding * reported_.plastic_volume;
   }
-  // mean(g⁺) = mean(g) + mean(g⁻); the longest wave bounds the mean of K d.
+  // mean(g⁺) = mean(g) + mean(g⁻); the longest wave bounds mean K d.
   const double sunk = periodic_ ? 0 : std::sqrt(spectrum_.greatest / facing_) * distance_;
   const double reported = reported_.mean_gap / metre_;
   const double gap_error =

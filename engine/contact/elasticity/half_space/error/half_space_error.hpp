@@ -12,25 +12,23 @@
 
 namespace asperity {
 
-// Quantity that the exact solution shares with the answer.
 enum class Prescribed {
-  load,       // mean pressure
+  load,       // the mean pressure
   approach,   // the requested approach
-  flattening  // the load found; the exact one is unknown
+  flattening  // the load found; its error is unknown
 };
 
 struct Reported {
   Prescribed prescribed = Prescribed::load;
-  double asked_approach = 0;  // m, for Prescribed::approach
+  double asked_approach = 0;  // m
   double mean_gap = 0;        // m
   double energy = 0;          // J
   double plastic_volume = 0;  // m³
 };
 
-// Costs one application of K, one of K⁻¹ and, with yield or a prescribed approach, a few more; five fields
-// of memory. Under an approach the load error is Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any field f = 1 on the union of
-// both contacts; no sharper than stiffness times error of the approach. K(0) of a layer enters only under an
-// approach.
+// One application of K, one of K⁻¹, with yield or a prescribed approach a few more; five fields. Under an
+// approach the load error is Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any f = 1 on both contacts; K(0) of a layer enters
+// only there.
 SolutionError half_space_error(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer,
                                const Reported& reported);
 
