@@ -74,15 +74,15 @@ class AdhesiveDescent {
     });
   }
 
-  // Attraction at first touch; without attraction a pull would separate the bodies at once.
+  // Without attraction a pull would separate the bodies at once.
   void begin_touching() {
     for_nodes(nodes_, [&](std::size_t k) { q_[k] = traction(drop_[k]); });
   }
 
-  // Iterates until fixed attraction and attraction of the gap agree to `tolerance`.
+  // Iterates until the fixed attraction equals the attraction of the gap, to `tolerance`.
   void run(double tolerance);
 
-  double approach = 0;         // δ, cells; a result under a load
+  double approach = 0;         // δ, cells; found under a load
   std::optional<double> load;  // prescribed mean p − mean q, E*
   bool separates = false;
 
@@ -135,8 +135,8 @@ class AdhesiveDescent {
 };
 
 // Contact with fixed attraction: p >= 0, g = K (p − q) + d − δ >= 0, p g = 0, to `close` in the gap. Under a
-// load mean p = target, and δ makes the mean contact gap 0. Preconditioned projected conjugate gradients on
-// the touching and overlapping nodes (Polonsky & Keer 1999), restarted when this set changes.
+// load mean p = target and the mean contact gap is 0. Preconditioned projected conjugate gradients (Polonsky
+// & Keer 1999), restarted when the contact set changes.
 double AdhesiveDescent::contact(double close, double target) {
   const bool fixed = load.has_value();
   if (fixed) scale_to(target);
@@ -219,7 +219,7 @@ double AdhesiveDescent::contact(double close, double target) {
       for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
       if (fixed) scale_to(target);
       find_gap();
-      // The energy is quadratic: its change is Σ Δp times the mean of both gaps.
+      // Quadratic energy: its change is Σ Δp times the mean of both gaps.
       const double change = over_nodes<1>(
           nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
       if (change <= 0) break;
@@ -229,7 +229,7 @@ double AdhesiveDescent::contact(double close, double target) {
 }
 
 void AdhesiveDescent::run(double tolerance) {
-  // The certificate divides gaps by the rms height; the attraction depends on them by its range.
+  // The certificate measures gaps by the rms height, the attraction by its range.
   const double rms = problem_.contact.rms / length_;
   const double tightest = 0.5 * tolerance * (rms > 0 ? std::min(shortest_, rms) : shortest_);
   double loose = 0.1 * shortest_;
@@ -270,7 +270,7 @@ void AdhesiveDescent::run(double tolerance) {
     }
     fresh = false;
     loose = std::min(0.1, 0.2 * off_) * shortest_;
-    // Geometric convergence: extrapolate to the limit of the series.
+    // Geometric convergence: extrapolate.
     const bool alike = change[1] > 0.95 * std::sqrt(change[0] * change[2]);
     if (smooth && ++since > 2 && alike && rate > 0.3 && rate < 0.98 && off_ < 0.3) {
       const double further = 0.9 * rate / (1 - 0.9 * rate);
@@ -316,7 +316,7 @@ AdhesiveAnswer AdhesiveDescent::answer() const {
   return result;
 }
 
-// Computes the certificate from the returned fields; throws if it exceeds the tolerance.
+// Certificate of the returned fields; throws above the tolerance.
 void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optional<double> asked) {
   HalfSpaceAnswer& at = answer.contact;
   double shortest = std::numeric_limits<double>::infinity();

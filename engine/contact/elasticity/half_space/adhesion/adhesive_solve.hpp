@@ -22,25 +22,24 @@ struct AdhesiveProblem {
 };
 
 struct AdhesiveAnswer {
-  // pressure p, gap g; mean_pressure is the external load, mean p − mean σ.
+  // mean_pressure is the external load, mean p − mean σ.
   HalfSpaceAnswer contact;
   Field attraction;            // σ(g), Pa
   double mean_attraction = 0;  // Pa
-  std::vector<double> shares;  // of the mean attraction, per term; equal without attraction
+  std::vector<double> shares;  // of the mean attraction, per term
   double stationarity = 0;     // max |σ(g) − σ fixed| / max σ
-  int steps = 0;               // number of tangents
-  // Cost of the first contact, with fixed attraction.
+  int steps = 0;               // tangents
+  // With fixed attraction.
   Cost first_contact;
 };
 
-// Contact at an approach of either sign, from separated bodies or from the state `start`. Typically 80
-// applications of K; 1800 on the hardest of 60 contacts; limit 20 000. Throws Error{not_converged} unless
-// best_effort, {infeasible} if numbers overflow or beyond periodic full contact, and on interruption.
+// At an approach of either sign, from separated bodies or from `start`. Typically 80 applications of K, 1800
+// on the hardest of 60 contacts, at most 20 000. Throws Error{not_converged} unless best_effort,
+// {infeasible} on overflow or beyond periodic full contact.
 AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
                                   const AdhesiveAnswer* start, Monitor& monitor);
 
-// Contact under an external mean pressure, negative for a pull. Throws Error{infeasible} if the bodies
-// separate.
+// Under an external mean pressure, negative for a pull. Throws Error{infeasible} if the bodies separate.
 AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
                                   const AdhesiveAnswer* start, Monitor& monitor);
 

@@ -36,7 +36,6 @@ struct AdhesiveSolver::Ready {
   HalfSpaceOperator half_space;
   AdhesiveProblem problem;
 
-  // Cached preload of the last press.
   struct Turn {
     bool by_load = false;
     std::vector<double> values;

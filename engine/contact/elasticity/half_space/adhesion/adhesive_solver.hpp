@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two attracting elastic half-spaces (adhesive_solve.hpp). Loads and approaches may be negative. Bodies
-// start separated or from the turning points of `preload`; a pull starts from zero load. The last preload
-// state is cached for sweeps; results do not depend on it. Cost: the first contact of each turn is charged
-// to elasticity, the rest to the attractions in proportion to their force.
+// start separated or from the turning points of `preload`; a pull starts from zero load. The last preload is
+// cached; results do not depend on it. The ledger charges the first contact of each turn to elasticity and
+// divides the rest among the attractions by force.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ class AdhesiveSolver final : public Solver {
                  std::shared_ptr<const ContactGeometry> geometry);
 
   using Solver::press;
-  // Throws besides check(PressRequest): Error{infeasible} if a pull separates the bodies or an approach is
-  // beyond full contact of a periodic tile.
+  // Throws also Error{infeasible} if a pull separates the bodies or an approach exceeds periodic full
+  // contact.
   State press(const PressRequest& request, Monitor& monitor) const override;
 
  private:
