@@ -21,8 +21,8 @@ namespace asperity {
 
 namespace {
 
-// Typical transform count of a pressure-controlled press from boundary and cell aspect hy/hx alone: medians
-// of random scenes. See also accuracy/expected_transforms.hpp.
+// Transform count of a pressure-controlled press from boundary and aspect hy/hx alone: medians of random
+// scenes.
 double typical_transforms(Boundary boundary, double aspect) {
   constexpr double of_periodic = 40, of_free = 60;
   constexpr double longer_than_wide = 4, times_on_long_cells = 2.2;
@@ -53,7 +53,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   // Free tiles are padded, and periodic ones with odd sides or large prime factors.
   const bool padded = !periodic || !FourierLaneFilter<double>::possible(grid.nx, grid.ny);
   plan.buffers.push_back({"work of the solver", grids(padded ? 11 : single ? 7.5 : 8), false});
-  // Measured: memory that does not scale with the nodes; matters on small and narrow tiles.
+  // Measured; matters on small and narrow tiles.
   constexpr std::int64_t always = 300'000;
   constexpr std::int64_t per_row = 512;
   plan.buffers.push_back(
@@ -69,8 +69,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
   plan.transforms = typical_transforms(geometry.boundary(), aspect);
-  // Measured on two threads: 3 ms per transform of a million nodes, 430 ms of 67 million, all overhead
-  // included.
+  // Two threads: 3 ms per transform of a million nodes, 430 ms of 67 million.
   constexpr double seconds_per_node = 4e-9;
   plan.seconds = plan.transforms * seconds_per_node * nodes * (periodic ? 1 : 2.5);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plan of an elastic half-space: modulus, split of the displacement between the bodies, memory and cost.
+// Plan of an elastic half-space: modulus, split of the displacement, memory and cost.
 #pragma once
 
 #include "engine/contact/elastic_model.hpp"
@@ -10,11 +10,11 @@ struct HalfSpaceOptions {
   static const ElasticModel& model();
 };
 
-// Sets operator, term, buffers, solver name, expected transforms and time. Each body needs `young` and
-// `poisson` or is rigid, not both rigid. Throws Error{bad_state} naming effect and body.
+// Fills the plan. Each body needs `young` and `poisson` or is rigid, not both rigid. Throws Error{bad_state}
+// naming effect and body.
 void plan_half_space(const ContactGeometry& geometry, Plan& plan);
 
-// Solver of a plan with a half-space or layer operator.
+// For a half-space or layer operator.
 std::shared_ptr<const Solver> half_space_solver(const Plan& plan,
                                                 std::shared_ptr<const ContactGeometry> geometry);
 

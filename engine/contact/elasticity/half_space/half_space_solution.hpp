@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Common part of all half-space solutions, with or without attraction: results of the solve and fields
-// derived from pressures, gaps and heights. Stiffness: rise of the mean pressure with the approach at fixed
-// contact set, K_FF x = 1 on the free nodes F, Σx / n (Pa/m). Capped nodes do not contribute; nodes past
-// their yield pressure yield by 1/K_h besides K.
+// Common part of half-space solutions, with or without attraction. Stiffness: rise of the mean pressure with
+// the approach at fixed contact set, K_FF x = 1 on the free nodes F, Σx / n (Pa/m). Capped nodes do not
+// contribute; nodes past their yield pressure add 1/K_h to K.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ class HalfSpaceSolution : public Solution {
   int iterations() const override { return at_.iterations; }
   std::string_view solver() const override { return at_.solver; }
   Certificate certificate() const override { return at_.certificate; }
-  // Of the contact, at fixed attraction.
+  // At fixed attraction.
   double stiffness() const override;
   double mean_gap() const override;
   PressureSplit split(double threshold) const override;
@@ -39,18 +38,18 @@ class HalfSpaceSolution : public Solution {
   Field upper_under_load() const override;
 
  protected:
-  // `lower_share`: share of the displacement on the lower body.
+  // `lower_share`: displacement share of the lower body.
   HalfSpaceSolution(std::shared_ptr<const ContactGeometry> geometry, HalfSpaceProblem problem,
                     HalfSpaceAnswer answer, double lower_share);
 
-  // Pressures that displace the bodies: p less the attraction.
+  // Contact pressures less the attraction.
   virtual Field moving_pressures() const { return at_.pressure; }
-  // Yield law; empty without yield.
+  // The yield law; empty without yield.
   virtual const std::optional<PlannedYield>& limit() const;
 
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
   bool faces(std::size_t k) const { return problem_.faces(k); }
-  // Elastic displacement of both bodies, K p, m; small terms near a light contact.
+  // K p of both bodies, m; small terms near a light contact.
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
   }
@@ -75,8 +74,8 @@ class HalfSpaceSolution : public Solution {
   double lower_share_;
 };
 
-// Preconditioned conjugate gradients on the finest grid, 10 to 20 applications of K, relative accuracy about
-// 1e-8. +∞ in full elastic contact of a periodic half-space (1/K(0) of a layer), 0 without free nodes.
+// 10 to 20 applications of K, relative accuracy about 1e-8. +∞ in full elastic contact of a periodic
+// half-space (1/K(0) of a layer), 0 without free nodes.
 double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor);
 
 }  // namespace asperity

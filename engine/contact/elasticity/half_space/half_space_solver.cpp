@@ -42,7 +42,7 @@ void numbers_of(Answer& answer, Visit visit) {
   visit("iterations", answer.iterations);
 }
 
-// Counts are below 2^53: exact in a double.
+// Counts are below 2^53.
 void write_numbers(const HalfSpaceAnswer& answer, ResultFacts& facts) {
   numbers_of(answer, [&](const char* name, auto value) {
     facts.numbers.emplace_back(name, static_cast<double>(value));
@@ -201,7 +201,7 @@ struct HalfSpaceSolver::Ready {
 
 class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
  public:
-  // `problem` contains the yield law in force; `factor`: softening by creep; `asked`: for error().
+  // `problem` has the yield law in force; `factor`: softening by creep.
   UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
             double factor, const Reported& asked)
       : HalfSpaceSolution(ready->geometry, std::move(problem), std::move(answer),
@@ -232,7 +232,7 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
  private:
   const std::optional<PlannedYield>& limit() const override { return ready_->yield; }
   CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
-  // w, the plastic displacement.
+  // Plastic displacement w, m.
   double yielded(std::size_t k) const {
     if (fits_) return 0;
     const YieldLaw& law = problem_.yield;
@@ -249,12 +249,11 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
   bool fits_;  // the bodies have carried this load in this position
 };
 
-// Half the product of pressures and displacements. In full contact of a periodic tile the mean pressure can
-// be so large that pressures lose the digits of their differences: the differences are recomputed from the
-// displacements.
+// Half the sum of pressures times displacements. In periodic full contact a large mean pressure can cost the
+// pressures their precision: their differences then come from the displacements.
 double HalfSpaceSolver::UnderLoad::energy() const {
   Field pressure = at_.pressure;
-  double uniform = 0;  // twice the energy of the mean pressure, if separate
+  double uniform = 0;  // twice the energy of the mean pressure
   if (problem_.boundary == Boundary::periodic && static_cast<double>(at_.contacts) == nodes() &&
       yielded() == 0) {
     const Grid& grid = problem_.grid;
@@ -275,7 +274,7 @@ std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const 
   if (range(change.approach.values()).max == 0) return {};
   if (at_.converged) change.carried = carried();
   if (problem_.yield.hardens())
-    // At the reference dwell, so that a repeated press finds the nodes exactly as hard.
+    // At the reference dwell: a repeated press finds the nodes exactly as hard.
     change.hardness = field([&](std::size_t k) { return yielded(k) > 0 ? at_.pressure[k] / factor_ : 0.0; });
   return change;
 }
@@ -290,7 +289,7 @@ HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half
 
 namespace {
 
-// From `start`; without it if this does not converge at once.
+// From `start`; again without `start` if this does not converge at once.
 HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem& problem,
                            double mean_pressure, Monitor& monitor) {
   if (start == nullptr) return solve_at_pressure(problem, mean_pressure, nullptr, monitor);
@@ -358,7 +357,7 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
                              : solve_from(start, problem, value, monitor);
   });
-  // The energy sums products of pressures and lengths.
+  // The energy sums pressures times lengths.
   const HalfSpaceAnswer& answer = solved.result;
   const double most = answer.peak_pressure * (std::abs(answer.approach) + height);
   if (!std::isfinite(most * static_cast<double>(problem.grid.nodes())) ||

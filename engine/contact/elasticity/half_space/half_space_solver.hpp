@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two elastic half-spaces with rough faces, with or without yield: converts a request to a HalfSpaceProblem
-// and the answer to a State.
+// Two elastic half-spaces with rough faces, with or without yield: converts a request to a problem and the
+// answer to a State.
 #pragma once
 
 #include <functional>
@@ -21,26 +21,25 @@ class HalfSpaceSolver final : public Solver {
                   std::shared_ptr<const ContactGeometry> geometry);
 
   using Solver::press;
-  // Throws besides check(PressRequest): the errors of solve_at_pressure and solve_at_approach; `indentation`
-  // or `flatten` of equal heights.
+  // Throws also the errors of solve_at_pressure and solve_at_approach, and on `indentation` or `flatten` of
+  // equal heights.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  // Uses the guess for `pressure` and `load` without missing heights; otherwise as press().
+  // Uses `guess` for pressure and load without missing heights.
   State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const override;
 
  private:
   class UnderLoad;  // the Solution
   struct Ready;     // shared by all presses
 
-  // Under a load from `start` (may be null).
+  // `start` may be null.
   State pressed(const PressRequest& request, const HalfSpaceAnswer* start, Monitor& monitor) const;
 
   std::shared_ptr<const Ready> ready_;
 };
 
-// Solves of half_space_solve.hpp, displacement_control.hpp and adhesive_solve.hpp, loaded from the run's
-// result store if the same problem was solved before. The key contains every number of the problem, heights
-// and hardness as digests. `by`: prescribed quantity ("pressure", "approach", "flatten"); `value` in SI;
-// `start` may be null.
+// Solves, or loads the answer from the run's result store. The key contains every number of the problem,
+// fields as digests. `by`: prescribed quantity ("pressure", "approach", "flatten"); `value` in SI; `start`
+// may be null.
 Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
                                         const HalfSpaceAnswer* start, Monitor& monitor,
                                         const std::function<HalfSpaceAnswer()>& solve);
