@@ -14,7 +14,6 @@ struct HalfSpaceOptions {
 // naming effect and body.
 void plan_half_space(const ContactGeometry& geometry, Plan& plan);
 
-// For a half-space or layer operator.
 std::shared_ptr<const Solver> half_space_solver(const Plan& plan,
                                                 std::shared_ptr<const ContactGeometry> geometry);
 

@@ -29,7 +29,7 @@ class HalfSpaceSolver final : public Solver {
 
  private:
   class UnderLoad;  // the Solution
-  struct Ready;     // shared by all presses
+  struct Ready;
 
   // `start` may be null.
   State pressed(const PressRequest& request, const HalfSpaceAnswer* start, Monitor& monitor) const;

@@ -20,9 +20,9 @@ namespace asperity {
 
 namespace {
 
-constexpr int most_steps = 4000;          // tangents
+constexpr int most_steps = 4000;
 constexpr int most_passes = 400;          // per tangent
-constexpr int most_applications = 20000;  // of K, all tangents
+constexpr int most_applications = 20000;  // of K
 
 // Cell units: lengths in cells, pressures in E*.
 class AdhesiveDescent {
@@ -82,7 +82,7 @@ class AdhesiveDescent {
   // Iterates until the fixed attraction equals the attraction of the gap, to `tolerance`.
   void run(double tolerance);
 
-  double approach = 0;         // δ, cells; found under a load
+  double approach = 0;         // δ, cells
   std::optional<double> load;  // prescribed mean p − mean q, E*
   bool separates = false;
 

@@ -25,7 +25,7 @@ class AdhesiveSolver final : public Solver {
 
  private:
   class UnderLoad;  // the Solution
-  struct Ready;     // shared by all presses
+  struct Ready;
   StateCost parted(const Cost& whole, const Cost& contacts, const AdhesiveAnswer& answer) const;
 
   std::shared_ptr<const Ready> ready_;

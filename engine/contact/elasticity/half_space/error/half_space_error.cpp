@@ -75,7 +75,6 @@ class Bounds {
  private:
   bool faces(std::size_t k) const { return problem_.faces(k); }
   double pressure(std::size_t k) const { return pressure_[k]; }
-  // Cap or yield pressure.
   double limit(std::size_t k) const {
     return problem_.yield.hardens() ? problem_.yield.yields_at(k) / pascal_ : cap_;
   }

@@ -26,9 +26,9 @@ struct Reported {
   double plastic_volume = 0;  // m³
 };
 
-// One application of K, one of K⁻¹, with yield or a prescribed approach a few more; five fields. Under an
-// approach the load error is Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any f = 1 on both contacts; K(0) of a layer enters
-// only there.
+// Costs an application of K, one of K⁻¹ and, with yield or a prescribed approach, a few more; five fields.
+// Under an approach Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any f = 1 on both contacts bounds the load; K(0) of a layer
+// enters only there.
 SolutionError half_space_error(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer,
                                const Reported& reported);
 

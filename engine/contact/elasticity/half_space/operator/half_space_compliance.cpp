@@ -88,7 +88,7 @@ double integrate(double x, double half, double y, double other) {
   return 2 * half * mean;
 }
 
-// Term of one corner of the rectangle: F(x, y) = x asinh(y/|x|) + y asinh(x/|y|).
+// F(x, y) = x asinh(y/|x|) + y asinh(x/|y|).
 double corner(double x, double y) {
   const double first = x == 0 ? 0 : x * elementary::asinh(y / std::abs(x));
   const double second = y == 0 ? 0 : y * elementary::asinh(x / std::abs(y));
@@ -246,12 +246,12 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
 // The inactive filter keeps its multiplier and frees its spectrum.
 struct HalfSpaceCompliance::Parts {
   int nx, ny;
-  int period_x, period_y;        // of the operator
-  int transform_x, transform_y;  // of the transforms
+  int period_x, period_y;
+  int transform_x, transform_y;
   double aspect;
   Boundary boundary;
   double weight;
-  ComplianceMultiplier of_wave;  // periodic tile only
+  ComplianceMultiplier of_wave;
   std::optional<FourierLaneFilter<double>> lanes;
   std::optional<FourierLaneFilter<float>> singles;
   double scale = 1;     // of pressures, for `singles`
@@ -290,7 +290,6 @@ struct HalfSpaceCompliance::Parts {
       lanes.emplace(nx, ny, transform_x, transform_y, factors);
   }
 
-  // Each wave then has a factor in closed form.
   bool of_tile() const { return boundary == Boundary::periodic && transform_x == nx && transform_y == ny; }
   FourierLaneFilter<double>& in_double() {
     if (singles) singles->rest();
@@ -309,7 +308,7 @@ struct HalfSpaceCompliance::Parts {
   }
 
   std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
-  // Waves (a, b), b = 0 … period_y/2.
+  // b = 0 … period_y/2.
   void factors_of(int a, std::span<double> factors) {
     const bool periodic = boundary == Boundary::periodic;
     if (lanes && (!periodic || of_tile()))

@@ -33,13 +33,12 @@ struct ComplianceMultiplier {
   bool shares() const { return share_of != nullptr; }
   // K(q)·q/2; 1 on a half-space. q > 0.
   double share(double q) const { return shares() ? share_of(q * length) : 1; }
-  // Greatest K of waves from q on.
+  // Over waves from q on.
   double greatest_from(double q) const;
-  // On cells `pitch` times as wide.
   ComplianceMultiplier on_coarser(double pitch) const;
 };
 
-// Cells `hx` m wide; `with_mean` includes K(0).
+// `hx` in m; `with_mean` includes K(0).
 ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean);
 
 class HalfSpaceCompliance {

@@ -68,14 +68,12 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  // Also used without extension.
   double spread_along_lines(const Residual& scaled, const Step& step);
   void gather_along_lines(const Keep& keep);
   void no_smooth_field();
   double greatest(const Residual& r, const Step& step) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
-  // From sums over hats to values at their points.
   void divide(Array<double>& sums) const;
 
   int nx_, ny_;
@@ -91,8 +89,8 @@ class ContactPreconditioner::Parts {
   FreeTiles tiles_;
   bool tiled_;                          // sweeps and smooth fields
   std::optional<LineExtension> lines_;  // on long cells
-  UnsetArray<float> gathered_;          // if not tiled
-  std::vector<Hats> hats_;              // per tile
+  UnsetArray<float> gathered_;
+  std::vector<Hats> hats_;
   ScratchPool<Patch> patches_;
 };
 
@@ -158,7 +156,6 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
   for (const Hats& hats : hats_) hats.free.add_to(free_hats_);
 }
 
-// total: sums over hats of all tiles.
 template <class Add>
 void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
   parallel_for(static_cast<std::int64_t>(tiles_.count()), [&](std::int64_t k) {

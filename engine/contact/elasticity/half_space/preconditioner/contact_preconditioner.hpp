@@ -29,7 +29,7 @@ class ContactPreconditioner {
   ContactPreconditioner(ContactPreconditioner&&) noexcept;
   ContactPreconditioner& operator=(ContactPreconditioner&&) noexcept;
 
-  // free[k] != 0; initially none. O(n).
+  // Free: free[k] != 0; initially none. O(n).
   void set_free(std::span<const std::uint8_t> free);
 
   // Reads r on the free set, z = 0 elsewhere; z may be r. Scaling r by a power of two scales z exactly. Same

@@ -17,14 +17,14 @@
 
 namespace asperity {
 
-// Row loops on arrays that do not overlap. Sweeps alternate between the chessboard colours, in place. A
-// patch row stores the even columns and, `half` values later, the odd ones, so neighbours of eight nodes are
-// contiguous. No bounds checks.
+// Row loops on arrays that do not overlap, without bounds checks. Sweeps alternate between the chessboard
+// colours, in place. A patch row stores the odd columns `half` values after the even ones, so neighbours of
+// eight nodes are contiguous.
 namespace edge_rows {
 
-constexpr int group = 8;            // nodes of one colour in a sweep
-constexpr int columns = 2 * group;  // of a group
-constexpr int bits = 64;            // of a word
+constexpr int group = 8;  // nodes of one colour in a sweep
+constexpr int columns = 2 * group;
+constexpr int bits = 64;
 
 // Sets bit place + k if byte k is 1; bytes are 0 or 1.
 void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint64_t* words);
@@ -53,7 +53,7 @@ void add_values(const float* values, std::size_t n, const SmoothExtension::Sums:
 // Forward start: now = offset + slope · values − less on the free set, else 0.
 void start_free(const std::uint8_t* free, const double* values, double slope, double offset,
                 const SmoothRow<float>& less, std::size_t n, std::size_t place, std::size_t half, float* now);
-// Transposed start: now = 0.
+// Transposed start: given = values, now = 0.
 void start_bound(const float* values, std::size_t n, std::size_t place, std::size_t half, float* given,
                  float* now);
 
@@ -112,7 +112,6 @@ class FreeTiles {
   const std::uint8_t* marks(std::size_t k) const { return free_.data() + k; }
 
   int sweeps() const { return sweeps_; }
-  // A patch may extend beyond the grid.
   bool bounded() const { return !wraps_x_ || !wraps_y_; }
   int patch_height(const FreeTile& tile) const { return tile.height + 2 * sweeps_; }
   std::size_t patch_width() const { return static_cast<std::size_t>(width + 2 * margin_); }

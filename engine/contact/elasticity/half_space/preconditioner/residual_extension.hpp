@@ -15,7 +15,6 @@
 
 namespace asperity {
 
-// Hat functions of one side: periodic, or one on either rim.
 struct HatAxis {
   HatAxis(int nodes, Boundary boundary);
   int next(int hat) const { return hat + 1 == hats && wraps ? 0 : hat + 1; }
@@ -97,8 +96,8 @@ class SmoothExtension {
   };
 
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
-  // Divisor for the hat's sum over the free nodes. It exceeds `free`, so a lone contact is not spread over
-  // the surface.
+  // Divisor for the hat's sum over the free nodes; `free`: its sum of 1. It exceeds `free`, so a lone
+  // contact is not spread over the surface.
   double divisor(std::size_t hat, double free) const;
 
  private:
@@ -125,7 +124,7 @@ class LineExtension {
   void gather(std::span<float> field) const;
 
  private:
-  // Nearest lines with free nodes; twice itself, or −1 if there are none.
+  // Nearest lines with free nodes; twice itself, −1 if none.
   struct Beside {
     int low = -1, high = -1;
     float share = 0;  // weight of `high`

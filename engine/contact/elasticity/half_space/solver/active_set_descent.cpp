@@ -2,8 +2,7 @@
 // The quick stage: preconditioned conjugate gradients on the current free set. Pressures may leave their
 // bounds until the next pass settles (clips) them. Settling shares one application of K with a fixed
 // preconditioned (Richardson) step and, on long cells, preserves line loads (load_projection.hpp).
-// Two-cycles are broken by averaging two passes, exact because g is linear in p. No proof of convergence;
-// stops without gain.
+// Two-cycles are broken by averaging two passes. No proof of convergence; stops without gain.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,7 +57,7 @@ struct Along {
 template <class Stored>
 class DescentDirections {
  public:
-  // Memory for a new direction; takes the oldest pending step.
+  // Takes the oldest pending step; its memory is reused.
   Stored* next(std::span<double> pressure);
   Stored* last() { return now_.data(); }
   Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
@@ -80,7 +79,6 @@ class DescentDirections {
   }
 
   PressureStep<Stored> hand_over() { return std::exchange(step_, {}); }
-  // For the gaps only.
   ContactPreconditioner::Step hand_over_gaps(std::span<double> gap) {
     const double length = std::exchange(step_.gap_length, 0);
     return length != 0 ? ContactPreconditioner::Step{gap.data(), length, step_.image}
@@ -152,7 +150,6 @@ class Descent {
   ContactQuality quality();
   void project(const ContactQuality& at, std::span<double> target);
   std::optional<double> shift_to_load(const ContactQuality& at) const;
-  // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
     project(at, f_.pressure);
     level_.gap(f_.pressure, f_.gap);
@@ -187,7 +184,6 @@ class Descent {
   Array<double> work_, no_field_;  // with hardening
 };
 
-// Also takes the pending steps.
 template <class Limit, class Stored>
 ContactQuality Descent<Limit, Stored>::quality() {
   return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
@@ -308,7 +304,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
                            std::size_t k, double along, double target) {
     const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
     const double descent = richardson_step * unit * z, next = target + (n.moves(k) ? descent : 0.0);
-    n.pressure[k] = next;  // exactly at the bound if the node does not move
+    n.pressure[k] = next;  // exactly at the bound if it does not move
     return (next - (afresh ? immobile : p)) * shrink;
   };
   const auto move = [&](int j, double* to, const auto& target) {

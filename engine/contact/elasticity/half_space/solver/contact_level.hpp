@@ -22,9 +22,9 @@ struct LevelShape {
   int nx = 0, ny = 0;
   double aspect = 1;
   Boundary boundary = Boundary::periodic;
-  double weight = 1;                  // of a transform, in transforms of the finest grid
-  bool single = false;                // single precision for steps; gaps stay double
-  ComplianceMultiplier multiplier{};  // periodic tile only
+  double weight = 1;    // of a transform, in transforms of the finest grid
+  bool single = false;  // single precision for steps; gaps stay double
+  ComplianceMultiplier multiplier{};
 
   std::size_t nodes() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
 };
@@ -46,7 +46,7 @@ class ContactLevel {
   const double greatest_compliance;
   // Receives the residual of each pass; throws to stop.
   std::function<void(double)> report;
-  int applications = 0;  // of K
+  int applications = 0;
   // Unit of gaps: the rms of the finest grid, unless flat.
   double length = 1;
 
@@ -77,7 +77,6 @@ class ContactLevel {
     ++applications;
     compliance.apply_in_double(source, sink, work);
   }
-  // Whether a uniform pressure moves nothing.
   bool mean_is_immobile() const {
     return shape.boundary == Boundary::periodic && !(shape.multiplier.uniform > 0);
   }
@@ -111,7 +110,6 @@ Between between(double position, int n, Boundary boundary);
 
 Array<double> restrict_to(const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field);
 
-// `coarse` to `fine`, times `factor`.
 void prolong(const CoarserGrid& coarse, std::span<const double> values, double factor, const LevelShape& fine,
              std::span<double> target);
 

@@ -37,7 +37,7 @@ struct DescentFields {
   }
 };
 
-// Rules shared by the serial and the distributed descent.
+// Shared by the serial and the distributed descent.
 namespace descent_rules {
 
 inline constexpr double richardson_step = 0.65;  // of the preconditioner
@@ -88,7 +88,7 @@ class Watch {
 
 struct DescentEnd {
   bool converged = false;
-  std::string stage;  // last stage of a chain
+  std::string stage;
 };
 
 // From feasible pressures. Returns whether residual < tolerance; if not, pressures are feasible. `exact`:
@@ -103,10 +103,10 @@ bool spectral_gradient(ContactLevel& level, DescentFields& fields, double tolera
 
 enum class ChainEffort {
   start,  // start of a finer grid: pressures may leave their bounds
-  brief,  // an answer without the last resort
+  brief,  // without the last resort
   quick,  // at an offset: the same with a fresh gap
   less,   // at an offset: fewer downhill passes
-  full    // an answer, with up to thousands of projected gradients
+  full    // up to thousands of projected gradients
 };
 
 // Stages in turn until one converges, the quick one first.

@@ -119,7 +119,6 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       apart <= 0.5 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
-  // On long cells a stalled descent spends many passes downhill.
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
   const bool quick = !problem.yield.limits() && long_cells;
   const ChainEffort effort = quick ? ChainEffort::quick : long_cells ? ChainEffort::less : ChainEffort::full;

@@ -37,7 +37,7 @@ double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answ
                                  false, multiplier_of(problem));
   Array<double> u(h.size());
   compliance.apply(answer.pressure.values(), u);
-  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const double length = grid.hx() / problem.modulus;  // per pressure in cell units
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const double down = length * u[k] + hardened(problem.yield, answer, k);
     const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
@@ -140,13 +140,11 @@ std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, con
   return at;
 }
 
-// Upper end of the bracket in load.
 std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
   if (problem.boundary != Boundary::periodic) return {};
   return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
 }
 
-// Grids with fewer nodes are not worth a solve.
 constexpr std::size_t coarse_nodes = 64 * 64;
 
 std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
@@ -165,7 +163,7 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
     return std::make_shared<const Field>(std::move(values));
   };
   result.heights = on_coarse(*problem.heights);
-  if (!(known_range(result.heights->values()).span() > 0)) return {};  // all restricted heights are equal
+  if (!(known_range(result.heights->values()).span() > 0)) return {};
   if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
   const auto work = [](const Grid& of) {
     const auto n = static_cast<double>(of.nodes());
@@ -260,7 +258,6 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
     const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
-    // The residual is relative to the rms height.
     const double rough = cautious * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
     if (sure && answer.converged)
       met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
@@ -272,7 +269,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     if (stalled) break;
     const bool near_enough = error <= 0.5 * accuracy;
     const bool too_far = near_enough && most_at_the_cap(problem, answer);
-    if (too_far && now.tolerance > least_tolerance) {  // perhaps a residual of the tolerance
+    if (too_far && now.tolerance > least_tolerance) {
       now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
       continue;
     }
@@ -285,7 +282,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
-    if (near_enough && !too_far) continue;  // tighter
+    if (near_enough && !too_far) continue;
     // Decades of the load within a small change of approach.
     const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
                        std::abs(approach / before.approach - 1) < near;
@@ -329,7 +326,7 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
   constexpr double more = 4;        // growth of steps until both sides are known
   constexpr double good = 0.1;      // greatest certificate of a useful start
   constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
-  constexpr double cautious = 20;  // error in units of the certificate
+  constexpr double cautious = 20;
   if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
   certify(problem, answer);
   answer.converged = false;
@@ -426,7 +423,7 @@ std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, d
                                               Monitor& monitor) {
   constexpr int tries = 3;
   constexpr double more = 4;      // factor of the load in the next try
-  constexpr double to_a_rim = 2;  // a punch carries half its mean pressure at the centre
+  constexpr double to_a_rim = 2;  // half the mean pressure is at the centre of a punch
   if (problem.yield.caps()) return {};
   auto pressure = load_of_all(problem);
   if (!pressure) return {};

@@ -146,7 +146,7 @@ PressureLimit cell_limit(const YieldLaw& law, const CellUnits& units) {
   return limit;
 }
 
-// √mean(slope²) from finite differences; slightly below the spectral slope.
+// √mean(slope²), slightly below the spectral slope.
 double rough_slope(const HalfSpaceProblem& problem) {
   const Field& h = *problem.heights;
   const auto nx = static_cast<std::size_t>(h.nx()), ny = static_cast<std::size_t>(h.ny());
@@ -234,7 +234,7 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
                                  multiplier_of(problem, true));
   Field u(grid.nx, grid.ny);
   compliance.apply(pressure.values(), u.values());
-  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const double length = grid.hx() / problem.modulus;  // per pressure in cell units
   for (double& value : u.values()) value *= length;
   return u;
 }
@@ -417,7 +417,6 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   const Range ends = known_range(problem.heights->values());
   CellUnits units;
   units.origin = ends.max;
-  // On a free tile smaller variations of the heights count as flat.
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   units.height = std::min(approach, length);
   if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
@@ -438,7 +437,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.factor = 1 / units.height;
   cell.limit = cell_limit(problem.yield, units);
   cell.offset = approach / units.height;
-  // The certificate adds penetration and opening.
+  // Penetration and opening add up in the certificate.
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));

@@ -21,7 +21,7 @@
 
 namespace asperity {
 
-enum class ChainEffort;  // descent.hpp
+enum class ChainEffort;
 
 struct HalfSpaceProblem {
   Grid grid;
@@ -31,8 +31,8 @@ struct HalfSpaceProblem {
   std::optional<WaveShare> share{};
   // h, m. NaN marks nodes without a counterpart (free tile only); such nodes never carry load.
   std::shared_ptr<const Field> heights;
-  bool overhangs = false;  // some heights are NaN
-  double rms = 0;          // of h about its mean, m; 0 for a flat
+  bool overhangs = false;
+  double rms = 0;  // of h about its mean, m; 0 for a flat
   YieldLaw yield;
   double tolerance = 1e-6;   // greatest entry of the certificate
   bool best_effort = false;  // return the last iterate instead of throwing
@@ -48,17 +48,17 @@ struct HalfSpaceAnswer {
   Field pressure;  // Pa; exactly 0 and exactly the cap at the bounds
   // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w at yielded nodes; meaningless where h is NaN
   Field gap;
-  double offset = 0;          // δ, m
-  double mean_pressure = 0;   // Pa
-  double approach = 0;        // m, max h + δ
-  std::int64_t contacts = 0;  // p > 0
-  std::int64_t yielded = 0;   // at the cap or above the yield pressure
-  double peak_pressure = 0;   // Pa
+  double offset = 0;         // δ, m
+  double mean_pressure = 0;  // Pa
+  double approach = 0;       // m, max h + δ
+  std::int64_t contacts = 0;
+  std::int64_t yielded = 0;  // at the cap or above the yield pressure
+  double peak_pressure = 0;  // Pa
   // With hardening, penetration and complementarity of g + w.
   Certificate certificate;
   bool converged = false;
   int iterations = 0;  // applications of K on the finest grid
-  std::string solver;  // last stage
+  std::string solver;
 };
 
 // K(0), m/Pa; 0 without a layer.
@@ -83,7 +83,7 @@ HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_press
 // displacement of a single node under the whole load.
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure);
 
-// u = Kp of both bodies, m. One application.
+// m. One application.
 Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure);
 
 // Contact at an approach > 0; returns the mean pressure found. Gaps are measured by the least of `length`
@@ -97,21 +97,20 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 struct PressureSums {
   double nodes = 0, load = 0, least = 0, greatest = 0, complementarity = 0, least_gap = 0;
 };
-// `cap` may be infinite, `length` 0.
 Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length);
 
-// Recomputes counts, peak pressure and certificate. O(n).
+// Recomputes counts and certificate. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
 
-// Residual that rounding can leave in gaps, differences of `lengths` [m] in total, relative to `rms` [m],
-// times `weight` (cap / mean pressure; 1 without a cap). Seen in random scenes: 63 roundings.
+// Residual that rounding can leave in gaps: `lengths` [m] in total, per `rms` [m], times `weight` (cap /
+// mean pressure, or 1). Seen: 63 roundings.
 double rounding_residual(double lengths, double rms, double weight);
 
-// Throws Error{not_converged}. `rounding`: residual that rounding can leave.
+// Throws Error{not_converged}. `rounding`: see rounding_residual().
 [[noreturn]] void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance,
                                     int applications, const Grid& grid, double rounding);
 
-// Names rounding, if it explains `reached`, or cells much longer than wide, which slow convergence.
+// Names rounding if it explains `reached`, or cells much longer than wide.
 std::string unconverged_hint(const Grid& grid, double reached, double rounding);
 
 double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer);

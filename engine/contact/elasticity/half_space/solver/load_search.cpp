@@ -117,7 +117,7 @@ BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtBy
   return end;
 }
 
-// A tenth of the load for `length` on a tile pressed as one punch.
+// A tenth of the load of the tile as one punch.
 double small_load(const HalfSpaceProblem& problem, double length) {
   return 0.1 * problem.modulus * length / std::max(problem.grid.size_x, problem.grid.size_y);
 }
@@ -162,7 +162,6 @@ class LoadSearch {
   static constexpr double least_step = 0.01;
   // Factors below the requested tolerance for a rough measure.
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
-  // Relative change of the contact count.
   static constexpr double same_contact = 0.1;
   static constexpr double furthest_along = 3;  // in steps between the answers
   static constexpr double enough_gain = 0.5;   // ratio of errors after a step on the line
@@ -179,7 +178,6 @@ class LoadSearch {
       if (found.at <= last.at) return;
       before = std::exchange(last, found);
     }
-    // Empty if about as far as the load just tried.
     std::optional<double> go_on(double wanted, double tried) const {
       constexpr double less = 0.9;
       if (!(before.at > 0) || !(last.value > before.value)) return {};
@@ -222,7 +220,7 @@ class LoadSearch {
   std::vector<Told> told_;
   int applications_;
   const bool long_cells_;
-  bool easy_ = false, hard_ = false;  // last solve: few applications; last resort
+  bool easy_ = false, hard_ = false;  // few applications; last resort
   // The last measure was too rough; the next replaces it.
   bool rough_ = false, in_place_ = false;
   bool went_the_other_way_ = false;
@@ -326,7 +324,6 @@ std::optional<double> LoadSearch::along_the_line() const {
   if (!sought_.on_the_line) return {};
   if (!(previous_.pressure > 0) || !alike(last_.contacts, previous_.contacts) ||
       !alike(last_.yielded, previous_.yielded)) {
-    // Nearly full: secant to the load of full contact.
     const auto nodes = static_cast<std::int64_t>(problem_.grid.nodes());
     if (end_.at != sought_.above.at || !(end_.value < infinity) || !alike(last_.contacts, nodes) ||
         !(last_.found < sought_.wanted))
@@ -388,7 +385,7 @@ HalfSpaceAnswer LoadSearch::run() {
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
     const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
-    if (near_enough) continue;  // tighter
+    if (near_enough) continue;
     // On long cells a wrong step is expensive: repeat until the side is clear.
     if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
     const bool line_fails = by_line && error > enough_gain * error_before;
@@ -401,7 +398,7 @@ HalfSpaceAnswer LoadSearch::run() {
     by_line = next.has_value();
     if (!nothing_more && sure && found < sought_.wanted) short_of_all_.take({pressure, found});
     if (!next) next = root_.next();
-    const double room = std::min(pressure, end_.at - pressure);  // scale of a step
+    const double room = std::min(pressure, end_.at - pressure);
     if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;
       if (tightest && !kept) least_ = std::max(floor(), tighter * least_);

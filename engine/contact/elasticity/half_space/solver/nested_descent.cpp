@@ -45,12 +45,12 @@ class LightContact {
   static constexpr double light = 0.01;  // greatest approach, per unit of gaps
   static constexpr double soft = 1e-3;   // displacement of a node at the cap, same unit
 
-  // On failure returns false and restores the pressures.
+  // On failure restores the pressures.
   bool again(double length, DescentEnd& end);
   void by_approach(double approach, DescentEnd& end);
   void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // Displacement of one node under `p` alone.
+  // Of one node under `p` alone.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
 
   ContactLevel& level_;
@@ -117,13 +117,13 @@ bool LightContact::refine(DescentEnd& end) {
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
-struct Step {                       // grid of the nest
-  std::optional<CoarserGrid> from;  // restriction from the finer grid
+struct Step {
+  std::optional<CoarserGrid> from;  // from the finer grid
   LevelShape shape;
   Array<double> heights;  // empty on the finest grid, which uses the caller's
   Array<double> yield;
   double pitch = 1;          // hx in cells of the finest grid
-  double mean_pressure = 0;  // cell units of this grid
+  double mean_pressure = 0;  // cell units
 };
 
 double work(const LevelShape& shape) {
@@ -141,7 +141,6 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
   return limit;
 }
 
-// Replaces pressures at a bound by a multiple of their gap.
 void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
                   std::span<double> p) {
   for_nodes(p.size(), [&](std::size_t k) {

@@ -39,7 +39,7 @@ struct CellProblem {
   // Instead of the load; `mean_pressure` is then a guess, within twenty powers of ten.
   std::optional<double> offset;
   ChainEffort effort = ChainEffort::full;
-  double length = 1;  // unit of gaps
+  double length = 1;  // of gaps
   double tolerance = 1e-6;
 };
 
@@ -52,7 +52,7 @@ struct CellAnswer {
   bool converged = false;
   int applications = 0;  // on the finest grid
   int levels = 1;
-  bool single = false;  // steps were in single precision
+  bool single = false;
   std::string stage;
 };
 
