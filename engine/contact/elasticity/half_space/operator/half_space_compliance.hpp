@@ -52,8 +52,8 @@ class HalfSpaceCompliance {
   HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept;
   HalfSpaceCompliance& operator=(HalfSpaceCompliance&&) noexcept;
 
-  // nx·ny values row by row; u may be p. Same bits for any number of threads; scaling p by a power of two
-  // scales u exactly. Not thread-safe.
+  // u = K p, nx·ny values row by row; u may be p. Same bits for any number of threads; scaling p by a power
+  // of two scales u exactly. Not thread-safe.
   void apply(std::span<const double> p, std::span<double> u);
 
   // Single precision: u is exact to about 1e-6 of the greatest u. `unit`: magnitude of the pressures, within
@@ -71,8 +71,8 @@ class HalfSpaceCompliance {
   // Single precision; p must be near 1.
   void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
-  // Periodic only: K⁻¹ u, the mean only if K(0) > 0. `softer` >= 0 is added to K at every wave, like
-  // springs. Same cost. Throws Error{internal} on a free boundary.
+  // Periodic only: p = K⁻¹ u (|q|/2), the mean only if K(0) > 0. `softer` >= 0 is added to K at every wave,
+  // like springs. Same cost. Throws Error{internal} on a free boundary.
   void apply_inverse(std::span<const double> u, std::span<double> p, double softer = 0);
 
   // K⁻¹ on the operator's own period; if padded, Σ u p >= Σ u K⁻¹ u. Same cost.
@@ -95,7 +95,7 @@ class HalfSpaceCompliance {
 // is closed and one by Gauss's rule, or moments are enough. Relative error below 1e-13.
 class LoveKernel {
  public:
-  explicit LoveKernel(double aspect);
+  explicit LoveKernel(double aspect);  // > 0
   // At (i, j·aspect) from the centre, per unit pressure. Even in both. Thread-safe.
   double operator()(double i, double j) const;
 

@@ -32,8 +32,8 @@ class ContactPreconditioner {
   // Free: free[k] != 0; initially none. O(n).
   void set_free(std::span<const std::uint8_t> free);
 
-  // Reads r on the free set, z = 0 elsewhere; z may be r. Scaling r by a power of two scales z exactly. Same
-  // bits for any number of threads. Not thread-safe.
+  // z = M r; reads r on the free set, z = 0 elsewhere; z may be r. Scaling r by a power of two scales z
+  // exactly. Same bits for any number of threads. Not thread-safe.
   void apply(std::span<const double> r, std::span<double> z);
 
   // r = offset + factor · values (nx·ny).

@@ -31,14 +31,14 @@ struct HalfSpaceProblem {
   std::optional<WaveShare> share{};
   // h, m. NaN marks nodes without a counterpart (free tile only); such nodes never carry load.
   std::shared_ptr<const Field> heights;
-  bool overhangs = false;
-  double rms = 0;  // of h about its mean, m; 0 for a flat
+  bool overhangs = false;  // some heights are NaN
+  double rms = 0;          // of h about its mean, m; 0 for a flat
   YieldLaw yield;
   double tolerance = 1e-6;   // greatest entry of the certificate
   bool best_effort = false;  // return the last iterate instead of throwing
   // Steps are in single precision; pressures, gaps and certificate stay double.
   bool single = false;
-  bool brief = false;  // skip the last resort; the solve may fail
+  bool brief = false;  // under a mean pressure: skip the last resort
   double weight = 1;   // per transform in the count; below 1 on coarser grids
 
   bool faces(std::size_t k) const { return !overhangs || !std::isnan((*heights)[k]); }
@@ -83,7 +83,7 @@ HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_press
 // displacement of a single node under the whole load.
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure);
 
-// m. One application.
+// u = Kp of both bodies, m. One application.
 Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure);
 
 // Contact at an approach > 0; returns the mean pressure found. Gaps are measured by the least of `length`
@@ -97,6 +97,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 struct PressureSums {
   double nodes = 0, load = 0, least = 0, greatest = 0, complementarity = 0, least_gap = 0;
 };
+// `cap` may be infinite, `length` 0: gaps are then in metres.
 Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length);
 
 // Recomputes counts and certificate. O(n).
