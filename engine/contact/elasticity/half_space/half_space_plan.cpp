@@ -20,8 +20,8 @@ namespace asperity {
 
 namespace {
 
-// Of a press by pressure of which nothing is known but the boundary and the cells, hy/hx, as measured in the
-// middle of random scenes; accuracy/expected_transforms.hpp tells that of a press that is named.
+// Transform count of a pressure-controlled press from boundary and aspect hy/hx alone: medians of random
+// scenes.
 double typical_transforms(Boundary boundary, double aspect) {
   constexpr double of_periodic = 40, of_free = 60;
   constexpr double longer_than_wide = 4, times_on_long_cells = 2.2;
@@ -49,16 +49,15 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const auto nodes = static_cast<double>(grid.nodes());
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
-  // Free tiles are padded, and periodic ones with odd sides or a large prime factor.
+  // Free tiles are padded, and periodic ones with odd sides or large prime factors.
   const bool padded = !periodic || !FourierLaneFilter<double>::possible(grid.nx, grid.ny);
   plan.buffers.push_back({"work of the solver", grids(padded ? 11 : single ? 7.5 : 8), false});
-  // Measured: what does not go with the nodes counts on small and on narrow tiles.
+  // Measured; matters on small and narrow tiles.
   constexpr std::int64_t always = 300'000;
   constexpr std::int64_t per_row = 512;
   plan.buffers.push_back(
       {"rows and threads at work", always + per_row * (grid.nx + grid.ny) * (padded ? 2 : 1), false, false});
-  // The last two answers and what the next begins from, while the approach or the load that flattens by so
-  // much is sought.
+  // The last two answers and the next start of a flattening search.
   plan.bytes_to_flatten = grids(7.5);
   const double aspect = grid.hy() / grid.hx();
   if (keeps_line_loads(aspect)) {
@@ -68,8 +67,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
   plan.transforms = typical_transforms(geometry.boundary(), aspect);
-  // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
-  // of 67 million 430 ms.
+  // Two threads: 3 ms per transform of a million nodes, 430 ms of 67 million.
   constexpr double seconds_per_node = 4e-9;
   plan.seconds = plan.transforms * seconds_per_node * nodes * (periodic ? 1 : 2.5);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an elastic half-space adds to a plan: its modulus, how two bodies share the displacement, and what
-// a solve holds and costs.
+// Plan of an elastic half-space: modulus, split of the displacement, memory and cost.
 #pragma once
 
 #include "engine/contact/elastic_model.hpp"
@@ -11,11 +10,10 @@ struct HalfSpaceOptions {
   static const ElasticModel& model();
 };
 
-// Fills operator, term, buffers, solver name, expected transforms and time. Both bodies need `young` and
-// `poisson`, or are rigid, not both. Throws Error{bad_state} naming effect and body.
+// Fills the plan. Each body needs `young` and `poisson` or is rigid, not both rigid. Throws Error{bad_state}
+// naming effect and body.
 void plan_half_space(const ContactGeometry& geometry, Plan& plan);
 
-// The solver of a plan whose operator that is, or a layer's.
 std::shared_ptr<const Solver> half_space_solver(const Plan& plan,
                                                 std::shared_ptr<const ContactGeometry> geometry);
 

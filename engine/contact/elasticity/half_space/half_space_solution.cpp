@@ -13,7 +13,7 @@
 namespace asperity {
 
 namespace {
-// Σx, the result, is in error by the square of this.
+// The error of Σx is the square of this.
 constexpr double residual_reduction = 1e-5;
 constexpr int most_solver_steps = 400;
 }  // namespace
@@ -23,7 +23,7 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   const std::size_t nodes = grid.nodes();
   const YieldLaw& law = problem.yield;
   const double cap = law.caps() ? law.cap : std::numeric_limits<double>::infinity();
-  // 1/K_h in cell units, where u = K p with K(q) = 2/|q|.
+  // 1/K_h in cell units, where K(q) = 2/|q|.
   const double give = law.hardens() ? problem.modulus / law.hardening / grid.hx() : 0;
 
   Array<std::uint8_t> elastic(nodes), yields(law.hardens() ? nodes : 0);
@@ -37,7 +37,7 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   });
   const double free = counts[0] + counts[1], n = static_cast<double>(nodes);
   if (free == 0) return 0;
-  // K(0) of a layer is in series with what the rest of K gives.
+  // K(0) of a layer is in series with the rest of K.
   const double uniform = uniform_compliance(problem);
   if (problem.boundary == Boundary::periodic && counts[0] == n)
     return uniform > 0 ? 1 / uniform : std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   HalfSpaceCompliance compliance(grid.nx, grid.ny, aspect, problem.boundary, 1, false, multiplier);
   ContactPreconditioner preconditioner(grid.nx, grid.ny, aspect, problem.boundary, 1, 4, multiplier);
   preconditioner.set_free(elastic);
-  // The pyramid sees nothing of a constant; the longest wave does for it.
+  // The pyramid ignores constants; the longest wave approximates them.
   const double of_longest = multiplier.shares() ? 1 / multiplier.greatest_from(2 * std::numbers::pi / longest)
                                                 : std::numbers::pi / longest;
   const double constant = of_longest / std::max(counts[0], 1.0);
@@ -137,7 +137,7 @@ Field HalfSpaceSolution::gap_field() const {
 Field HalfSpaceSolution::displacement_field() const {
   Field u = field([&](std::size_t k) { return displacement(k); });
   if (!problem_.overhangs) return u;
-  // Ground that nothing faces moves with the rest.
+  // Nodes without a counterpart move with the rest.
   const Field all = displacement_under(problem_, moving_pressures());
   for (std::size_t k = 0; k < u.size(); ++k)
     if (!faces(k)) u[k] = all[k];

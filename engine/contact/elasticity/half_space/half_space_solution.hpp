@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every solved contact of half-spaces answers alike, whether the bodies attract each other or not: the
-// numbers of the solve, and the fields that follow from pressures, gaps and heights. The stiffness is how
-// fast the mean pressure rises with the approach while the contact set stays as it is: K_FF x = 1 on the
-// nodes F whose pressure is free to change, Σx / n (Pa/m). Capped nodes give nothing; nodes past their yield
-// pressure give way by 1/K_h besides K.
+// Common part of half-space solutions, with or without attraction. Stiffness: rise of the mean pressure with
+// the approach at fixed contact set, K_FF x = 1 on the free nodes F, Σx / n (Pa/m). Capped nodes do not
+// contribute; nodes past their yield pressure add 1/K_h to K.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +26,7 @@ class HalfSpaceSolution : public Solution {
   int iterations() const override { return at_.iterations; }
   std::string_view solver() const override { return at_.solver; }
   Certificate certificate() const override { return at_.certificate; }
-  // Of the contacts; an attraction is held.
+  // At fixed attraction.
   double stiffness() const override;
   double mean_gap() const override;
   PressureSplit split(double threshold) const override;
@@ -40,18 +38,18 @@ class HalfSpaceSolution : public Solution {
   Field upper_under_load() const override;
 
  protected:
-  // `lower_share`: of the displacement, that the lower body takes.
+  // `lower_share`: displacement share of the lower body.
   HalfSpaceSolution(std::shared_ptr<const ContactGeometry> geometry, HalfSpaceProblem problem,
                     HalfSpaceAnswer answer, double lower_share);
 
-  // What moves the bodies: the pressures, less what attracts.
+  // Contact pressures less the attraction.
   virtual Field moving_pressures() const { return at_.pressure; }
-  // What limits the pressures; none where nothing yields.
+  // The yield law; empty without yield.
   virtual const std::optional<PlannedYield>& limit() const;
 
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
   bool faces(std::size_t k) const { return problem_.faces(k); }
-  // The elastic displacement of both bodies, K p. Near a light contact all terms are small.
+  // K p of both bodies, m; small terms near a light contact.
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
   }
@@ -76,9 +74,8 @@ class HalfSpaceSolution : public Solution {
   double lower_share_;
 };
 
-// By preconditioned conjugate gradients on the finest grid, some 10 to 20 applications of K; +∞ where all of
-// a periodic half-space is in elastic contact (1/K(0) of a layer), 0 where no node is free. Relative accuracy
-// about 1e-8.
+// 10 to 20 applications of K, relative accuracy about 1e-8. +∞ in full elastic contact of a periodic
+// half-space (1/K(0) of a layer), 0 without free nodes.
 double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor);
 
 }  // namespace asperity

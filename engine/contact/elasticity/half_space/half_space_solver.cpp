@@ -22,7 +22,7 @@ namespace asperity {
 
 namespace {
 
-// One list for writing and reading, so that nothing is kept that is not read and the other way about.
+// One list for writing and reading, so both agree.
 template <class Answer, class Visit>
 void numbers_of(Answer& answer, Visit visit) {
   visit("offset", answer.offset);
@@ -41,7 +41,7 @@ void numbers_of(Answer& answer, Visit visit) {
   visit("iterations", answer.iterations);
 }
 
-// Counts are far below 2^53, so that a double holds them.
+// Counts are below 2^53.
 void write_numbers(const HalfSpaceAnswer& answer, ResultFacts& facts) {
   numbers_of(answer, [&](const char* name, auto value) {
     facts.numbers.emplace_back(name, static_cast<double>(value));
@@ -154,7 +154,7 @@ double rms_of(std::span<const double> heights) {
   std::transform(heights.begin(), heights.end(), squares.begin(),
                  [&](double h) { return (h - middle) * (h - middle); });
   const double sum = block_sum(squares), most = range(heights).span();
-  // Heights so small that their squares underflow are taken times a power of two.
+  // Scale by a power of two if squares underflow.
   constexpr double least = 1e-140;
   if (!(most > 0 && most < least)) return std::sqrt(sum / n);
   const int power = -std::ilogb(most);
@@ -171,7 +171,7 @@ struct HalfSpaceSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   HalfSpaceOperator half_space;
   std::optional<PlannedYield> yield;
-  MetMemory hardness;  // empty unless events have left fields of it
+  MetMemory hardness;  // empty unless past events left hardness fields
   HalfSpaceProblem problem;
 
   static std::shared_ptr<const Ready> make(const Plan& plan, const HalfSpaceOperator& half_space,
@@ -200,7 +200,7 @@ struct HalfSpaceSolver::Ready {
 
 class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
  public:
-  // `problem` with the yield law that held; `factor` the softening by creep; `asked` what error() is about.
+  // `problem` has the yield law in force; `factor`: softening by creep.
   UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
             double factor, const Reported& asked)
       : HalfSpaceSolution(ready->geometry, std::move(problem), std::move(answer),
@@ -217,7 +217,7 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
     reported.plastic_volume = plastic_volume();
     return half_space_error(problem_, at_, reported);
   }
-  double flatten() const override { return std::max(0.0, flattened(problem_, at_)); }  // rounding apart
+  double flatten() const override { return std::max(0.0, flattened(problem_, at_)); }  // rounding
   double energy() const override;
   std::int64_t bytes() const override {
     return static_cast<std::int64_t>((at_.pressure.size() + at_.gap.size()) * sizeof(double));
@@ -231,7 +231,7 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
  private:
   const std::optional<PlannedYield>& limit() const override { return ready_->yield; }
   CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
-  // w: what the limit on the pressure leaves open.
+  // Plastic displacement w, m.
   double yielded(std::size_t k) const {
     if (fits_) return 0;
     const YieldLaw& law = problem_.yield;
@@ -245,15 +245,14 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
   std::shared_ptr<const Ready> ready_;
   double factor_;
   Reported asked_;
-  bool fits_;  // the bodies have carried this load as they lie
+  bool fits_;  // the bodies have carried this load in this position
 };
 
-// Half the product of pressures and displacements. Where all of a periodic tile touches, the mean pressure
-// moves nothing, or compresses a layer by what is known, and may be so large that pressures beside it keep no
-// digit of what differs; that is taken from the displacements then.
+// Half the sum of pressures times displacements. In periodic full contact a large mean pressure can cost the
+// pressures their precision: their differences then come from the displacements.
 double HalfSpaceSolver::UnderLoad::energy() const {
   Field pressure = at_.pressure;
-  double uniform = 0;  // twice the energy of the mean, where it is taken by itself
+  double uniform = 0;  // twice the energy of the mean pressure
   if (problem_.boundary == Boundary::periodic && static_cast<double>(at_.contacts) == nodes() &&
       yielded() == 0) {
     const Grid& grid = problem_.grid;
@@ -264,8 +263,7 @@ double HalfSpaceSolver::UnderLoad::energy() const {
     uniform = uniform_compliance(problem_) * at_.mean_pressure * load();
   }
   const double twice = sum([&](std::size_t k) { return faces(k) ? pressure[k] * displacement(k) : 0.0; });
-  return 0.5 * uniform +
-         std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
+  return 0.5 * uniform + std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // rounding
 }
 
 std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const {
@@ -275,7 +273,7 @@ std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const 
   if (range(change.approach.values()).max == 0) return {};
   if (at_.converged) change.carried = carried();
   if (problem_.yield.hardens())
-    // At the reference dwell, so that the same press again finds nodes exactly as hard as it left them.
+    // At the reference dwell: a repeated press finds the nodes exactly as hard.
     change.hardness = field([&](std::size_t k) { return yielded(k) > 0 ? at_.pressure[k] / factor_ : 0.0; });
   return change;
 }
@@ -290,7 +288,7 @@ HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half
 
 namespace {
 
-// From `start`, or as without it where that does not converge at once.
+// From `start`; again without `start` if this does not converge at once.
 HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem& problem,
                            double mean_pressure, Monitor& monitor) {
   if (start == nullptr) return solve_at_pressure(problem, mean_pressure, nullptr, monitor);
@@ -357,7 +355,7 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
                              : solve_from(start, problem, value, monitor);
   });
-  // The energy is a sum of products of pressures and lengths.
+  // The energy sums pressures times lengths.
   const HalfSpaceAnswer& answer = solved.result;
   const double most = answer.peak_pressure * (std::abs(answer.approach) + height);
   if (!std::isfinite(most * static_cast<double>(problem.grid.nodes())) ||

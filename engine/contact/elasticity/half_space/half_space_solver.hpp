@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two elastic half-spaces with rough faces pressed together, with or without a limit on the pressure:
-// half_space_solve.hpp for the bodies of a contact as they lie. It turns a request into a problem and the
-// answer into a State; pressures, lengths and the shares of the two bodies meet here and nowhere else.
+// Two elastic half-spaces with rough faces, with or without yield: converts a request to a problem and the
+// answer to a State.
 #pragma once
 
 #include <functional>
@@ -22,31 +21,30 @@ class HalfSpaceSolver final : public Solver {
                   std::shared_ptr<const ContactGeometry> geometry);
 
   using Solver::press;
-  // Besides what check(PressRequest) refuses: what solve_at_pressure and solve_at_approach refuse, and
-  // `indentation` or `flatten` of heights that are all equal.
+  // Throws also the errors of solve_at_pressure and solve_at_approach, and on `indentation` or `flatten` of
+  // equal heights.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  // By pressure or load of bodies that cover each other; otherwise as press().
+  // Uses `guess` for pressure and load without missing heights.
   State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const override;
 
  private:
   class UnderLoad;  // the Solution
-  struct Ready;     // what all presses share
+  struct Ready;
 
-  // Under a load from `start`, if not null.
+  // `start` may be null.
   State pressed(const PressRequest& request, const HalfSpaceAnswer* start, Monitor& monitor) const;
 
   std::shared_ptr<const Ready> ready_;
 };
 
-// The solves of half_space_solve.hpp, displacement_control.hpp and adhesive_solve.hpp, taken up from the
-// store of the run where the same problem was solved before. A key is made of every number that a problem
-// holds, heights and hardness fields by their digests. `by` names the prescribed quantity ("pressure",
-// "approach", "flatten") and `value` is in its SI unit; `start` is what the solve begins from, or null.
+// Solves, or loads the answer from the run's result store. The key contains every number of the problem,
+// fields as digests. `by`: prescribed quantity ("pressure", "approach", "flatten"); `value` in SI; `start`
+// may be null.
 Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
                                         const HalfSpaceAnswer* start, Monitor& monitor,
                                         const std::function<HalfSpaceAnswer()>& solve);
 
-// `start` as in adhere_at_pressure; null from apart.
+// `start` as in adhere_at_pressure; null: separated bodies.
 Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::string_view by, double value,
                                         const AdhesiveAnswer* start, Monitor& monitor,
                                         const std::function<AdhesiveAnswer()>& solve);

@@ -20,14 +20,14 @@ namespace asperity {
 
 namespace {
 
-constexpr int most_steps = 4000;          // tangents
-constexpr int most_passes = 400;          // of one tangent's contact
-constexpr int most_applications = 20000;  // of K, all tangents together
+constexpr int most_steps = 4000;
+constexpr int most_passes = 400;          // per tangent
+constexpr int most_applications = 20000;  // of K
 
-// Lengths in cells, pressures in E*: u = K p.
+// Cell units: lengths in cells, pressures in E*.
 class AdhesiveDescent {
  public:
-  // One of the last two is what is asked for, the other 0; Pa, m.
+  // Prescribed pressure [Pa] or approach [m]; the other is 0.
   AdhesiveDescent(const AdhesiveProblem& problem, double asked_pressure, double asked_approach,
                   Monitor& monitor)
       : problem_(problem),
@@ -58,7 +58,7 @@ class AdhesiveDescent {
       longest = std::max(longest, term.range / length_);
     }
     if (!problem.contact.overhangs) return;
-    // Ground that nothing faces is where nothing touches it, nor attracts it to the last bit: e^−800 is 0.
+    // Nodes without a counterpart are so deep that contact and attraction are exactly zero: e^−800 is 0.
     constexpr double faded = 800;
     const double pressed = std::abs(asked_pressure) + greatest_ * modulus_;
     deep_ = known_range(drop_).max + std::abs(asked_approach) / length_ + faded * longest +
@@ -74,16 +74,16 @@ class AdhesiveDescent {
     });
   }
 
-  // The attraction of bodies that just touch: without any, none would hold them.
+  // Without attraction a pull would separate the bodies at once.
   void begin_touching() {
     for_nodes(nodes_, [&](std::size_t k) { q_[k] = traction(drop_[k]); });
   }
 
-  // Steps until the attraction that is held is the attraction of the gap, both to `tolerance`.
+  // Iterates until the fixed attraction equals the attraction of the gap, to `tolerance`.
   void run(double tolerance);
 
-  double approach = 0;         // δ, cells; found where the load is given
-  std::optional<double> load;  // mean p − mean q asked for, E*
+  double approach = 0;         // δ, cells
+  std::optional<double> load;  // prescribed mean p − mean q, E*
   bool separates = false;
 
   AdhesiveAnswer answer() const;
@@ -123,7 +123,7 @@ class AdhesiveDescent {
   Grid grid_;
   std::size_t nodes_;
   double length_, modulus_;
-  double deep_ = std::numeric_limits<double>::infinity();  // of ground that nothing faces
+  double deep_ = std::numeric_limits<double>::infinity();  // of nodes without a counterpart
   double greatest_ = 0, shortest_ = std::numeric_limits<double>::infinity();
   HalfSpaceCompliance compliance_;
   ContactPreconditioner preconditioner_;
@@ -134,10 +134,9 @@ class AdhesiveDescent {
   double off_ = std::numeric_limits<double>::infinity(), touch_ = 0;
 };
 
-// The contact under the attraction held: p >= 0 with g = K (p − q) + d − δ >= 0 and p g = 0, to `close` in
-// the gap. With a load, mean p = target, and δ is what makes the mean gap in contact 0. Projected conjugate
-// gradients on the nodes that touch or overlap (Polonsky & Keer 1999), preconditioned, begun again whenever
-// that set changes.
+// Contact with fixed attraction: p >= 0, g = K (p − q) + d − δ >= 0, p g = 0, to `close` in the gap. Under a
+// load mean p = target and the mean contact gap is 0. Preconditioned projected conjugate gradients (Polonsky
+// & Keer 1999), restarted when the contact set changes.
 double AdhesiveDescent::contact(double close, double target) {
   const bool fixed = load.has_value();
   if (fixed) scale_to(target);
@@ -180,7 +179,7 @@ double AdhesiveDescent::contact(double close, double target) {
       v[0] = free[k] ? z_[k] : 0.0;
       v[1] = r_[k];
     });
-    // The preconditioner sees nothing of a constant; the longest wave does for it.
+    // The preconditioner ignores constants; the longest wave approximates them.
     const double level = fixed ? -sums[0] / found[1]
                                : std::numbers::pi / std::max<double>(grid_.nx, grid_.ny) / found[1] * sums[1];
     const double rz = over_nodes<1>(nodes_, [&](std::size_t k, double* v) {
@@ -220,7 +219,7 @@ double AdhesiveDescent::contact(double close, double target) {
       for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
       if (fixed) scale_to(target);
       find_gap();
-      // The energy is quadratic: its change is that of p times the mean of the gaps at both ends.
+      // Quadratic energy: its change is Σ Δp times the mean of both gaps.
       const double change = over_nodes<1>(
           nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
       if (change <= 0) break;
@@ -230,7 +229,7 @@ double AdhesiveDescent::contact(double close, double target) {
 }
 
 void AdhesiveDescent::run(double tolerance) {
-  // The certificate measures gaps by the rms height; the attraction sees them by its range.
+  // The certificate measures gaps by the rms height, the attraction by its range.
   const double rms = problem_.contact.rms / length_;
   const double tightest = 0.5 * tolerance * (rms > 0 ? std::min(shortest_, rms) : shortest_);
   double loose = 0.1 * shortest_;
@@ -265,13 +264,13 @@ void AdhesiveDescent::run(double tolerance) {
     const double rate = change[2] > 0 ? change[1] / change[2] : 0.0;
     if (off_ <= tolerance && touch_ <= tightest) {
       if (fresh) return;
-      fresh = true;  // once more from an application of its own: gaps were updated, not computed
+      fresh = true;  // repeat with freshly computed gaps
       loose = 0;
       continue;
     }
     fresh = false;
     loose = std::min(0.1, 0.2 * off_) * shortest_;
-    // What shrinks by one ratio from step to step ends where the geometric series does.
+    // Geometric convergence: extrapolate.
     const bool alike = change[1] > 0.95 * std::sqrt(change[0] * change[2]);
     if (smooth && ++since > 2 && alike && rate > 0.3 && rate < 0.98 && off_ < 0.3) {
       const double further = 0.9 * rate / (1 - 0.9 * rate);
@@ -317,7 +316,7 @@ AdhesiveAnswer AdhesiveDescent::answer() const {
   return result;
 }
 
-// The certificate of what is handed out, by sums over it; refuses what missed the tolerance.
+// Certificate of the returned fields; throws above the tolerance.
 void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optional<double> asked) {
   HalfSpaceAnswer& at = answer.contact;
   double shortest = std::numeric_limits<double>::infinity();

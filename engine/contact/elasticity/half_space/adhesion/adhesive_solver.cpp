@@ -36,7 +36,6 @@ struct AdhesiveSolver::Ready {
   HalfSpaceOperator half_space;
   AdhesiveProblem problem;
 
-  // The preload of the last press.
   struct Turn {
     bool by_load = false;
     std::vector<double> values;
@@ -58,7 +57,7 @@ class AdhesiveSolver::UnderLoad final : public HalfSpaceSolution {
 
   double attraction() const override { return mean_attraction_ * problem_.grid.area(); }
   std::span<const double> preload() const override { return preload_; }
-  // The problem is not convex: nothing is bounded but what was asked for.
+  // The problem is not convex: only the prescribed quantity has a bound.
   SolutionError error() const override {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -73,7 +72,7 @@ class AdhesiveSolver::UnderLoad final : public HalfSpaceSolution {
     if (!(height > 0)) return 0;
     const auto ends = over_nodes<0, 2>(at_.gap.size(), [&](std::size_t k, double* v) {
       const double gap = faces(k) ? at_.gap[k] : std::numeric_limits<double>::quiet_NaN();
-      v[0] = gap;  // a minimum goes over what is a number
+      v[0] = gap;  // a minimum ignores NaN
       v[1] = -gap;
     });
     return 1 - (-ends[1] - ends[0]) / height;
@@ -170,7 +169,7 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
   AdhesiveAnswer answer = solve(request.value, from ? &from->answer : nullptr);
   contacts += answer.first_contact;
   if (from) answer.contact.iterations += from->answer.contact.iterations;
-  if (from) {  // not before: a press that is refused leaves no trace
+  if (from) {  // a refused press leaves no trace
     const std::lock_guard lock(ready_->mutex);
     ready_->turn = std::move(from);
   }

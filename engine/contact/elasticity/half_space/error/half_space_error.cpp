@@ -13,19 +13,19 @@ namespace asperity {
 
 namespace {
 
-// Of a sum or a transform, whose errors do not all point the same way.
+// Error of a sum or transform; roundings partly cancel.
 constexpr double relative_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// The greatest a with a² <= linear·a + rest.
+// Greatest a with a² <= linear·a + rest.
 double greatest_root(double linear, double rest) {
   return 0.5 * (linear + std::sqrt(linear * linear + 4 * rest));
 }
 
-// 0 if either is.
+// 0 · ∞ = 0.
 double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
-// What the slope of a convex function of curvature up to `curvature` can exceed its slope by, where the
-// function is known to `slack` only and steps go up to `room`: min over t of curvature·t/2 + slack/t.
+// Error of a slope from difference quotients of a convex function: values exact to `slack`, curvature at
+// most `curvature`, steps at most `room`: min over t of curvature·t/2 + slack/t.
 double slope_slack(double curvature, double slack, double room) {
   if (!(room > 0)) return infinity;
   if (!(slack > 0)) return 0;
@@ -34,8 +34,7 @@ double slope_slack(double curvature, double slack, double room) {
   return curvature > 0 ? 0.5 * curvature * room + slack / room : slack / room;
 }
 
-// Everything in units in which the greatest pressure is 1 and the half-space that of cell units. Sums over
-// nodes; one node stands for `joule` of energy.
+// Cell units, with a greatest pressure of 1. Sums over nodes.
 class Bounds {
  public:
   Bounds(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, const Reported& reported)
@@ -76,7 +75,6 @@ class Bounds {
  private:
   bool faces(std::size_t k) const { return problem_.faces(k); }
   double pressure(std::size_t k) const { return pressure_[k]; }
-  // Where the law of the pressure changes: the cap, or the yield pressure.
   double limit(std::size_t k) const {
     return problem_.yield.hardens() ? problem_.yield.yields_at(k) / pascal_ : cap_;
   }
@@ -97,24 +95,24 @@ class Bounds {
   const HalfSpaceAnswer& at_;
   const Reported& reported_;
   std::size_t nodes_;
-  double n_, facing_;  // all nodes, and those that something faces
-  bool with_mean_;     // K(0) of a layer takes part
-  bool periodic_;      // the mean pressure moves nothing of what is looked at
-  // Of a layer what its mean pressure compresses it by, m; without that the approach and, J, the energy.
+  double n_, facing_;  // all nodes, those with a counterpart
+  bool with_mean_;     // K(0) of a layer enters
+  bool periodic_;      // the mean pressure moves nothing
+  // Uniform compression of a layer, m; approach [m] and energy [J] without it.
   double compression_, approach_, energy_;
   double pascal_, metre_, joule_;  // SI values of the units
   double give_, cap_;              // 1/K_h, H
   HalfSpaceCompliance compliance_;
   HalfSpaceCompliance::Spectrum spectrum_;
 
-  Array<double> pressure_;             // those handed out, under exactly the load they are meant for
-  double moved_ = 0, moved_most_ = 0;  // by which they differ: the sum, and at any node
+  Array<double> pressure_;             // the answer's, at exactly the prescribed load
+  double moved_ = 0, moved_most_ = 0;  // change of pressure_: sum, greatest
   Array<double> gap_, work_, image_;   // Kp − h − δ
   double total_ = 0;                   // Σ p
   double norm_ = 0;                    // ‖p‖_K
   double gap_rounding_ = 0;
-  double residual_ = 0, rest_ = 0;  // ‖r‖_{K⁻¹} and Σ p s⁺ + Σ (H − p) s⁻
-  double mean_residual_ = 0;        // of r, which the periodic operator does not see
+  double residual_ = 0, rest_ = 0;  // ‖r‖_{K⁻¹}, Σ p s⁺ + Σ (H − p) s⁻
+  double mean_residual_ = 0;        // of r
 
   double distance_ = 0;                             // bounds ‖d‖_K
   double slack_ = 0;                                // bounds E(p) − E(p*)
@@ -122,7 +120,7 @@ class Bounds {
   double near_gap_ = infinity, near_pressure_ = 0;  // at any node
 };
 
-// A solve is free to miss the load by its tolerance. What is missing goes where there is room.
+// Distributes the missing load over nodes with room.
 void Bounds::take_pressures() {
   pressure_ = Array<double>(nodes_);
   const auto room = [cap = cap_](double p) {
@@ -148,7 +146,7 @@ void Bounds::take_pressures() {
   moved_most_ = -moved[2];
 }
 
-// The gaps from a fresh application; heights are counted from the highest, beside which a light contact lies.
+// Fresh gaps; heights count from the highest node.
 void Bounds::take_gaps() {
   work_ = Array<double>(nodes_);
   gap_ = Array<double>(nodes_);
@@ -165,10 +163,9 @@ void Bounds::take_gaps() {
   const Field& h = *problem_.heights;
   const double peak = known_range(h.values()).max;
   for_nodes(nodes_, [&](std::size_t k) {
-    // Ground that nothing faces is out of reach of both solutions.
     gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - approach_) / metre_ : at_.gap[k] / metre_;
   });
-  // What rounding alone does to the pressures counts as distance, and so does a load that is still not right.
+  // Rounding and a remaining load error add to the distance.
   const double miss =
       std::abs(total_ / n_ * pascal_ - at_.mean_pressure) / std::max(at_.mean_pressure, 1e-300);
   distance_ = relative_rounding * std::sqrt(spectrum_.node * sums[1]) + miss * norm_;
@@ -177,7 +174,7 @@ void Bounds::take_gaps() {
 void Bounds::take_residual() {
   const double own = spectrum_.inverse_node > 0 ? 1 / spectrum_.inverse_node : infinity;
   image_ = Array<double>(nodes_);
-  // The part of a gap that moving the node's own pressure to its bound would not mend is left to the rest.
+  // The part of a gap that the node's own pressure cannot close belongs to `rest_`.
   const auto sums = over_nodes<4, 1>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), gap = yielding_gap(k), room = cap_ - p;
     const double most = gap > 0 ? p : room, wrong = std::abs(gap);
@@ -202,7 +199,7 @@ void Bounds::take_residual() {
   distance_ = base + greatest_root(residual_, rest_);
   slack_ = 0.5 * residual_ * residual_ + rest_;
   if (reported_.prescribed != Prescribed::approach) {
-    // The duality gap needs no inverse, nor a residual that is small node by node.
+    // The duality gap needs no inverse and no small residual at every node.
     const double duality =
         (std::isfinite(cap_) ? sums[2] : sums[2] - sums[4] * total_) + 2 * gap_rounding_ * total_;
     if (duality >= 0 && duality < slack_) slack_ = duality;
@@ -218,12 +215,11 @@ double Bounds::step_norm(std::span<const double> step) {
   return std::sqrt(std::max(0.0, squares));
 }
 
-// δ* is the slope of the least energy as a function of Σ p: between the difference quotients of the energy
-// along any direction of pressures that stays within the bounds, all of which are known to `slack`.
+// δ*, slope of the least energy over Σ p, is between difference quotients of energies known to `slack_`.
 void Bounds::bracket_approach() {
-  double above = infinity, below = infinity;  // how far δ* may lie on either side
+  double above = infinity, below = infinity;  // distance of δ*
   const double own = spectrum_.node;
-  // One node by itself.
+  // Direction: one node alone.
   const auto single = over_nodes<1, 4>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), bound = limit(k), gap = yielding_gap(k);
     const double room = bound - p;
@@ -241,7 +237,7 @@ void Bounds::bracket_approach() {
     above = std::min(above, slope + slope_slack(norm_squared, slack_, room_up));
     below = std::min(below, slope_slack(norm_squared, slack_, room_down) - slope);
   };
-  // All pressures in proportion; past their yield pressures nodes give way besides.
+  // Direction: all pressures in proportion; yielding nodes also give way.
   const bool at_limit = single[0] > 0;
   if (!at_limit || give_ > 0) {
     const auto sums = over_nodes<3>(nodes_, [&](std::size_t k, double* v) {
@@ -256,7 +252,7 @@ void Bounds::bracket_approach() {
     if (give_ > 0) along(slope, with_give(sums[2]), infinity, 0);
     if (!at_limit) along(slope, elastic / unit, single[3] * total_, 0);
   }
-  // The nodes that are neither at their limit nor open, by the room they have.
+  // Direction: nodes neither at their limit nor open, weighted by their room.
   if (at_limit) {
     const auto room = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
       const double p = pressure(k);
@@ -268,7 +264,7 @@ void Bounds::bracket_approach() {
       along(room[1] / room[0], norm * norm, room[0], room[0]);
     }
   }
-  // A uniform pressure moves nothing on a periodic tile.
+  // Direction: a uniform pressure.
   if (periodic_ && !at_limit && at_.contacts == static_cast<std::int64_t>(nodes_)) {
     const double slope = block_sum(gap_) / n_;
     const auto least = over_nodes<0, 2>(nodes_, [&](std::size_t k, double* v) {
@@ -280,9 +276,8 @@ void Bounds::bracket_approach() {
   approach_error_ = std::max({above, below, 0.0}) + gap_rounding_;
 }
 
-// The exact solution at the approach asked for carries another load: Σ d <= σ ‖d‖_K as long as neither
-// touches outside a set, which holds along the way from the one to the other if what moves any gap on it is
-// less than what would close the least of those outside.
+// Load at the requested approach: Σ d <= σ ‖d‖_K if nothing touches outside a set on the whole path between
+// both solutions. This is true if no gap changes by more than the least gap outside.
 void Bounds::follow_asked_approach() {
   const double shift = (approach_ - reported_.asked_approach) / metre_;
   approach_error_ = std::abs(shift);
@@ -354,8 +349,8 @@ SolutionError Bounds::result() {
   const double greatest_peak = std::min(cap_, 1 + near_pressure_);
   error.peak_pressure = pascal_ * std::max(1 - least_peak, greatest_peak - 1);
 
-  // Σ w from the gaps: those that are surely negative change together, the others each by itself.
-  double openings = counts[5];  // bounds what Σ g⁻ is wrong by
+  // Σ w: surely negative gaps change together, others individually.
+  double openings = counts[5];  // error of Σ g⁻
   if (caps || hardens) {
     error.yielded = {whole(counts[3]), whole(counts[4])};
     openings = counts[7] + product(counts[6], approach_error_ + gap_rounding_);
@@ -368,7 +363,7 @@ SolutionError Bounds::result() {
     const double volume = metre_ * problem_.grid.cell_area();
     const double apart = std::abs(reported_.plastic_volume / volume - counts[5]);
     double plastic = openings + apart;
-    // Hardening makes the energy convex in w itself: Σ (Δw)²/give is bounded, too.
+    // Hardening makes the energy convex in w: Σ (Δw)²/give is bounded.
     if (hardens && reported_.prescribed != Prescribed::approach) {
       const double convex = std::sqrt(counts[4] * give_ * (0.25 * residual_ * residual_ + rest_)) +
                             give_ * (moved_ + relative_rounding * n_);
@@ -377,7 +372,7 @@ SolutionError Bounds::result() {
     }
     error.plastic_volume = plastic * volume + relative_rounding * reported_.plastic_volume;
   }
-  // mean(g⁺) = mean(g) + mean(g⁻), and the mean of K d is no more than the longest wave of it.
+  // mean(g⁺) = mean(g) + mean(g⁻); the longest wave bounds mean K d.
   const double sunk = periodic_ ? 0 : std::sqrt(spectrum_.greatest / facing_) * distance_;
   const double reported = reported_.mean_gap / metre_;
   const double gap_error =
@@ -395,7 +390,7 @@ SolutionError Bounds::result() {
 
 SolutionError half_space_error(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer,
                                const Reported& reported) {
-  // First touch: nothing was left to be found.
+  // First touch is exact.
   if (!(answer.peak_pressure > 0)) return SolutionError{.load = 0.0};
   return Bounds(problem, answer, reported).find();
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bounds on the distance of pressures p from the exact solution p* of the same discrete contact: minimise
-// E = ½ p·Kp − h·p (+ Σ φ(p)) over 0 <= p <= H. With the gap g = Kp − h − δ (+ φ'), split as g = r + s with
-// s >= 0 where p is above 0 and s <= 0 where it is below H, the condition that p* is least gives, d = p − p*,
+// Bounds on the distance d = p − p* to the exact solution p* of the same discrete contact, the minimum of
+// E = ½ p·Kp − h·p (+ Σ φ(p)) over 0 <= p <= H. Split the gap g = Kp − h − δ (+ φ') = r + s with s >= 0
+// where p > 0 and s <= 0 where p < H. Then
 //   ‖d‖²_K <= r·d + Σ p s⁺ + Σ (H − p) s⁻,   r·d <= ‖r‖_{K⁻¹} ‖d‖_K,
-// so that ‖d‖_K is bounded by one application of K⁻¹ to r, the projected residual; the duality gap bounds it
-// too. Every other bound follows from ‖d‖_K, from E(p) − E(p*) <= ½‖r‖² + Σ…, and from the approach, which is
-// the slope of a convex function of the load and so lies between its difference quotients.
+// so one application of K⁻¹ bounds ‖d‖_K; the duality gap is a second bound. The other bounds follow from
+// ‖d‖_K, from E(p) − E(p*) <= ½‖r‖² + Σ…, and from the approach, the slope of a convex function of the load.
 #pragma once
 
 #include "engine/contact/algebraic_error.hpp"
@@ -13,27 +12,23 @@
 
 namespace asperity {
 
-// What the exact solution shares with the answer.
 enum class Prescribed {
-  load,       // its mean pressure
-  approach,   // an approach that was asked for
-  flattening  // the load that was found: none is known
+  load,       // the mean pressure
+  approach,   // the requested approach
+  flattening  // the load found; its error is unknown
 };
 
-// What the bounds are about.
 struct Reported {
   Prescribed prescribed = Prescribed::load;
-  double asked_approach = 0;  // m, of Prescribed::approach
+  double asked_approach = 0;  // m
   double mean_gap = 0;        // m
   double energy = 0;          // J
   double plastic_volume = 0;  // m³
 };
 
-// K(0) of a layer takes part where the approach was asked for; under a load it is known and left out.
-// A fresh application of K, one of K⁻¹ and, where ground yields or the approach was asked for, a few more;
-// holds five fields besides the operator. Under a prescribed approach the load is bounded through
-// Σ d <= ‖f‖_{K⁻¹}‖d‖_K, f any field that is 1 wherever either solution may touch: no sharper than the
-// stiffness of that set times the error of the approach.
+// Costs an application of K, one of K⁻¹ and, with yield or a prescribed approach, a few more; five fields.
+// Under an approach Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any f = 1 on both contacts bounds the load; K(0) of a layer
+// enters only there.
 SolutionError half_space_error(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer,
                                const Reported& reported);
 

@@ -22,7 +22,7 @@ namespace asperity {
 double ComplianceMultiplier::greatest_from(double q) const {
   double greatest = 2 / q * share(q);
   if (!shares()) return greatest;
-  // Below x = 4 it is smooth in log x.
+  // Smooth in log x below x = 4.
   for (double wave = q; wave * length < 4; wave *= 1.25)
     greatest = std::max(greatest, 2 / wave * share(wave));
   return greatest;
@@ -42,7 +42,7 @@ ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean)
 
 namespace {
 
-// Half of the abscissae and weights of Gauss's rules of 4, 8 and 16 points on [−1, 1].
+// Positive nodes of Gauss's rules of 4, 8 and 16 points on [−1, 1].
 struct Node {
   double at, weight;
 };
@@ -61,8 +61,7 @@ constexpr std::array<Node, 8> rule_16{{{0.095012509837637440, 0.1894506104550685
                                        {0.94457502307323258, 0.062253523938647893},
                                        {0.98940093499164993, 0.027152459411754095}}};
 
-// ∫ dη / √(x² + (y−η)²) over |η| < half = asinh((y+half)/x) − asinh((y−half)/x), for x, y > 0,
-// as one area sine, whose argument has no cancellation.
+// ∫ dη / √(x² + (y−η)²) over |η| < half = asinh((y+half)/x) − asinh((y−half)/x), without cancellation.
 double line(double x, double y, double half) {
   const double near = y - half, beyond = y + half;
   if (near <= 0) return elementary::asinh(beyond / x) - elementary::asinh(near / x);
@@ -70,7 +69,7 @@ double line(double x, double y, double half) {
   return elementary::asinh(4 * y * half / (beyond * r_near + near * r_beyond));
 }
 
-// Mean over |ξ| < half of line(x − ξ, y, other).
+// Mean of line(x − ξ, y, other) over |ξ| < half.
 template <std::size_t n>
 double gauss(const std::array<Node, n>& rule, double x, double half, double y, double other) {
   double sum = 0;
@@ -79,8 +78,8 @@ double gauss(const std::array<Node, n>& rule, double x, double half, double y, d
   return sum;
 }
 
-// The integrand is singular only on the line x = 0, which is distance/half-width away from the
-// interval in its own units: Gauss's rule of n points errs as (2·distance/half)^(−2n).
+// The integrand is singular only at x = 0. Relative error of Gauss's rule of n points:
+// (2·distance/half)^(−2n).
 double integrate(double x, double half, double y, double other) {
   const double distance = x / half;
   const double mean = distance < 10    ? gauss(rule_16, x, half, y, other)
@@ -89,7 +88,7 @@ double integrate(double x, double half, double y, double other) {
   return 2 * half * mean;
 }
 
-// A corner's share of the rectangle: F(x, y) = x asinh(y/|x|) + y asinh(x/|y|).
+// F(x, y) = x asinh(y/|x|) + y asinh(x/|y|).
 double corner(double x, double y) {
   const double first = x == 0 ? 0 : x * elementary::asinh(y / std::abs(x));
   const double second = y == 0 ? 0 : y * elementary::asinh(x / std::abs(y));
@@ -117,8 +116,8 @@ double LoveKernel::operator()(double i, double j) const {
   return integral * std::numbers::inv_pi;
 }
 
-// The mean of x'^2m y'^2n over the rectangle is a^2m b^2n / ((2m+1)(2n+1)): Taylor's series of 1/R about
-// its centre to the fourth order, the next being (half side / R)^6 < 2e-14.
+// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n over the
+// rectangle. Next term: (half side / R)^6 < 2e-14.
 double LoveKernel::far(double x, double y) const {
   const double xx = x * x, yy = y * y, rr = xx + yy;
   const double s = 1 / rr;
@@ -134,13 +133,12 @@ double LoveKernel::far(double x, double y) const {
 
 namespace {
 
-// A convolution of n values that does not wrap into itself.
+// Convolution of n values without wrap.
 int padded(int n) { return std::max(2, good_fourier_length(2 * n - 1)); }
 
-// The period of the operator: a side of the periodic tile, or of the padded free one.
 int period(int n, Boundary boundary) { return boundary == Boundary::periodic ? n : padded(n); }
 
-// The period of the transforms: that of the operator where FourierLaneFilter takes it.
+// The operator's period if FourierLaneFilter supports it.
 int transform_period_x(int n, Boundary boundary) {
   return boundary == Boundary::periodic && n % 2 == 0 && LaneFourier<double>::possible(n) ? n : padded(n);
 }
@@ -148,7 +146,7 @@ int transform_period_y(int n, Boundary boundary) {
   return boundary == Boundary::periodic && LaneFourier<double>::possible(n) ? n : padded(n);
 }
 
-// K of the waves (a, b), b = 0 … period/2: 2/|q| of a half-space, 0 for its mean.
+// K of the waves (a, b), b = 0 … period/2.
 void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny, double aspect, int a,
                          std::span<double> factors) {
   const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
@@ -162,7 +160,7 @@ void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny,
   if (a == 0) factors[0] = multiplier.uniform;
 }
 
-// The transforms of even sequences, each given from 0 to period/2, are real; they replace them.
+// Even sequences, given from 0 to period/2, become their real transforms.
 constexpr int sequences_at_once = BatchFourier::rows;
 void transform_even(const BatchFourier& fourier, std::span<double* const> halves) {
   const int period = fourier.length();
@@ -184,8 +182,8 @@ void transform_even(const BatchFourier& fourier, std::span<double* const> halves
     std::transform(to[r], to[r] + bins, halves[r], [](std::complex<double> bin) { return bin.real(); });
 }
 
-// The transform of an even kernel: coefficient(i, j) is the displacement at a distance of i and j cells,
-// asked for up to half a period. multiplier[a (period_y/2 + 1) + b] belongs to the wave (a, b).
+// coefficient(i, j): displacement at i and j cells, up to half a period. multiplier[a (period_y/2 + 1) + b]:
+// factor of wave (a, b).
 template <class Coefficient>
 void transform_kernel(int period_x, int period_y, const Coefficient& coefficient,
                       std::span<double> multiplier) {
@@ -218,8 +216,7 @@ void transform_kernel(int period_x, int period_y, const Coefficient& coefficient
   });
 }
 
-// The periodic tile on a longer period: the kernel of the tile at the distances between its nodes, which are
-// below its sides. Longer distances are multiplied by zeros only.
+// The periodic tile on a longer period, by its kernel at distances below its sides.
 void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny, double aspect, int period_x,
                             int period_y, std::span<double> multiplier) {
   const auto half_y = static_cast<std::size_t>(ny / 2 + 1);
@@ -229,7 +226,7 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
     periodic_multiplier(of_wave, nx, ny, aspect, static_cast<int>(a),
                         all.subspan(static_cast<std::size_t>(a) * half_y, half_y));
   });
-  // Even in both waves: the inverse transform is the forward one, divided by the number of nodes.
+  // The kernel is even: inverse transform = forward transform / nodes.
   Array<double> kernel(waves.size());
   transform_kernel(
       nx, ny,
@@ -246,20 +243,19 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
 
 }  // namespace
 
-// Two filters, one for each precision; one of the two rests: it keeps its multiplier and gives back its
-// spectrum.
+// The inactive filter keeps its multiplier and frees its spectrum.
 struct HalfSpaceCompliance::Parts {
   int nx, ny;
-  int period_x, period_y;        // of the operator
-  int transform_x, transform_y;  // of the transforms
+  int period_x, period_y;
+  int transform_x, transform_y;
   double aspect;
   Boundary boundary;
   double weight;
-  ComplianceMultiplier of_wave;  // of a periodic tile
+  ComplianceMultiplier of_wave;
   std::optional<FourierLaneFilter<double>> lanes;
   std::optional<FourierLaneFilter<float>> singles;
   double scale = 1;     // of pressures, for `singles`
-  Array<double> field;  // for results that the caller does not store
+  Array<double> field;  // results, if the caller stores none
 
   Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single,
         const ComplianceMultiplier& of_wave_)
@@ -294,7 +290,6 @@ struct HalfSpaceCompliance::Parts {
       lanes.emplace(nx, ny, transform_x, transform_y, factors);
   }
 
-  // Whether the transforms have the period of a periodic tile, so that each wave has a factor in closed form.
   bool of_tile() const { return boundary == Boundary::periodic && transform_x == nx && transform_y == ny; }
   FourierLaneFilter<double>& in_double() {
     if (singles) singles->rest();
@@ -313,7 +308,7 @@ struct HalfSpaceCompliance::Parts {
   }
 
   std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
-  // The factors of the waves (a, b), b = 0 … period_y/2, of the operator's period.
+  // b = 0 … period_y/2.
   void factors_of(int a, std::span<double> factors) {
     const bool periodic = boundary == Boundary::periodic;
     if (lanes && (!periodic || of_tile()))
@@ -407,7 +402,7 @@ void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::s
 
 HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
   const int period_x = parts_->period_x, period_y = parts_->period_y;
-  // Waves that one bin of the quarter of the spectrum stands for.
+  // Waves per bin of the quarter spectrum.
   const auto waves = [](int bin, int period) { return bin == 0 || 2 * bin == period ? 1.0 : 2.0; };
   Array<double> sums(static_cast<std::size_t>(period_x / 2 + 1)), inverse(sums.size());
   Array<double> column(parts_->bins_y());

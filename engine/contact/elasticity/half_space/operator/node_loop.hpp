@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops over the nodes of a grid in fixed blocks shared over threads, with sums and minima taken in fixed
-// lanes and blocks: the same bits for any number of threads and any width of vector. A term may also write
-// to its own node, so that an update and the sums over its result cost one pass over memory. Within a
-// block nodes are taken in chunks: those of a chunk go through the term as one loop that a compiler turns
-// into vector code, and a chunk that holds no marked node can be left out. For that a body or term should
-// capture by value (a store of a byte could change what a reference reaches), read before it
-// decides, and choose between values rather than branch.
+// Loops over grid nodes with sums and minima in fixed lanes and blocks: same bits for any number of threads
+// and vector width. A term may write to its own node: an update and its sums need one pass over memory.
+// Chunks vectorise, and chunks without marked nodes can be skipped. Terms should capture by value (a byte
+// store may alias a reference), read before they decide, and select instead of branch.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +23,6 @@ inline constexpr std::size_t nodes_a_block = 8192;
 inline constexpr std::size_t nodes_a_chunk = 64;
 inline constexpr std::size_t lanes_a_block = 8;
 
-// body(begin, end) for each block.
 template <class Body>
 void for_node_blocks(std::size_t nodes, Body body) {
   const auto blocks = static_cast<std::int64_t>((nodes + nodes_a_block - 1) / nodes_a_block);
@@ -38,12 +34,11 @@ void for_node_blocks(std::size_t nodes, Body body) {
 
 namespace node_loop {
 
-// Every chunk is taken.
 struct All {
   bool operator()(std::size_t, std::size_t) const { return true; }
 };
 
-// The chunks where some byte is not 0.
+// Chunks with a nonzero byte.
 struct Marked {
   const std::uint8_t* marks;
   bool operator()(std::size_t begin, std::size_t end) const {
@@ -67,12 +62,11 @@ void visit(std::size_t nodes, Take take, const Body& body) {
   });
 }
 
-// A register holds a part of the eight lanes.
+// A register contains part of the eight lanes.
 using LaneVector = register_vectors::Of<double>::Vector;
 inline constexpr std::size_t lanes_a_part = register_vectors::register_lanes<double>;
 inline constexpr std::size_t parts_a_block = lanes_a_block / lanes_a_part;
 
-// The sums and minima of a block, eight lanes each.
 template <std::size_t sums, std::size_t minima>
 struct Lanes {
   static constexpr std::size_t size = sums + minima;
@@ -91,7 +85,7 @@ struct Lanes {
     for (std::size_t i = 0; i < size; ++i)
       for (LaneVector& part : lanes[i]) part = LaneVector{} + none(i);
   }
-  // `k` is a whole number of lanes from the beginning of the block.
+  // `k`: whole lanes from the start of the block.
   template <class Term>
   void take_chunk(std::size_t k, const Term& term) {
     alignas(64) double values[size][nodes_a_chunk];
@@ -130,7 +124,7 @@ struct Lanes {
   }
 };
 
-// Over the nodes from `begin` to `end`, on this thread.
+// On this thread.
 template <std::size_t sums, std::size_t minima, class Term>
 std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
@@ -141,7 +135,7 @@ std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t en
   return block.total();
 }
 
-// Of what range(begin, end) gives for each block.
+// Merges range(begin, end) of all blocks.
 template <std::size_t sums, std::size_t minima, class Range>
 std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& range) {
   using Block = Lanes<sums, minima>;
@@ -159,20 +153,19 @@ std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& 
 
 }  // namespace node_loop
 
-// body(k) for each node.
 template <class Body>
 void for_nodes(std::size_t nodes, Body body) {
   node_loop::visit(nodes, node_loop::All{}, body);
 }
 
-// body(k) for each node with a mark that is not 0, and for some of the others.
+// body(k) for each marked node and some others.
 template <class Body>
 void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
   node_loop::visit(marks.size(), node_loop::Marked{marks.data()}, body);
 }
 
-// term(k, v) sets v[0 … sums) to what node k adds to each sum, and the rest to what it offers to each
-// minimum; both are returned in that order. A minimum over nothing is +∞.
+// term(k, v) sets v[0 … sums) to summands, the rest to candidates for minima; returned in this order. A
+// minimum over nothing is +∞.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
   return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
@@ -180,7 +173,7 @@ std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
   });
 }
 
-// A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v).
+// On this thread.
 template <class Body>
 void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
@@ -190,7 +183,7 @@ template <std::size_t sums, class Term>
 std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
   return node_loop::gather_range<sums, 0>(begin, end, term);
 }
-// The sums of stretches, added up in their order.
+// Adds in order.
 template <std::size_t sums>
 std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) {
   std::array<double, sums> total{};
@@ -199,11 +192,9 @@ std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) 
   return total;
 }
 
-// The same sums and minima in the same lanes and blocks, and so the same bits, for the few loops that every
-// pass of a descent waits for: their terms are written for eight nodes at once, with the sums in registers,
-// where a compiler left to itself goes through memory or branches. A term is a template of Value, a vector of
-// lanes or, for the last nodes of a stretch, a double; read() and put() move either from and to fields, and a
-// comparison chooses between values of it: `a < b ? c : d`.
+// The same bits for the hot loops of a descent, sums in registers. A term is a template of Value: a vector
+// of lanes or, for the last nodes, a double. read() and put() access fields; comparisons select: `a < b ? c
+// : d`.
 namespace lane_terms {
 
 using node_loop::lanes_a_part;
@@ -232,7 +223,7 @@ template <std::size_t sums, std::size_t minima, class Term>
 std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
   node_loop::Lanes<sums, minima> block;
-  // A copy, because the compiler keeps members in memory.
+  // A copy: the compiler keeps members in memory.
   LaneVector lanes[sums + minima][parts_a_block];
   std::memcpy(lanes, block.lanes, sizeof lanes);
   std::size_t k = begin;
@@ -270,7 +261,7 @@ std::array<double, sums + minima> over_lanes(std::size_t nodes, Term term) {
     return lane_terms::gather_range<sums, minima>(begin, end, term);
   });
 }
-// As for_nodes and for_stretch, body.operator()<Value>(k) being for eight nodes or for one.
+// As for_nodes and for_stretch; body.operator()<Value>(k).
 template <class Body>
 void for_lanes(std::size_t nodes, Body body) {
   for_node_blocks(nodes,

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sweeps are done tile by tile with a margin as wide as there are sweeps, so that a tile needs
-// nothing of its neighbours and stays in the cache, and in it only on the groups of eight nodes of one colour
-// that are near the edge of the free set. A sweep makes the nodes of one colour of a chessboard, off the free
-// set, the mean of their four neighbours, which all are of the other. Its transpose passes what a node holds
-// on to its neighbours, a quarter to each: what a node has passed on by then is v = D (y + N v), taken colour
-// by colour in the opposite order, where N adds up the four neighbours and D is 1/4 off the free set and 0
-// on it. On a line of nodes there are two neighbours, and halves.
+// Sweeps run tile by tile, with a margin as wide as the number of sweeps, so tiles are independent and stay
+// in cache. The transpose distributes each node's value to its neighbours: v = D (y + N v), colours in
+// reverse order, N the sum of the four neighbours, D = 1/4 off the free set, 0 on it (two and 1/2 on a line
+// of nodes).
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 
 #include <algorithm>
@@ -30,12 +27,11 @@ using namespace edge_rows;
 
 constexpr int tile_width = FreeTiles::width;
 
-// Cells: nothing is carried past the edge of contact on a thinner layer. Measured on rough ground of 512²
-// cells: at 10 cells it took up to three times the transforms if it was, at 100 up to twice if it was not.
+// Cells. Measured on 512²: up to three times the transforms with extension at 10 cells, up to twice without
+// at 100.
 constexpr double thin_layer = 20;
 bool carries_on(const ComplianceMultiplier& multiplier) { return multiplier.length >= thin_layer; }
 
-// From value k on.
 void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n) {
   if (step.length != 0) add_times(step.length, step.more + k, n, step.values + k);
 }
@@ -55,13 +51,11 @@ class ContactPreconditioner::Parts {
   std::size_t nodes() const { return tiles_.nodes(); }
 
  private:
-  // A tile with its margin, laid out as FreeTiles has it.
   struct Patch {
     Array<float> given, now;
     float sums[2 * tile_width];
     explicit Patch(std::size_t places) : given(places), now(places) {}
   };
-  // Sums over the hats: of the free nodes, and of what is passed on.
   struct Hats {
     SmoothExtension::Sums free, passed;
   };
@@ -74,31 +68,29 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  // Of long cells, and where nothing is carried past the edge.
   double spread_along_lines(const Residual& scaled, const Step& step);
   void gather_along_lines(const Keep& keep);
   void no_smooth_field();
   double greatest(const Residual& r, const Step& step) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
-  // From the sums over hats to values at their points.
   void divide(Array<double>& sums) const;
 
   int nx_, ny_;
-  float share_;  // of a neighbour in the mean of them
+  float share_;  // weight of a neighbour
   HalfOrderPyramid pyramid_;
   SmoothExtension smooth_;
-  Array<double> free_hats_, sums_;       // sums of hats over the free set, and of what is passed on
-  SmoothExtension::Field<float> level_;  // of the residual,
-  SmoothExtension::Field<double> rest_;  // and of what is gathered
-  double rest_sum_ = 0;                  // of the field of rest_ over the free set
-  std::span<const float> spread_;        // B Ext r/grow_; empty where r is 0
+  Array<double> free_hats_, sums_;       // over the free set, of distributed values
+  SmoothExtension::Field<float> level_;  // of the residual
+  SmoothExtension::Field<double> rest_;  // of the result
+  double rest_sum_ = 0;                  // of rest_ over the free set
+  std::span<const float> spread_;        // B Ext r/grow_; empty if r = 0
   double grow_ = 1;                      // a power of two
   FreeTiles tiles_;
-  bool tiled_;                          // sweeps and smooth fields carry r on
-  std::optional<LineExtension> lines_;  // of long cells, in their place
-  UnsetArray<float> gathered_;          // by lines, or by nothing
-  std::vector<Hats> hats_;              // of each tile
+  bool tiled_;                          // sweeps and smooth fields
+  std::optional<LineExtension> lines_;  // on long cells
+  UnsetArray<float> gathered_;
+  std::vector<Hats> hats_;
   ScratchPool<Patch> patches_;
 };
 
@@ -128,10 +120,9 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
   }
 }
 
-// Calls put(place of the row, column, node, length) for the stretches of a patch that lie on the grid; what
-// lies beyond is 0. So are the rows on either side of the patch, which sweeping back just reaches: no tile
-// writes the first of them, but in the last a taller tile may have been before. What an earlier tile left
-// beside the patch is farther off than there are sweeps.
+// Calls put(row start, column, node, length) for the parts of a patch on the grid; other places are 0. The
+// rows on either side must be 0 too: a taller tile may have written the last. Sweeps do not reach other old
+// values.
 template <class Put>
 void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, const Put& put) const {
   const int height = tiles_.patch_height(tile);
@@ -165,7 +156,6 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
   for (const Hats& hats : hats_) hats.free.add_to(free_hats_);
 }
 
-// total = the sums over the hats of what add(tile, patch) gives to each tile's own.
 template <class Add>
 void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
   parallel_for(static_cast<std::int64_t>(tiles_.count()), [&](std::int64_t k) {
@@ -187,7 +177,7 @@ void ContactPreconditioner::Parts::divide(Array<double>& sums) const {
 void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& r) {
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
-  if (tile.reaches_free && !tile.swept) {  // every node is free
+  if (tile.reaches_free && !tile.swept) {  // all nodes are free
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
       convert(r.values + k, r.factor, r.offset, width, extended + k);
@@ -206,7 +196,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
                level_.row(static_cast<int>(from / nx), from % nx), length, column,
                static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
   });
-  // Nothing is farther from the free set than there have been sweeps.
+  // Step s changes nodes within s steps of the free set.
   for (int s = 1; s <= tiles_.sweeps(); ++s)
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
@@ -217,8 +207,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
   }
 }
 
-// z = (y + N v) on the free set, v being what has been passed on off it, less the smooth field that is yet to
-// come; what that is made from goes to the hats.
+// z = (y + N v) on the free set, without the smooth field; adds its source to the hats.
 void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
                                                const Keep& keep) {
   const FreeTile& tile = tiles_[number];
@@ -237,7 +226,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
       start_bound(y.data() + from, length, column, static_cast<std::size_t>(tiles_.half()),
                   patch.given.data() + row, patch.now.data() + row);
     });
-    // Nothing matters that is farther from the free set than there are sweeps to come.
+    // Farther nodes do not matter.
     for (int s = tiles_.sweeps(); s >= 1; --s)
       for (const int odd : {0, 1})
         sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_,
@@ -292,7 +281,7 @@ void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
     keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
 }
 
-// Roughly: of a few rows, and of all only if that finds nothing.
+// Estimated from a few rows, or all if these are 0.
 double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
   constexpr int few = 32;
   const auto width = static_cast<std::size_t>(nx_);
@@ -314,7 +303,7 @@ double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& ste
 }
 
 double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step) {
-  // Single precision has little range: near 1, and by a power of two, which rounds nothing.
+  // Exact scaling to near 1: single precision has little range.
   const double most = greatest(r, step);
   spread_ = {};
   if (!(most > 0)) {
@@ -346,7 +335,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
   parallel_for(static_cast<std::int64_t>(tiles_.count()),
                [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
   spread_ = pyramid_.apply();
-  // Ext is the transpose of what gathers: r·z = Ext r·B Ext r.
+  // Ext is the transpose of gather(): r·z = Ext r·B Ext r.
   return pyramid_.product() * grow_ * grow_;
 }
 
@@ -360,7 +349,7 @@ void ContactPreconditioner::Parts::gather(const Keep& keep) {
     gather_along_lines(keep);
     return;
   }
-  // With Ext = L (1 − C) + C, L being the sweeps and C the smooth field, Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
+  // Ext = L (1 − C) + C, sweeps L, smooth field C: Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
   add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
   divide(sums_);
   rest_.set(sums_);

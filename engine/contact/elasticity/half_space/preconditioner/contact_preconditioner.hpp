@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An approximate inverse of the half-space's compliance restricted to the free nodes of a contact:
-// z = Extᵀ (|q|/2) Ext r on the free set, in cell units. Ext carries r past the edge of the set, so that no
-// jump is paid for there: as a field that is smooth from one contact to the next (SmoothExtension) all over
-// the grid, and what r differs from that by a few sweeps far, each making the nodes of one colour of a
-// chessboard, off the set, the mean of their four neighbours, of two on a line of nodes; on a periodic side
-// of an odd number of nodes, where two of one colour meet, sweeps do not wrap. |q|/2 is HalfOrderPyramid's.
-// On cells much longer than wide, it is LineExtension that carries r on instead. On a layer 1/K takes the
-// place of |q|/2; on a thin one, which hardly hands a pressure on, nothing is carried past the edge.
-// Symmetric, positive semi-definite on the free set; single precision inside. No projection of the mean.
+// Approximate inverse of the compliance on the free nodes, in cell units: z = Extᵀ (|q|/2) Ext r. |q|/2
+// makes jumps expensive, so Ext extends r beyond the edge of the free set: the smooth part by
+// SmoothExtension, the rest by sweeps. A sweep sets nodes of one chessboard colour, off the set, to the mean
+// of their four neighbours (two on a line of nodes; no wrap on odd periodic sides). Long cells:
+// LineExtension. Layers: 1/K instead of |q|/2, on thin layers without extension. Symmetric, positive
+// semi-definite on the free set; single precision; the mean is not projected out.
 #pragma once
 
 #include <cstddef>
@@ -24,44 +21,43 @@ namespace asperity {
 
 class ContactPreconditioner {
  public:
-  // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight` is the cost of one transform of this grid in
-  // transforms of the finest; counted only as far as the pyramid has to transform. An object holds two grids
-  // at most, four on a periodic tile one of whose lengths has a large prime factor.
+  // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight`: of a transform, in transforms of the finest grid.
+  // Memory: two grids, four on a periodic tile whose side has a large prime factor.
   ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight = 1, int sweeps = 4,
                         const ComplianceMultiplier& multiplier = {});
   ~ContactPreconditioner();
   ContactPreconditioner(ContactPreconditioner&&) noexcept;
   ContactPreconditioner& operator=(ContactPreconditioner&&) noexcept;
 
-  // The nodes where free[k] != 0; none at first. O(n), a fraction of an application.
+  // Free: free[k] != 0; initially none. O(n).
   void set_free(std::span<const std::uint8_t> free);
 
-  // z = M r; r is read on the free set only, z is 0 off it and may be r. r times a power of two gives z
-  // times the same, bit for bit. The same bits for any number of threads. Not thread-safe.
+  // z = M r; reads r on the free set, z = 0 elsewhere; z may be r. Scaling r by a power of two scales z
+  // exactly. Same bits for any number of threads. Not thread-safe.
   void apply(std::span<const double> r, std::span<double> z);
 
-  // r = offset + factor · values, nx·ny of them.
+  // r = offset + factor · values (nx·ny).
   struct Residual {
     const double* values;
     double factor = 1, offset = 0;
   };
-  // Taken on the way: values += length · more.
+  // In the same pass: values += length · more.
   struct Step {
     double* values = nullptr;
     double length = 0;
     const double* more = nullptr;
   };
-  // The same in two halves. The first, after a step of the values of r if there is one, gives r·z, …
+  // apply() in two halves: spread() takes `step` and returns r·z.
   double spread(const Residual& r, const Step& step);
-  // … the second z less a smooth field, which passes by in stretches of a row: `keep` takes `factor` times
-  // the values, 0 off the free set, or null for no free node there, with the number of the tile,
-  // 0 … tiles(): the stretches of a tile come in their order on one thread. …
+  // gather() returns z without a smooth field: `keep` receives parts of rows with their tile (0 … tiles()),
+  // values to be multiplied by `factor`, 0 off the free set, null without free nodes. Parts of a tile arrive
+  // in order on one thread.
   using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
                                   double factor)>;
   void gather(const Keep& keep);
-  // … And then that field, to be added on the free set: `factor` times its row j, …
+  // `factor` times row j, to be added on the free set.
   SmoothRow<double> smooth(int j, double factor) const;
-  // … and its sum over the free set, to the last digits.
+  // Over the free set.
   double smooth_sum() const;
   std::size_t tiles() const;
 

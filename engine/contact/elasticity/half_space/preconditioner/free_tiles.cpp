@@ -17,7 +17,7 @@ namespace edge_rows {
 
 namespace {
 
-// A vector of nodes: a register, at most a group. The operations on a node do not depend on the width.
+// Results do not depend on the register width.
 constexpr int node_lanes = std::min(group, register_vectors::register_lanes<float>);
 constexpr int node_pairs = 2 * node_lanes;  // columns of as many even and odd nodes
 using NodeVector = register_vectors::Of<float, node_lanes>::Vector;
@@ -28,14 +28,13 @@ typedef std::uint16_t BytePairs __attribute__((vector_size(2 * node_lanes), alig
 using register_vectors::interleave;
 using register_vectors::separate;
 
-// Vectors are passed and returned by reference or pointer alone.
+// Vectors are passed by reference or pointer only.
 inline __attribute__((always_inline)) const NodeVectorAnywhere* nodes_at(const float* at) {
   return reinterpret_cast<const NodeVectorAnywhere*>(at);
 }
 inline __attribute__((always_inline)) NodeVectorAnywhere* nodes_at(float* at) {
   return reinterpret_cast<NodeVectorAnywhere*>(at);
 }
-// offset + slope·value.
 template <class Vector>
 inline __attribute__((always_inline)) void along(const double* at, double slope, double offset, Vector& to) {
   DoubleVector low, high;
@@ -50,7 +49,7 @@ inline __attribute__((always_inline)) void along(const double* at, double slope,
   }
 }
 
-// Not 0 where the even, and the odd, bytes are not 0.
+// Nonzero for nonzero bytes, even and odd.
 inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& even,
                                                       MarkVector& odd) {
   using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
@@ -61,7 +60,7 @@ inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes,
   odd = __builtin_convertvector(little ? high : low, MarkVector);
 }
 
-// Not 0 where a byte is not 0; in steps that are single instructions.
+// Nonzero for nonzero bytes; each step is a single instruction.
 inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& marks) {
   using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
   using Bytes = register_vectors::Of<std::uint8_t, node_lanes>::Anywhere;
@@ -86,7 +85,7 @@ void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint
       std::uint64_t eight;
       std::memcpy(&eight, bytes + k, sizeof eight);
       if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
-      // Gathers the lowest bits of the bytes in the highest byte.
+      // Lowest bits of the bytes, in the highest byte.
       const std::uint64_t packed = (eight * 0x0102040810204080u) >> 56;
       words[(place + k) / bits] |= packed << ((place + k) % bits);
     }
@@ -208,7 +207,6 @@ void add_values(const float* __restrict values, std::size_t n, const SmoothExten
   }
 }
 
-// Where column p of a row is.
 inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
 
 void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
@@ -266,7 +264,7 @@ void start_bound(const float* __restrict values, std::size_t n, std::size_t plac
 }
 
 Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
-  // The even bits of the sixteen, side by side.
+  // Compacts the even bits.
   std::uint64_t bound = marks >> lane & 0x5555;
   bound = (bound | bound >> 1) & 0x3333;
   bound = (bound | bound >> 2) & 0x0f0f;
@@ -276,14 +274,13 @@ Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
 
 namespace {
 inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
-// Not 0 for those nodes of a group, from the `first` on, that sweeps change.
+// Nonzero for the nodes that sweeps change.
 inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
   MarkVector bits_of;
   for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;
   bound = static_cast<std::int32_t>(one >> (start_bits + first)) & bits_of;
 }
 
-// The sum of the four neighbours.
 template <bool odd>
 inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, NodeVector& sum) {
   const float* const neighbours = here + (odd ? -half : half - 1);
@@ -383,7 +380,7 @@ using namespace edge_rows;
 FreeTiles::FreeTiles(int nx, int ny, Boundary boundary, int sweeps)
     : nx_(nx),
       ny_(ny),
-      // Where a period is odd, two nodes of one colour meet: nothing is carried on there.
+      // On odd periods two nodes of one colour meet: no wrap.
       wraps_x_(boundary == Boundary::periodic && nx % 2 == 0),
       wraps_y_(boundary == Boundary::periodic && ny % 2 == 0),
       sweeps_(sweeps),
@@ -398,7 +395,6 @@ void FreeTiles::set(std::span<const std::uint8_t> free,
                     const std::function<void(std::size_t tile)>& renewed) {
   if (free.size() != free_.size()) throw Error(ErrorCode::internal, "a free set of another grid");
   const auto count = static_cast<std::int64_t>(tiles_.size());
-  // Late in a solve few tiles see a new mark.
   parallel_for(count, [&](std::int64_t k) {
     FreeTile& tile = tiles_[static_cast<std::size_t>(k)];
     for (int j = 0; j < patch_height(tile) && !tile.stale; ++j)
@@ -429,8 +425,7 @@ void FreeTiles::find_groups(FreeTile& tile) {
   const auto patch = bits_.borrow(
       [&] { return std::make_unique<Bits>(static_cast<std::size_t>(height + 2 * sweeps_) * row_words); });
   const auto clear = [&](Array<std::uint64_t>& field) { std::fill_n(field.begin(), words, 0); };
-  // Of row j of the patch, counted over the whole grid: nodes of one colour have an even sum of rows and
-  // columns.
+  // Chessboard parity on the whole grid.
   const auto parity = [&](int j) { return (tile.y + sweeps_ + j) % 2; };
   clear(patch->free);
   clear(patch->bound);

@@ -14,19 +14,17 @@ namespace asperity {
 
 namespace {
 
-// Factors of cos(iX) cos(jY) in the stencil: the fit of least greatest error of S(t) + w(t)² |alias|/2
-// to |t|/2 under S(0) = 0. Without the zero sum the long waves go wrong.
+// Factors of cos(iX) cos(jY): minimax fit of S(t) + w(t)² |alias|/2 to |t|/2 with S(0) = 0.
 constexpr float s00 = 1.13600f, s10 = -0.53897f, s11 = -0.25386f;
 constexpr float s20 = 0.06862f, s21 = 0.01861f, s22 = 0.02134f;
 
-// Where the cells are this near to square, the square cell's stencil serves.
+// Up to this aspect the square cell's stencil serves.
 constexpr double squareness = 1.15;
 
 constexpr int coarsest = 16;
 
-// A grid is halved under a layer of so many of its cells or more: the stencil then meets waves of about |q| t
-// = 2.4 and more, whose share is .75 at the least but on nearly incompressible layers. Measured: fewer
-// transforms than with 4, where a transform of the whole grid comes sooner.
+// Thickness in cells: the stencil's waves then have |q| t >= 2.4 and a share >= .75, except on nearly
+// incompressible layers. Fewer transforms than with 4.
 constexpr double least_thickness = 1.5;
 constexpr int halo = 2;
 
@@ -35,7 +33,7 @@ std::int64_t block_count(int items, int block) {
   return (static_cast<std::int64_t>(items) + block - 1) / block;
 }
 
-// A row with a margin on both sides, beyond the rim 0 or the other end of the row.
+// Margins: 0 beyond a free rim, else the other end.
 class MarginedRow {
  public:
   MarginedRow(int nx, bool wraps)
@@ -59,17 +57,15 @@ int bottom_period(int n, Boundary boundary) {
   return boundary == Boundary::periodic ? n : good_fourier_length(2 * n);
 }
 
-// to = 1/4 below + 1/2 here + 1/4 above.
 void weigh(const float* __restrict below, const float* __restrict here, const float* __restrict above, int n,
            float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (below[i] + above[i]) + 0.5f * here[i];
 }
 
-// to = (a + b)/4: 2 W up of one coarse row, a = b, or of the two next to a row.
+// (a + b)/4: 2 W up of one coarse row or of the two nearest.
 void add_quarters(const float* a, const float* b, int n, float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (a[i] + b[i]);
 }
-// to += a/4.
 void add_quarter(const float* a, int n, float* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] += 0.25f * a[i];
 }
@@ -92,7 +88,7 @@ inline __attribute__((always_inline)) void put(const Nodes& from, float* to) {
   *reinterpret_cast<NodesAnywhere*>(to) = from;
 }
 inline __attribute__((always_inline)) void put(const float& from, float* to) { *to = from; }
-// At node i of a row that has twice the nodes of `coarse`: its values, and between them their means.
+// Coarse values and, between them, their means.
 inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Nodes& to) {
   const HalfOfNodes even = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2);
   const HalfOfNodes next = *reinterpret_cast<const HalfAnywhere*>(coarse + i / 2 + 1);
@@ -103,7 +99,7 @@ inline __attribute__((always_inline)) void interpolate(const float* coarse, int 
   to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
 }
 
-// Calls loop.operator()<Value>(i) for as many nodes at a time as a register holds, then for each of the rest.
+// For registers of nodes, then for single nodes.
 template <class Loop>
 inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
   int i = 0;
@@ -115,8 +111,7 @@ struct FiveRows {
   const float *far_below, *below, *here, *above, *far_above;
 };
 
-// The sums over the rows of the stencil: what stays in its column, with what comes from the coarse grid, goes
-// one and goes two columns to either side.
+// Column sums: own column with the coarse part, ±1, ±2.
 void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
   each(n, [=, rows = five]<class Value>(int i) {
     Value far_below, below, here, above, far_above, from_coarse;
@@ -145,7 +140,7 @@ void stencil_rows(const float* c0, const float* c1, const float* c2, int n, floa
   });
 }
 
-// a·b: sixteen sums of up to 32 terms each in single precision, added up in double precision.
+// Sums of up to 32 terms in single precision, added in double.
 double product_of_rows(const float* a, const float* b, int n) {
   constexpr int sums = 16, chunk = 32 * sums, parts = sums / lanes;
   double total = 0;
@@ -176,8 +171,8 @@ std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, dou
   const bool wraps = boundary == Boundary::periodic;
   double thickness = multiplier.length;
   while (std::min(levels.back().nx, levels.back().ny) > coarsest && thickness >= least_thickness) {
-    // Beyond a free rim, one coarse node may still feel the last fine one. On an odd periodic side the first
-    // and the last coarse node are neighbours on the fine grid.
+    // A coarse node beyond a free rim still feels the last fine node. On odd periodic sides the first and
+    // last coarse nodes are neighbours.
     const auto half = [wraps](int n) { return wraps ? (n + 1) / 2 : n / 2 + 1; };
     levels.push_back({half(levels.back().nx), half(levels.back().ny), {}, {}});
     thickness /= 2;
@@ -262,7 +257,7 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int rows = rows_per_block(nx);
   const std::int64_t blocks = block_count(fine.ny, rows);
   const bool finest = &fine == &levels_.front();
-  // On an odd side, the first and the last node are coarse nodes and neighbours: W couples them.
+  // On odd sides W couples the first and last nodes.
   const bool seam_x = wraps_ && nx % 2 != 0, seam_y = wraps_ && fine.ny % 2 != 0;
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operator |q|/2 of a grid, in cell units, without a Fourier transform of it: a five by five stencil
-// of sum zero takes the short waves and a coarser grid the long ones, B a = S a + 2 W up(B(down(W a))),
-// W being full weighting, down every second node and up its transpose; only the coarsest grid is
-// transformed. Within 0.7 … 1.3 of |q|/2 for every wave, symmetric, and 0 for a constant on a periodic
-// grid. Single precision. On a free boundary the field is 0 beyond the rim. On an odd periodic side the
-// coarse grid is one fine cell longer than the side; waves across this seam are less accurate. A grid whose
-// cells are far from square is transformed as it is: exact, but at a higher cost. On a layer 1/K in place of
-// |q|/2, the mean left out: grids are halved as long as their stencil meets waves that know nothing of its
-// base, and under a layer of less than one and a half cells the grid is transformed as it is.
+// |q|/2 in cell units without a Fourier transform of the grid: a 5 × 5 stencil of sum zero for short waves,
+// a coarser grid for long ones, B a = S a + 2 W up(B(down(W a))), W full weighting, down every second node,
+// up its transpose. Only the coarsest grid is transformed. Within 0.7 … 1.3 of |q|/2 for every wave;
+// symmetric; 0 for a periodic constant; single precision. A free field is 0 beyond the rim. Odd periodic
+// sides are less accurate across the seam. Cells far from square: one exact, more expensive transform.
+// Layers: 1/K without the mean, grids halved down to 1.5 cells of thickness.
 #pragma once
 
 #include <span>
@@ -22,19 +19,18 @@ namespace asperity {
 
 class HalfOrderPyramid {
  public:
-  // `weight`: the cost of one transform of this grid in transforms of the finest.
+  // `weight`: of a transform, in transforms of the finest grid.
   HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                    const ComplianceMultiplier& multiplier = {});
 
-  // The field to work on, nx·ny values row by row; kept by apply().
+  // nx·ny values row by row; apply() preserves it.
   std::span<float> input() { return levels_.front().in; }
-  // B a of a = input(); valid until the next call. The same bits for any number of threads.
+  // Valid until the next call. Same bits for any number of threads.
   std::span<const float> apply();
   // a·B a of the last call.
   double product() const { return product_; }
 
-  // Share of one transform pair of this grid that a call spends on transforms: 1 where there is no
-  // coarser grid. Counted where it is more than a thousandth.
+  // Relative to one transform pair on this grid. Counted if above a thousandth.
   double transform_share() const { return transform_share_; }
 
   static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,
@@ -57,7 +53,7 @@ class HalfOrderPyramid {
   bool wraps_;
   double weight_, transform_share_, product_ = 0;
   std::vector<Level> levels_;  // finest first
-  Array<float> zeros_;         // a row beyond the rim
+  Array<float> zeros_;         // beyond the rim
   FourierFilter filter_;
   Array<double> multiplier_, work_;
 };

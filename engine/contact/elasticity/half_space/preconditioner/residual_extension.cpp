@@ -8,8 +8,7 @@
 namespace asperity {
 
 namespace {
-// Nodes from point to point, and the share of a hat's own mass that free nodes compete with: measured, and
-// twice as much or half of either changes little.
+// Nodes between points; share of a hat's mass. A factor of two in either changes little.
 constexpr int spacing = 32;
 constexpr double reluctance = 0.03;
 
@@ -17,7 +16,6 @@ struct Pair {
   double left, right;
 };
 
-// Sums of values·(1 − share) and of values·share.
 template <class Real>
 Pair weighed(const Real* __restrict values, const Real* __restrict share, int n) {
   constexpr int lanes = 8;
@@ -51,7 +49,7 @@ HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::per
   end.resize(static_cast<std::size_t>(hats));
   mass.resize(static_cast<std::size_t>(hats));
   for (int k = 0; k < nodes; ++k) {
-    // From rim to rim, the rim being half a cell beyond the last node.
+    // The free rim is half a cell beyond the last node.
     const double place = (wraps ? k : k + 0.5) * steps / nodes;
     const int hat = std::min(static_cast<int>(place), steps - 1);
     const auto node = static_cast<std::size_t>(k);
@@ -162,8 +160,7 @@ template void SmoothExtension::Sums::finish(std::span<float>);
 template void SmoothExtension::Sums::finish(std::span<double>);
 
 namespace {
-// Longer than wide by so much: of noise and waves on 96 x 96 cells, from 4 to 1000 times longer, sweeps took
-// fewer steps below and lines fewer above, or sweeps did not end at all.
+// Lines beat sweeps from this aspect; measured on 96 × 96 cells, aspect 4 to 1000.
 constexpr double long_cells = 25, long_cells_of_free_tile = 50;
 }  // namespace
 
@@ -192,7 +189,7 @@ void LineExtension::set_free(std::span<const std::uint8_t> free) {
   }
   begin_[static_cast<std::size_t>(lines_)] = free_.size();
 
-  std::vector<int> held;  // lines that hold free nodes
+  std::vector<int> held;  // with free nodes
   for (int line = 0; line < lines_; ++line)
     if (!free_of(line).empty()) held.push_back(line);
   std::fill(beside_.begin(), beside_.end(), Beside{});
@@ -255,7 +252,7 @@ void LineExtension::extend(std::span<float> field) const {
 }
 
 void LineExtension::gather(std::span<float> field) const {
-  // Not in parallel: several lines may give to the same one.
+  // Serial: several lines add to one.
   for (int line = 0; line < lines_; ++line) {
     const Beside& beside = beside_[static_cast<std::size_t>(line)];
     if (beside.low == line) continue;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a residual is carried far past the edge of a free set: as a bilinear field between points some 32 nodes
-// apart, of the means of what lies around these points, or, on cells much longer than wide, along lines. A
-// residual that varies little from one contact to the next costs next to nothing where it is carried on over
-// the ground between them; cut off a few nodes from every contact it pays for a jump around each of them, the
-// more of them the larger the grid.
+// Extends a residual far beyond the edge of a free set: a bilinear field of local means at points 32 nodes
+// apart or, on long cells, interpolation along lines. This avoids jumps around each contact, which |q|/2
+// makes expensive.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +15,6 @@
 
 namespace asperity {
 
-// The hat functions of one side of a grid. Periodic: they wrap. Free: there is one on either rim.
 struct HatAxis {
   HatAxis(int nodes, Boundary boundary);
   int next(int hat) const { return hat + 1 == hats && wraps ? 0 : hat + 1; }
@@ -31,14 +28,14 @@ struct HatAxis {
 
   bool wraps;
   int hats;
-  Array<int> before;    // of a node: the hat whose point is the last at or before it,
-  Array<double> share;  // and the value of the next hat there,
+  Array<int> before;    // per node: the last hat at or before it
+  Array<double> share;  // per node: value of the next hat
   Array<float> single_share;
-  Array<int> end;      // of a hat: the node after the last whose `before` it is,
-  Array<double> mass;  // and its sum over all nodes
+  Array<int> end;      // per hat: end of its nodes
+  Array<double> mass;  // per hat: sum over all nodes
 };
 
-// Part of a row of a smooth field: at its node i, low_share·low[i] + high_share·high[i].
+// low_share·low[i] + high_share·high[i].
 template <class Real>
 struct SmoothRow {
   const Real *low, *high;
@@ -47,18 +44,15 @@ struct SmoothRow {
 
 class SmoothExtension {
  public:
-  // nx, ny >= 1.
   SmoothExtension(int nx, int ny, Boundary boundary);
 
-  // Sums of values times hats over a rectangle of nodes, given row by row from its first one; those that
-  // it has no part in are left out.
+  // Over a rectangle, row by row from the first; rows without contribution may be skipped.
   class Sums {
    public:
     Sums(const SmoothExtension& hats, int x, int y, int width, int height);
     void clear();
-    // Where the values of row y go: low_share times each to `low` and high_share times each to `high`, as
-    // many as the rectangle is wide. `work`: 2·width values, kept between the rows; as precise as the sums
-    // are to be.
+    // Add low_share times each value of row y to `low`, high_share times to `high`. `work`: 2·width values,
+    // preserved between rows.
     template <class Work>
     struct Row {
       Work *low, *high;
@@ -74,11 +68,11 @@ class SmoothExtension {
     const SmoothExtension* hats_;
     int x_, y_, width_;
     int columns_, rows_;
-    int band_ = -1;  // hat before the rows that `work` holds
+    int band_ = -1;  // hat before the rows in `work`
     Array<double> sums_;
   };
 
-  // A field of given values at the points.
+  // Bilinear between the points.
   template <class Real>
   class Field {
    public:
@@ -98,12 +92,12 @@ class SmoothExtension {
 
    private:
     const SmoothExtension* hats_;
-    Array<Real> rows_;  // those through the points
+    Array<Real> rows_;  // through the points
   };
 
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
-  // What sums over the free nodes are divided by, `free` of all hats being the sums of 1: more than that
-  // where few nodes are free, so that a lone contact is not carried on as if it were the ground.
+  // Divisor for the hat's sum over the free nodes; `free`: its sum of 1. It exceeds `free`, so a lone
+  // contact is not spread over the surface.
   double divisor(std::size_t hat, double free) const;
 
  private:
@@ -113,30 +107,27 @@ class SmoothExtension {
   HatAxis x_, y_;
 };
 
-// Carries a residual past the edge of a free set on cells much longer than wide. Lines of nodes along the
-// short side hardly know of each other there: |q|/2 makes a jump along a line dear and one from line to line
-// cheap. So what lies between two free nodes of a line is interpolated between them, however far apart they
-// are, and a line without any between the nearest lines that have some. Linear, with its exact transpose.
+// For cells much longer than wide, where only jumps along a line (short side) are expensive. Linear
+// interpolation between the free nodes of a line, then between lines with free nodes. Linear, with its exact
+// transpose.
 class LineExtension {
  public:
-  // nx, ny >= 1. `along_x`: lines are rows, else columns.
+  // `along_x`: lines are rows.
   LineExtension(int nx, int ny, Boundary boundary, bool along_x);
 
-  // Cells so much longer than wide, or wider than long.
   static bool serves(double aspect, Boundary boundary);
 
-  // The nodes where free[k] != 0.
   void set_free(std::span<const std::uint8_t> free);
-  // Of a field given on the free nodes, all others. The same bits for any number of threads.
+  // From the free nodes to all others. Same bits for any number of threads.
   void extend(std::span<float> field) const;
-  // The transpose: sums of `field`, as extend() has shared them out, on the free nodes, and 0 elsewhere.
+  // The transpose: sums on the free nodes, 0 elsewhere.
   void gather(std::span<float> field) const;
 
  private:
-  // Between which two lines that hold free nodes a line lies; itself twice if it holds some, −1 if none does.
+  // Nearest lines with free nodes; twice itself, −1 if none.
   struct Beside {
     int low = -1, high = -1;
-    float share = 0;  // of `high`
+    float share = 0;  // weight of `high`
   };
   std::size_t place(int line, int k) const {
     return static_cast<std::size_t>(line) * line_step_ + static_cast<std::size_t>(k) * node_step_;
@@ -145,16 +136,15 @@ class LineExtension {
     const auto at = static_cast<std::size_t>(line);
     return std::span(free_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
   }
-  // Calls share(k, low, high, t) for each node of a line that is not free, between the free nodes it lies
-  // between, t of the way.
+  // share(k, low, high, t) for each node that is not free, t of the way between two free ones.
   template <class Share>
   void each_between(int line, const Share& share) const;
 
   int lines_, length_;
   std::size_t line_step_, node_step_;
   bool wraps_;
-  Array<int> free_;           // places along their lines, line after line
-  Array<std::size_t> begin_;  // of each line in free_, and the end
+  Array<int> free_;           // positions, line after line
+  Array<std::size_t> begin_;  // per line in free_, and the end
   std::vector<Beside> beside_;
 };
 

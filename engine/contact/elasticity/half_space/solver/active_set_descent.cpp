@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
-// their bounds until the next pass: one step a pass where nothing has to be settled, else a few. What the
-// clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
-// (Richardson) step. On cells much longer than wide it leaves lines their loads (load_projection.hpp).
-// Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no
-// proof of convergence; it stops when it no longer gains.
+// The quick stage: preconditioned conjugate gradients on the current free set. Pressures may leave their
+// bounds until the next pass settles (clips) them. Settling shares one application of K with a fixed
+// preconditioned (Richardson) step and, on long cells, preserves line loads (load_projection.hpp).
+// Two-cycles are broken by averaging two passes. No proof of convergence; stops without gain.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,30 +22,25 @@ namespace asperity {
 namespace {
 using namespace descent_rules;
 
-// Applications of K in a pass that settles. Where one costs several times as much as the preconditioner, or
-// ground hardens, that of settling also carries a fixed step of the preconditioner. A pass without settling
-// takes one: more, on a free set that is not the last, took up to two thirds more in all. Not where ground
-// hardens: there three times as many random scenes stalled with one, six of 20 000.
+// Applications of K in a pass that settles; fewer if K is expensive or with hardening. A pass without
+// settling takes one: more cost up to two thirds more. With hardening, one stalled three times as many
+// random scenes (6 of 20 000).
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
-// With a tolerance no less than this, single precision serves for what steps change. Directions take half the
-// memory to move; they leave pressures of mirrored contacts some 1e-9 of the greatest apart.
+// From this tolerance up directions are single: half the memory traffic, mirrored contacts equal to 1e-9.
 constexpr double single_enough = 5e-9;
 constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images of fewer save no time
-// What the image of a pass leaves in the gaps, of its residual: all passes of a solve on 2048² had
-// left 1.3e-6 of the first residual. It adds up until gaps are computed afresh, as a pass that settles may do
-// at no cost.
-constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
-constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
+// Relative error of the gaps per pass; 1.3e-6 measured for a whole solve on 2048². A settling pass can
+// recompute the gaps at no cost.
+constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance
+constexpr double load_slack = 1e-6;                               // relative load error left to a later pass
 
-// A row of a direction yet without its balance of the load: what is stored of M r, beta of the
-// direction before, and a smooth field.
+// Row of a direction: stored M r, beta times the previous direction, smooth field; load not balanced.
 template <class Stored>
 struct Along {
   const Stored *values, *before;
   double beta;
   SmoothRow<double> smooth;
 
-  // At node k of the grid, or at as many as a vector has lanes.
   template <class Value>
   void read(std::size_t k, Value& to) const {
     Value old, low, high;
@@ -59,17 +52,14 @@ struct Along {
   }
 };
 
-// The direction that pressures are moved along and the one before it, and the steps along them that pressures
-// and gaps have yet to take: taken where these are read next, a step costs no pass over memory of its own.
-// Any rounding of a direction is as good, since pressures and gaps go by what has been rounded: Stored is
-// float or double.
+// The last two directions and pending steps along them, taken by the next loop over the fields to save a
+// pass over memory. Rounding a direction is harmless: pressures and gaps use the rounded values.
 template <class Stored>
 class DescentDirections {
  public:
-  // Room for a direction, that of the one before the last; a step along that is taken first.
+  // Takes the oldest pending step; its memory is reused.
   Stored* next(std::span<double> pressure);
   Stored* last() { return now_.data(); }
-  // Row j, of nx nodes, of what is stored and `beta` of the direction before, with a row of a smooth field.
   Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
     const auto begin = static_cast<std::ptrdiff_t>(j) * nx;
     smooth.low -= begin;
@@ -77,20 +67,18 @@ class DescentDirections {
     return {now_.data(), beta != 0 ? before_.data() : now_.data(), beta, smooth};
   }
 
-  // A step along the last direction, whose image is kept until the gaps have taken it.
+  // `image` must persist until the gaps have taken the step.
   void go(double length, const double* image) {
     step_.along[0].length = step_.gap_length = length;
     step_.image = image;
   }
-  // No step along the last direction, which may be anything, as may its image: `finite` is read in its place.
+  // The last direction and its image may contain NaN; `finite` replaces the image.
   void drop_last(std::span<const double> finite) {
     step_.along[0] = {0, step_.along[1].direction};
     step_.image = finite.data();
   }
 
-  // Steps not yet taken, for whoever takes them; none are left.
   PressureStep<Stored> hand_over() { return std::exchange(step_, {}); }
-  // That of the gaps alone.
   ContactPreconditioner::Step hand_over_gaps(std::span<double> gap) {
     const double length = std::exchange(step_.gap_length, 0);
     return length != 0 ? ContactPreconditioner::Step{gap.data(), length, step_.image}
@@ -160,11 +148,8 @@ class Descent {
   }
 
   ContactQuality quality();
-  // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
-  // load.
   void project(const ContactQuality& at, std::span<double> target);
   std::optional<double> shift_to_load(const ContactQuality& at) const;
-  // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
     project(at, f_.pressure);
     level_.gap(f_.pressure, f_.gap);
@@ -173,7 +158,6 @@ class Descent {
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double turn();
-  // Of row j, on the free set.
   Along<Stored> along(int j) const;
   void settle_step(const ContactQuality& at, bool afresh);
   bool descend(int steps);
@@ -185,29 +169,28 @@ class Descent {
   double tolerance_;
   int most_;
   const bool exact_, dear_, keeps_line_loads_;
-  const bool rounds_;  // images are computed in single precision
+  const bool rounds_;  // images are in single precision
   const int steps_a_pass_;
   FreeSet set_;
   DescentDirections<Stored> directions_;
   double mean_gap_ = 0;  // of the balancing nodes
-  double surplus_ = 0;   // of load in `direction`, a balancing node
+  double surplus_ = 0;   // load of the direction per balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double beta_ = 0;   // of conjugate gradients: of the direction before, in the present one
-  double drift_ = 0;  // of the gaps, at most, by images in single precision; as a residual
+  double beta_ = 0;
+  double drift_ = 0;  // bound on the rounding of the gaps, as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
-  Array<double> work_, no_field_;  // of ground that hardens
+  Array<double> work_, no_field_;  // with hardening
 };
 
-// Takes the last steps on the way.
 template <class Limit, class Stored>
 ContactQuality Descent<Limit, Stored>::quality() {
   return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
 }
 
-// target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
-// the load all nodes move, in the order of their gaps.
+// target = settled pressures, the elastic interior shifted to the load. If the interior cannot carry the
+// load, all nodes move by their gaps.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
@@ -229,13 +212,12 @@ void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double>
   project_to_load(target, {}, upper, level_.total_load(), target);
 }
 
-// The first of two Newton steps, from none, to the shift of project().
+// First of two Newton steps to the shift of project().
 double first_shift(const ContactQuality& at, double load) {
   return at.interior > 0 ? (load - at.load) / at.interior : 0.0;
 }
 
-// That shift, but for what it misses of the load, which the next pass makes good. Nothing where that is not
-// small.
+// Shift after two Newton steps; empty if the first leaves an error of 1 % of the load or more.
 template <class Limit, class Stored>
 std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
   if (keeps_line_loads_) return {};
@@ -244,13 +226,12 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// The direction becomes M r, r what the gaps of the free nodes lack of their mean, made conjugate to the one
-// before if there is one. Returns r·(M r with the load kept).
+// Sets the direction from M r, r = mean gap − gap on the free nodes. Returns r·M r.
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
   const double shrink = 1 / level_.pressure_unit();
   Stored* const direction = directions_.next(f_.pressure);
-  // r carries no load, so that r·(M r) is the same whether or not M r does; nor does the direction before.
+  // r carries no load, so r·M r needs no balance.
   double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
@@ -306,13 +287,13 @@ Along<Stored> Descent<Limit, Stored>::along(int j) const {
   return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
-// What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application,
-// which moves the gaps, or computes them afresh, in double precision.
+// Settling (and a fixed step if K is expensive) with one application, which updates the gaps or recomputes
+// them in double.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) {
   const std::optional<double> shift = shift_to_load(at);
-  if (!shift) {                       // the image of the last step is done with
-    std::swap(f_.free, f_.old_free);  // project() needs marks of its own
+  if (!shift) {                       // the last image is free memory
+    std::swap(f_.free, f_.old_free);  // project() overwrites the marks
     project(at, f_.image);
     std::swap(f_.free, f_.old_free);
   }
@@ -323,7 +304,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
                            std::size_t k, double along, double target) {
     const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
     const double descent = richardson_step * unit * z, next = target + (n.moves(k) ? descent : 0.0);
-    n.pressure[k] = next;  // at a bound to the last bit if it does not move
+    n.pressure[k] = next;  // exactly at the bound if it does not move
     return (next - (afresh ? immobile : p)) * shrink;
   };
   const auto move = [&](int j, double* to, const auto& target) {
@@ -353,7 +334,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
       move(j, to, [from = f_.image.data()](std::size_t k) { return from[k]; });
     return step;
   };
-  // Ground that goes on yielding once it has settled is not among what balances here.
+  // Nodes that yield after settling do not balance.
   const Freedom balances = set_.balancing();
   Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
   const auto sink = [&](int j, const double* image) {
@@ -362,7 +343,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
     rows[static_cast<std::size_t>(j)] = take_image(view(), begin, begin + nx, image, unit, balances);
   };
   if (afresh)
-    level_.apply_in_double(source, sink, f_.image);  // row by row: where `from` is, it has been read
+    level_.apply_in_double(source, sink, f_.image);  // in place: row j is read before it is written
   else
     level_.apply(source, sink, rounds_);
   auto sums = added_up(rows);
@@ -380,7 +361,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
   mean_gap_ = sums[0] / set_.balancing_count();
 }
 
-// Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
+// `steps` were taken already. Returns false without any step.
 template <class Limit, class Stored>
 bool Descent<Limit, Stored>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
@@ -420,7 +401,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
       directions_.drop_last(f_.gap);
       break;
     }
-    // r·M r is known to single precision only, unless it was summed up.
+    // Without hardening r·M r is known in single precision only.
     const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
     mean_gap_ += length * (sums[1] / set_.balancing_count());
     directions_.go(length, f_.image.data());

@@ -11,7 +11,7 @@
 namespace asperity {
 
 namespace {
-// Of wave number π/2 over the root of the cell's sides.
+// Wave number π/2 over the root of the cell's area.
 double stiffness_of_short_waves(const LevelShape& shape) {
   const double of_half_space = std::numbers::pi / 4 / std::sqrt(shape.aspect);
   return shape.multiplier.shares() ? of_half_space / shape.multiplier.share(2 * of_half_space)
@@ -24,7 +24,7 @@ double compliance_of_long_waves(const LevelShape& shape) {
                                    : longest / std::numbers::pi;
 }
 
-// Of the preconditioner. With four, one random scene in 2000 of ground that hardens weakly stalled.
+// Of the preconditioner. With four, one random scene in 2000 with weak hardening stalled.
 int sweeps_under(const PressureLimit& limit) {
   return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
 }
@@ -81,12 +81,12 @@ void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<
 namespace {
 constexpr int least_side = 32;
 
-// Nodes of the coarser side: an even half where there is one to be had, so that nesting can go on.
+// Even if possible, so that nesting can continue.
 int coarser_side(int n, Boundary boundary) {
   if (n < 2 * least_side) return n;
   if (n % 2 == 0) return n / 2;
   if (boundary == Boundary::free) return (n + 1) / 2;
-  // Four times a number, so that the grids below are nested and short transforms are quick.
+  // A multiple of four, for further nesting and fast transforms.
   return (n / 2 + 3) / 4 * 4;
 }
 
@@ -105,7 +105,7 @@ std::optional<CoarserGrid> coarser(const LevelShape& fine) {
   const int nx = coarser_side(fine.nx, fine.boundary), ny = coarser_side(fine.ny, fine.boundary);
   if (nx == fine.nx && ny == fine.ny) return {};
   CoarserGrid coarse;
-  // A free tile keeps every other node; a periodic one must close on itself.
+  // A free tile keeps every other node; a periodic one must close.
   auto pitch = [&](int n, int m) {
     if (n == m) return 1.0;
     return fine.boundary == Boundary::free ? 2.0 : static_cast<double>(n) / m;

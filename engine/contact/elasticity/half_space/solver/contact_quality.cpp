@@ -9,12 +9,10 @@
 namespace asperity {
 
 namespace {
-// Complementarity averages over the load: a single node in contact may be far off. But where ground that
-// yields carries nearly all of the load, the few other nodes fix the offset and with it all that yields: so
-// each node's opening counts for itself too, by this much.
+// Complementarity averages over the load. If yielding nodes carry nearly all load, the few others fix the
+// offset and thus the plastic volume.
 constexpr double open_weight = 0.125;
 
-// What one node of hardening ground adds to the sums and minima of measure().
 void weigh(const LinearHardening& limit, std::size_t k, double p, double g, double balance, double* v) {
   const double q = limit.settle(k, p, g, balance);
   const double opening = limit.opening(k, q), gap = g + opening;
@@ -31,7 +29,6 @@ void weigh(const LinearHardening& limit, std::size_t k, double p, double g, doub
   v[9] = open ? infinity : -gap;
 }
 
-// Of elastic ground where no pressure is too large.
 template <class Value>
 void weigh_uncapped(const Value& p, const Value& g, Value* v) {
   const Value none = {}, one = none + 1.0, q = p <= none ? none : p;
@@ -78,7 +75,7 @@ void weigh_capped(const Value& p, const Value& g, const Value& upper, Value* v) 
   v[5] = p >= upper ? -g : never;
 }
 
-// Without an elastic interior: between the gaps of the nodes at their bounds.
+// Without an elastic interior.
 double middle(double least_open, double greatest_saturated) {
   if (std::isfinite(least_open) && std::isfinite(greatest_saturated))
     return 0.5 * (least_open + greatest_saturated);
@@ -148,7 +145,7 @@ ContactQuality measure_hardening(const ContactLevel& level, const LinearHardenin
   return quality;
 }
 
-// take(k, p, g) gives the pressure and gap of a node, or of as many as a vector has lanes.
+// take(k, p, g) returns pressure and gap of a node or a vector of nodes.
 template <class Limit, class Take>
 ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<const double> p,
                        std::span<const double> g, double balance, Take take) {

@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 constexpr std::size_t window = 8;
-constexpr int renewals = 20;  // steps between applications that remove the drift of the gap
+constexpr int renewals = 20;  // steps between fresh gaps
 
 template <class Limit>
 bool descend(ContactLevel& level, const Limit& limit, DescentFields& f, double tolerance, int most) {

@@ -44,8 +44,7 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
 
 namespace {
 
-// Throws Error{infeasible} where no load gives the approach. Past full contact only ground that hardens gives
-// way, and pressures so large that beside them no double holds those of the heights are none.
+// Pressures so large that the height terms vanish in rounding are rejected.
 void check_approach_within_full_contact(const HalfSpaceProblem& problem, double approach) {
   if (problem.boundary != Boundary::periodic) return;
   const auto heights = problem.heights->values();
@@ -53,7 +52,7 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
   const YieldLaw& law = problem.yield;
   const double full = approach_of_full_contact(problem), uniform = uniform_compliance(problem);
   if (uniform > 0) {
-    // More load goes on compressing a layer, as far as it is borne.
+    // A layer is compressed further, up to its hardness.
     const double most = span.span() + uniform * law.cap;
     if (!law.caps() || approach < most) return;
     throw Error(ErrorCode::infeasible,
@@ -84,8 +83,7 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
                 "ask for a smaller `approach`, or press by `pressure`");
 }
 
-// The mean pressure that brings a layer to an approach past full contact, in which it is linear there; none
-// short of that, where anything may yield, and on a half-space.
+// Beyond full contact a layer is linear. Empty below full contact, with yield, and on a half-space.
 std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem, double approach) {
   const double uniform = uniform_compliance(problem);
   const double compression = approach - approach_of_full_contact(problem);
@@ -110,10 +108,10 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
   check_approach_within_full_contact(problem, approach);
   if (const auto pressure = pressure_past_full_contact(problem, approach)) {
     HalfSpaceAnswer answer = solve_at_pressure(problem, *pressure, nullptr, monitor);
-    answer.approach = approach;  // but for rounding
+    answer.approach = approach;  // exact up to rounding
     return answer;
   }
-  // Within rounding of full contact: any load from the least on has this approach.
+  // At full contact up to rounding: all loads from the least on have this approach.
   const double full = approach_of_full_contact(problem);
   const double apart = std::abs(approach - full) / std::min(full, problem.rms);
   const bool rough = known_range(problem.heights->values()).span() > 0;
@@ -121,7 +119,6 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       apart <= 0.5 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
-  // On long cells, where a descent that stalls goes downhill for long.
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
   const bool quick = !problem.yield.limits() && long_cells;
   const ChainEffort effort = quick ? ChainEffort::quick : long_cells ? ChainEffort::less : ChainEffort::full;
@@ -133,9 +130,8 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       if (const auto pressure = pressure_of_full_contact(problem)) sought.above = {*pressure, full};
   };
   HalfSpaceAnswer answer;
-  // About full contact the approach hardly moves, and the descent at it mostly stalls on such cells.
-  // Not where most of it is at the cap then, and a load tells no more, but for what lies just past full
-  // contact.
+  // Near full contact on long cells descents at the approach mostly stall: search the load first. Not with
+  // most nodes at the cap, unless just past full contact.
   constexpr double nearly = 0.9, just_past = 1.02, begin_at = 0.35, well_below = 0.5;
   const bool past = approach > full && approach < just_past * full;
   if (problem.boundary == Boundary::periodic && long_cells && !problem.yield.hardens() &&

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pressed by how much of the peak-to-valley goes. What is pressed away never falls as approach or load grow:
-// it is sought in the approach, where only the displacement of the lowest point keeps the two apart, and
-// where that tells little, in the load (load_search.hpp), from where on long cells of ground that yields it
-// may go on step by step in the approach.
+// Presses until a share of the peak-to-valley is flattened. The share never falls as approach or load grow.
+// The search is in the approach or, where the approach is insensitive, in the load (load_search.hpp).
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -25,13 +23,12 @@ namespace asperity {
 
 namespace {
 
-// What a node past its yield pressure has given way.
+// w of node k, m.
 double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t k) {
   return law.hardens() ? std::max(0.0, answer.pressure[k] - law.yields_at(k)) / law.hardening : 0.0;
 }
 
-// How far the highest point and the lowest of h − u − w lie below those of h, from u itself: sums of small
-// terms where a light load moves little. One application.
+// Flattened height, m, from u itself: for light loads all terms are small. One application.
 double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, double approach,
                     Range span) {
   const Field& h = *problem.heights;
@@ -40,7 +37,7 @@ double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answ
                                  false, multiplier_of(problem));
   Array<double> u(h.size());
   compliance.apply(answer.pressure.values(), u);
-  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const double length = grid.hx() / problem.modulus;  // per pressure in cell units
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const double down = length * u[k] + hardened(problem.yield, answer, k);
     const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
@@ -52,16 +49,16 @@ double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answ
   return ends[0] + ends[1];
 }
 
-// How deep node k lies below the ground that touches, m: −(h − u − w) − δ, w what yielded.
+// Depth below the contacting surface, m: −(h − u − w) − δ.
 double depth(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, std::size_t k) {
   const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
   return capped ? std::max(0.0, answer.gap[k]) : answer.gap[k] + hardened(problem.yield, answer, k);
 }
 
-// An approach so small beside the heights that gaps have few digits of what it presses away.
+// The approach is so small that gaps have too few digits.
 bool presses_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
   constexpr double few_digits = 1e-4;
-  // What compresses a layer as a whole presses nothing away.
+  // Uniform compression of a layer flattens nothing.
   const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
   return approach < few_digits * span.span();
 }
@@ -76,7 +73,6 @@ double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer)
     const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
     return sunk_lightly(problem, answer, approach, span) / span.span();
   }
-  // Nothing is to be said of where nothing faces the ground.
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const double low = depth(problem, answer, k);
     v[0] = problem.faces(k) ? low : infinity;
@@ -119,9 +115,8 @@ std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
 
 namespace {
 
-// On the line of depths through two answers the deepest node is as deep as a share pressed away asks for: how
-// often the difference past the second. The deepest of nodes that each go straight on bends one way only, so
-// that secants come to it from one side.
+// Multiple of the difference from the second answer to the first at which the line has the wanted
+// flattening. The greatest of linear depths is convex: secants converge from one side.
 std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
                                             const HalfSpaceAnswer& before, double wanted) {
   constexpr int most_looks = 8;
@@ -145,16 +140,13 @@ std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, con
   return at;
 }
 
-// The end of a bracket in which a flattening of a periodic tile is sought by its load.
 std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
   if (problem.boundary != Boundary::periodic) return {};
   return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
 }
 
-// Coarser grids find about where to begin; those of fewer nodes than this are not worth it.
 constexpr std::size_t coarse_nodes = 64 * 64;
 
-// The same contact on the next coarser grid.
 std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
   const Grid& grid = problem.grid;
   if (grid.nodes() <= coarse_nodes) return {};
@@ -171,7 +163,7 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
     return std::make_shared<const Field>(std::move(values));
   };
   result.heights = on_coarse(*problem.heights);
-  if (!(known_range(result.heights->values()).span() > 0)) return {};  // all that differs lies between
+  if (!(known_range(result.heights->values()).span() > 0)) return {};
   if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
   const auto work = [](const Grid& of) {
     const auto n = static_cast<double>(of.nodes());
@@ -181,8 +173,8 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
   return result;
 }
 
-// Pressures and gaps on the line through two answers, further along it by `steps` from the second to the
-// first; in place of the second. None where that is too far to mean anything.
+// Extrapolates pressures and gaps beyond the first answer by `steps` times its difference from the second,
+// in the memory of the second. Too far: the fields of the first.
 HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
   constexpr double furthest_guess = 2;
   if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
@@ -200,33 +192,29 @@ HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer befor
   return before;
 }
 
-// Whether a search had better go by the load: near full contact of a periodic tile, where an approach hardly
-// tells gaps apart, unless most of it yields, where a load does not.
+// Near elastic full contact of a periodic tile the approach hardly affects gaps.
 bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   return problem.boundary == Boundary::periodic && 2 * answer.yielded < answer.contacts &&
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
-// All of the height is pressed away from full contact on: just before it, where full contact is within the
-// accuracy of what is asked for.
+// Complete flattening continues beyond full contact: aim just below it.
 double wanted_share(double fraction, double accuracy) {
   return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
 }
 
-// The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
-// away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
-// apart. Where the load should be sought instead, an answer that did not converge.
-// `met`: the loads on either side that it passed. `alone`: the search by load failed.
+// Searches the approach that flattens a share, to `accuracy`. Returns an unconverged answer if the load is
+// the better variable. `met`: receives the nearest loads on both sides. `alone`: never switch.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor, bool alone = false) {
   constexpr int most_solves = 60;
-  // After so many solves, or fewer where they leave as much as `far`, or after many applications, the load is
-  // sought from what they met.
+  // The search continues in the load after this many solves, few if the error exceeds `far`, or
+  // applications.
   constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
   constexpr double far = 1e-2, decades = 1e2;
   constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
-  constexpr double cautious = 20;  // an error, of the certificate there is
+  constexpr double cautious = 20;  // error in units of the certificate
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
@@ -247,7 +235,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   now.tolerance = std::max(accuracy, loosest);
   HalfSpaceAnswer answer, before;
   double pressed = 0;
-  double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
+  double gain = 1;  // d(flattened height)/d(approach), >= 1
   bool afresh = false, stalled = false, by_load = false;
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
@@ -261,7 +249,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const bool warm = !start.pressure.empty();
     answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, effort, monitor);
     applications += answer.iterations;
-    if (warm && !answer.converged && now.tolerance > accuracy) {  // it may have been too far off after all
+    if (warm && !answer.converged && now.tolerance > accuracy) {  // the start may be too far
       answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, effort, monitor);
       applications += answer.iterations;
     }
@@ -270,19 +258,18 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
     const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
-    // A residual is of the rms height, which may be many times what is pressed away.
     const double rough = cautious * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
     if (sure && answer.converged)
       met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
     if (load_tells_more(problem, answer)) break;
     const double tightest = std::max(least_tolerance, accuracy / gain);
     const bool loose = now.tolerance > tightest;
-    // Tighter than asked for, rounding may be in the way.
+    // Below the requested tolerance a failure may be rounding.
     stalled = !answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy);
     if (stalled) break;
     const bool near_enough = error <= 0.5 * accuracy;
     const bool too_far = near_enough && most_at_the_cap(problem, answer);
-    if (too_far && now.tolerance > least_tolerance) {  // perhaps by what the tolerance left
+    if (too_far && now.tolerance > least_tolerance) {
       now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
       continue;
     }
@@ -291,12 +278,12 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       afresh = true;
       continue;
     }
-    // Where all is pressed away any more approach says the same.
+    // Complete: more approach changes nothing.
     const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
-    if (near_enough && !too_far) continue;  // the same again, by a tighter solve
-    // Decades of the load within a hair of the approach.
+    if (near_enough && !too_far) continue;
+    // Decades of the load within a small change of approach.
     const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
                        std::abs(approach / before.approach - 1) < near;
     const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
@@ -305,7 +292,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
-    if (!next) {  // a loose solve was put on the wrong side
+    if (!next) {  // a loose solve gave the wrong side
       now.tolerance = std::max(tightest, 0.01 * now.tolerance);
       root = bracket;
     }
@@ -329,19 +316,17 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
-// The same, in the approach, from a contact that was solved under some load: each descent begins from the
-// last that converged, no further from that than such descents go, and half as far where one stalls. Ground
-// that yields, on long cells, takes a few passes so, where under a load it takes the last resort. Within
-// about so many applications; did not converge where that does not come out, and is the last contact that did
-// then.
+// Continues in the approach from a solved contact, in steps of at most `furthest`, halved on failure. With
+// yield on long cells such solves take a few passes, while solves at a load need the last resort. Failure:
+// the last converged contact, marked unconverged.
 HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
                                      int most_applications, Monitor& monitor) {
   constexpr int most_solves = 40, most_stalls = 5;
-  constexpr double furthest = 0.3;  // of the approach, that a step goes
-  constexpr double more = 4;        // than the step before, while one side alone is known
-  constexpr double good = 0.1;      // a certificate whose pressures are worth beginning from
+  constexpr double furthest = 0.3;  // greatest relative step
+  constexpr double more = 4;        // growth of steps until both sides are known
+  constexpr double good = 0.1;      // greatest certificate of a useful start
   constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
-  constexpr double cautious = 20;  // an error, of the certificate there is
+  constexpr double cautious = 20;
   if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
   certify(problem, answer);
   answer.converged = false;
@@ -349,7 +334,6 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
   if (!(answer.certificate.worst() < good)) return answer;
   const double span = known_range(problem.heights->values()).span();
   const double wanted = wanted_share(fraction, problem.tolerance) * span;
-  // A residual is of the rms height, which may be many times what is pressed away.
   const double unit = std::max(1.0, problem.rms / wanted);
   const double tightest = std::max(least_tolerance, problem.tolerance / unit);
   BracketedSecant root(wanted);
@@ -378,13 +362,13 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     }
     if (below && above) reach = furthest;
     now.tolerance = std::clamp(next_error * error, tightest, now.tolerance);
-    // The same again, by a tighter solve, where no side is told or it is near enough.
+    // Repeat with a tighter tolerance if the side is unclear or the error small enough.
     const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
     if (!(next > 0)) break;
     double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
     HalfSpaceAnswer found;
     for (;;) {
-      found = {};  // no more answers at a time than the search in the approach holds
+      found = {};  // free the memory first
       HalfSpaceAnswer start = answer;
       found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
       applications += found.iterations;
@@ -403,7 +387,6 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
   return answer;
 }
 
-// The same by its load, from what was `begun`.
 HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
                                 const LoadsMet& met, Monitor& monitor) {
   SoughtByLoad sought;
@@ -424,25 +407,23 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   return solve_by_load(problem, sought, std::move(begun), monitor);
 }
 
-// Just below full contact of an elastic periodic tile contacts go on growing over decades of what an approach
-// lacks of it, and hardly with the load. The load to begin with; none where the approach is as good.
+// A first load near elastic full contact of a periodic tile; empty if the approach is as good a variable.
 std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
   constexpr double mostly = 0.6, on_long_cells = 0.3;
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
   if (problem.boundary != Boundary::periodic || fraction < (long_cells ? on_long_cells : mostly)) return {};
   const auto full = pressure_of_full_contact(problem);
-  // About as the square of what the load lacks goes what is left of the heights.
+  // The remaining height falls about as the square of the missing load.
   return full ? std::optional(*full * (1 - std::sqrt(1 - fraction))) : std::nullopt;
 }
 
-// All of the height pressed away, where ground hardens or a free tile has rims: more load than is needed does
-// it, too, and more easily than the least. None where that does not come out.
+// Complete flattening with hardening or on a free tile: any sufficient load is a solution, and more load
+// solves more easily. Empty if no try converges.
 std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, double fraction,
                                               Monitor& monitor) {
   constexpr int tries = 3;
-  constexpr double more = 4;  // load, for another try
-  constexpr double to_a_rim =
-      2;  // a punch carries half of its mean pressure in the middle, and most at its rim
+  constexpr double more = 4;      // factor of the load in the next try
+  constexpr double to_a_rim = 2;  // half the mean pressure is at the centre of a punch
   if (problem.yield.caps()) return {};
   auto pressure = load_of_all(problem);
   if (!pressure) return {};
@@ -463,10 +444,9 @@ std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, d
   return {};
 }
 
-// About where to begin.
 struct FlatteningGuess {
   std::optional<double> approach;  // m
-  std::optional<double> pressure;  // Pa, where the load is to be sought
+  std::optional<double> pressure;  // Pa, if the load is the better variable
 };
 
 FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fraction) {
@@ -486,7 +466,7 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
   const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
   if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
   if (by_load && there.converged) return {{}, there.mean_pressure};
-  // Coarser grids miss the highest node. Where that is much of the approach they say little.
+  // Coarser grids miss the highest node.
   const double higher =
       known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
   if (!(there.approach > 2 * higher)) return {};
@@ -525,7 +505,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.iterations += before;
   }
   if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
-  // One load belongs to many approaches if all nodes but some in pits are at the cap.
+  // With nearly all nodes at the cap one load belongs to many approaches.
   if (!answer.converged && problem.yield.caps() && 2 * answer.yielded > answer.contacts) {
     const int before = answer.iterations;
     answer = flatten_by_approach(problem, fraction, answer.approach, problem.tolerance, loads, monitor, true);

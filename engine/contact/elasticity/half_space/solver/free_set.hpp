@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The nodes whose pressure is free in a pass: those strictly between the bounds, and those at a bound whose
-// gap says they should leave it. A node settled on a bound in this pass may not come back on its stale
-// gap. Free nodes are elastic or past their yield pressure; the load is balanced by the elastic ones
-// while there are any, for the others hardly move. Also these nodes as the loops of a descent see them, and
-// the preconditioner on them.
+// The free set: nodes strictly between the bounds, and nodes at a bound whose gap pulls them off it, but not
+// nodes settled in this pass, whose gap is stale. Free nodes are elastic or yielding (past their yield
+// pressure). Also node loops of a descent and the preconditioner on the free set.
 #pragma once
 
 #include <algorithm>
@@ -24,20 +22,19 @@ enum Freedom : std::uint8_t {
   fixed = 0,
   elastic = 1,
   yielding = 2,
-  settling = 3,  // went past its yield pressure as if elastic: settled first, yielding afterwards
+  settling = 3,  // passed its yield pressure: settle first, then yielding
 };
 
 struct FreeSet {
   double elastic_count = 0, yielding_count = 0, settling_count = 0;
-  double elastic_gap = 0, yielding_gap = 0;  // Σ of the total gap
+  double elastic_gap = 0, yielding_gap = 0;  // Σ total gap
   bool changed = true;
-  double yielding_worth = 0;  // of a yielding node beside an elastic one, in balancing the load
-  // With the settled pressures, those of the elastic interior moved by `shift` and kept within the bounds:
-  // the load, and how many were not stopped.
+  double yielding_worth = 0;  // load balance relative to an elastic node
+  // After a trial shift of the settled elastic interior: load, count of nodes not stopped at a bound.
   double shifted_load = 0, shifted_count = 0;
 
   double count() const { return elastic_count + yielding_count; }
-  // Who balances the load: a few elastic nodes among many that yield would have to take too much of it.
+  // A few elastic nodes would take too much of the load.
   bool elastic_balance() const {
     return elastic_count > 0 && elastic_count >= yielding_worth * yielding_count;
   }
@@ -46,7 +43,7 @@ struct FreeSet {
   double balancing_gap() const { return elastic_balance() ? elastic_gap : yielding_gap; }
 };
 
-// Of ground that does not harden: marks it, and sums free nodes, their gaps, new marks, and of the shift.
+// Count, gaps, changed marks, shifted load and count.
 inline constexpr std::size_t free_sums = 5;
 
 template <bool capped>
@@ -87,8 +84,7 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
   });
 }
 
-// Marks `free` with Freedom values, comparing with `before`; gaps below `offset` pull nodes off zero. `shift`
-// is what is tried on the elastic interior.
+// Sets `free`. Gaps below `offset` pull nodes off zero pressure.
 template <class Limit>
 FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
                    std::span<const double> g, std::span<const std::uint8_t> before,
@@ -99,7 +95,7 @@ FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shi
                ? mark_elastic<true>(limit.upper(), offset, shift, p, g, before, free)
                : mark_elastic<false>(limit.upper(), offset, shift, p, g, before, free);
   else
-    // By value: a store of a byte could change anything that is reached by a reference.
+    // By value: a byte store may alias a reference.
     sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                                 free = free.data(), limit = limit](std::size_t k, double* v) {
       const double q = limit.settle(k, p[k], g[k], balance);
@@ -136,8 +132,7 @@ FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shi
   return set;
 }
 
-// The same about the gap of the interior. At least two nodes are free, the nearest to leaving their bound if
-// need be.
+// The same about the interior gap. Frees at least two nodes: the nearest to leaving their bounds.
 template <class Limit>
 FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
                       std::span<const double> p, std::span<const double> g,
@@ -161,8 +156,7 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
   return set;
 }
 
-// One node of a descent, as the loops over the nodes see it: its fields by plain pointers and the law of its
-// pressure by value, small enough to be taken along into every loop.
+// Plain pointers and the pressure law, copied into each loop.
 template <class Limit>
 struct DescentNodes {
   double *pressure, *gap;
@@ -171,7 +165,7 @@ struct DescentNodes {
   double balance;
 
   double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
-  // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
+  // With the opening of a node marked as yielding.
   double total_gap(std::size_t k) const {
     const double elastic_gap = gap[k];
     if constexpr (Limit::hardens) {
@@ -187,17 +181,16 @@ struct DescentNodes {
     else
       return free[k] != fixed;
   }
-  // Whether pressure q, settled, belongs to the elastic interior, which is shifted to the load.
+  // Whether q, settled, is in the elastic interior.
   bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
     if constexpr (Limit::hardens)
       return q > 0 && (q < limit.yields_at(k) || !any_interior);
-    else  // the same of the pressure as of q, without waiting for it
+    else  // same result from p as from q, available earlier
       return (pressure[k] > 0) & (pressure[k] < limit.upper());
   }
 };
 
-// gap += unit · image, the image of a stretch of nodes from `begin`. The sum of the total gaps of those that
-// balance the load.
+// gap += unit · image from `begin` on. Returns the sum of total gaps of the balancing nodes.
 template <class Limit>
 std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
                                  const double* image, double unit, Freedom balancing) {
@@ -221,9 +214,9 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
     });
 }
 
-// Of a stretch of nodes from `begin`, `image` being what K makes of `direction` there, kept in `to`: the sum
-// of their products, that of the image with the opening of ground that yields over those that balance the
-// load, and, of ground that does not harden, that of the direction with what gaps lack of `mean`.
+// For the nodes from `begin` on: copies `image` = K·direction to `to`. Returns Σ direction · image (with the
+// opening of yielding nodes), Σ image over balancing nodes and, without hardening, Σ direction · (mean −
+// gap).
 template <class Limit, class Stored>
 std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
                                   Freedom balancing, double mean, const Stored* direction,
@@ -250,17 +243,15 @@ std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t 
   });
 }
 
-// The preconditioner of a pass: on the elastic free nodes the restricted |q|/2, on the yielding ones what one
-// node by itself would do, with the change of load taken from those that balance it. Where yielding is
-// soft beside the longest wave's compliance the two are apart; where it is stiff the yielding nodes
-// stay in the restricted |q|/2, scaled down.
+// Restricted |q|/2 on elastic nodes. Soft yielding nodes are independent; stiff ones join the restricted
+// |q|/2, scaled.
 template <class Limit>
 class SetPreconditioner {
  public:
   SetPreconditioner(ContactLevel& level, const Limit& limit) : level_(level) {
     if constexpr (Limit::hardens) {
       slope_ = limit.yielding_slope();
-      // A line of cells along the short side moves as one, by so much more than a node by itself.
+      // A line along the short side moves as one.
       own_ = Limit::own_compliance * std::max(1.0, level.shape.aspect);
       apart_ = slope_ > stiff_slope * std::sqrt(level.shape.aspect);
       scale_ = std::sqrt(1 / (1 + slope_ / own_));
@@ -279,10 +270,9 @@ class SetPreconditioner {
     }
   }
 
-  // Whether yielding nodes are left to themselves.
   bool apart() const { return apart_; }
 
-  // z = M r in place, without the balance of the load.
+  // z = M r in place, load not balanced.
   void apply(std::span<const std::uint8_t> free, std::span<double> z) {
     if constexpr (Limit::hardens) {
       if (apart_) {
@@ -307,7 +297,7 @@ class SetPreconditioner {
   }
 
  private:
-  // dw/dp in cell units; measured: below it the scaled |q|/2 takes fewer steps, above it the two apart.
+  // dw/dp in cell units; measured by the number of steps.
   static constexpr double stiff_slope = 3;
 
   ContactLevel& level_;

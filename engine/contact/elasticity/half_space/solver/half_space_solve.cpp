@@ -53,7 +53,6 @@ namespace {
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 
-// Of the nodes, those that something faces.
 double facing_share(const HalfSpaceProblem& problem) {
   if (!problem.overhangs) return 1;
   return static_cast<double>(known_count(problem.heights->values())) /
@@ -79,7 +78,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   const YieldLaw& law = problem.yield;
   const double facing = facing_share(problem);
   if (law.caps() && mean_pressure >= law.cap * facing) {
-    // To the last digit where fewer would not tell the two apart.
+    // All digits if the short forms are equal.
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     if (facing < 1)
@@ -95,8 +94,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   }
 }
 
-// Length scale of gaps for flat heights: roughly the displacement of the tile as one punch. For a layer the
-// length is smaller by its greatest compliance over the compliance of a half-space.
+// Length scale of gaps for flat heights: about the displacement of the tile as one punch.
 double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   const double length = mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
   if (!problem.share) return length;
@@ -104,9 +102,8 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   return 0.5 * longest * multiplier_of(problem).greatest_from(longest) * length;
 }
 
-// Whether the heights say more than rounding. On a free tile a punch whose heights differ by a millionth of
-// its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance. On a
-// periodic one that is so only where rounding alone would be seen.
+// Whether the heights differ by more than rounding. On a free tile, rounding of the pressures hides
+// roughness below a millionth of the approach.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   const auto heights = problem.heights->values();
   if (!(problem.rms > 0)) return false;
@@ -116,7 +113,7 @@ bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
     const auto differs = [first = heights.front()](double h) { return h != first; };
     if (std::none_of(heights.begin(), heights.end(), differs)) return false;
   }
-  // The heights of a layer may matter at any pressure: an incompressible one hardly gives way to long waves.
+  // An incompressible layer is stiff for long waves: its heights may matter at any pressure.
   if (problem.share) {
     const Range ends = known_range(heights);
     return problem.rms > 1e-14 * std::max(std::abs(ends.min), std::abs(ends.max));
@@ -125,7 +122,6 @@ bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.rms > least * punch_length(problem, mean_pressure);
 }
 
-// The scale of heights and pressures that makes the problem one of cell units.
 struct CellUnits {
   double height = 1;    // m
   double pressure = 1;  // Pa
@@ -150,7 +146,7 @@ PressureLimit cell_limit(const YieldLaw& law, const CellUnits& units) {
   return limit;
 }
 
-// √mean(slope²) by differences; a little less than the spectral slope.
+// √mean(slope²), slightly below the spectral slope.
 double rough_slope(const HalfSpaceProblem& problem) {
   const Field& h = *problem.heights;
   const auto nx = static_cast<std::size_t>(h.nx()), ny = static_cast<std::size_t>(h.ny());
@@ -191,7 +187,6 @@ Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, d
                                 "`pressure` is " + pascals(mean_pressure));
 }
 
-// The grid of a problem and what acts between its nodes.
 LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
   const Grid& grid = problem.grid;
   return {grid.nx,
@@ -207,7 +202,7 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
 
 double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   double lengths = std::abs(answer.approach) + known_range(problem.heights->values()).span();
-  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // what yielded is a difference of such
+  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // w is a difference of pressures
     lengths += problem.yield.cap / problem.yield.hardening;
   const double weight =
       problem.yield.caps() && answer.mean_pressure > 0 ? problem.yield.cap / answer.mean_pressure : 1.0;
@@ -225,8 +220,7 @@ ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_me
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
   const Grid& grid = problem.grid;
-  // Love's kernel is greatest at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)), and
-  // asinh x is below x.
+  // Love's kernel at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
   const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
   const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
   const double most = mean_pressure * static_cast<double>(grid.nodes());
@@ -240,7 +234,7 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
                                  multiplier_of(problem, true));
   Field u(grid.nx, grid.ny);
   compliance.apply(pressure.values(), u.values());
-  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const double length = grid.hx() / problem.modulus;  // per pressure in cell units
   for (double& value : u.values()) value *= length;
   return u;
 }
@@ -284,19 +278,19 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
       v[8] = -p[k];
     });
   else
-    found = over_nodes<5, 4>(
-        p.size(), [=, p = p.values().data(), g = g.values().data()](std::size_t k, double* v) {
-          const double pressure = p[k], gap = g[k];
-          v[0] = pressure;
-          v[1] = pressure > 0 ? 1.0 : 0.0;
-          v[2] = pressure >= cap ? 1.0 : 0.0;
-          v[3] = pressure * gap;
-          v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // means something of a cap only
-          v[5] = gap;
-          v[6] = pressure < cap ? gap : infinity;
-          v[7] = pressure;
-          v[8] = -pressure;
-        });
+    found = over_nodes<5, 4>(p.size(),
+                             [=, p = p.values().data(), g = g.values().data()](std::size_t k, double* v) {
+                               const double pressure = p[k], gap = g[k];
+                               v[0] = pressure;
+                               v[1] = pressure > 0 ? 1.0 : 0.0;
+                               v[2] = pressure >= cap ? 1.0 : 0.0;
+                               v[3] = pressure * gap;
+                               v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // used only with a cap
+                               v[5] = gap;
+                               v[6] = pressure < cap ? gap : infinity;
+                               v[7] = pressure;
+                               v[8] = -pressure;
+                             });
   answer.contacts = static_cast<std::int64_t>(found[1]);
   answer.yielded = static_cast<std::int64_t>(found[2]);
   answer.peak_pressure = -found[8];
@@ -325,14 +319,12 @@ HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   return answer;
 }
 
-// Whether a flat touches all of a periodic tile and nothing yields: every node then carries the mean
-// pressure, and a uniform pressure moves nothing, or all of a layer alike.
+// A flat on a whole periodic tile without yield.
 bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
          (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
 }
 
-// What a mean pressure compresses a layer by, which the cells leave out under a load.
 void add_uniform_compression(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const double compression = uniform_compliance(problem) * answer.mean_pressure;
   if (!(compression > 0)) return;
@@ -366,7 +358,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
     pressure[k] = p >= cell_cap ? cap : within;
     gap[k] = (gap[k] - offset) * units.height;
   });
-  // What nothing faces is out of the contact already, but for what a pass may have left there by rounding.
+  // Passes may leave rounding at nodes without a counterpart.
   if (problem.overhangs)
     for (std::size_t k = 0; k < answer.pressure.size(); ++k)
       if (!problem.faces(k)) answer.pressure[k] = 0;
@@ -384,7 +376,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   return answer;
 }
 
-// The problem under a load in cell units, with every node facing the ground.
+// The caller replaces heights that are NaN.
 CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
                              bool flat) {
   CellProblem cell;
@@ -395,13 +387,12 @@ CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& u
   cell.limit = cell_limit(problem.yield, units);
   cell.mean_pressure = mean_pressure / units.pressure;
   if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
-  // A little less, so that what rounding adds on the way to pascals stays within it.
+  // Slightly tighter: conversion to pascals adds rounding.
   cell.tolerance = 0.99 * problem.tolerance;
   cell.effort = problem.brief ? ChainEffort::brief : ChainEffort::full;
   return cell;
 }
 
-// A warm start in cell units.
 struct Start {
   int nx = 0, ny = 0;
   Array<double> pressure, gap;
@@ -426,7 +417,6 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   const Range ends = known_range(problem.heights->values());
   CellUnits units;
   units.origin = ends.max;
-  // On a free tile heights that differ by next to nothing of the approach are those of a flat.
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   units.height = std::min(approach, length);
   if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
@@ -436,7 +426,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.shape = level_shape(problem, true);
   Field out_of_the_way;
   if (problem.overhangs) {
-    // Nothing on a free tile rises under pressure: deeper ground is never reached.
+    // Pressure lifts no node of a free tile, so deeper nodes never touch.
     cell.lowest = ends.min;
     out_of_the_way =
         with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
@@ -447,7 +437,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.factor = 1 / units.height;
   cell.limit = cell_limit(problem.yield, units);
   cell.offset = approach / units.height;
-  // Penetration and what is open add up in the certificate.
+  // Penetration and opening add up in the certificate.
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
@@ -463,7 +453,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
     begun.gap = gaps;
   }
   CellAnswer found = nested_descent(cell, begun, monitor);
-  if (found.single && !found.converged) {  // as it might in double precision, too
+  if (found.single && !found.converged) {  // double precision may converge
     const int before = found.applications;
     cell.shape.single = false;
     found = nested_descent(cell, {}, monitor);
@@ -480,8 +470,8 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 
 namespace {
 
-// At an approach or, where the descent stalls there, at a third of it, and so on. `approach` becomes what was
-// solved at. After the first try nothing is begun with: `start` may be far from any solution.
+// Solves at an approach; each failure multiplies the approach by 0.3. Returns the last in `approach`. Only
+// the first solve uses `start`.
 HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
                                    Monitor& monitor) {
   constexpr double less = 0.3;
@@ -498,9 +488,8 @@ HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& appr
   return answer;
 }
 
-// Where ground is so soft once it yields that no descent balances the load: the approach that brings it,
-// which never falls as the load grows. None where that does not converge either. `begun`: an answer that did
-// not.
+// For soft hardening, where no descent balances the load: searches the approach of the load. Empty if a
+// solve fails. `begun`: the unconverged answer.
 std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
                                                   const HalfSpaceAnswer& begun, Monitor& monitor) {
   constexpr int most_solves = 80, most_applications = 2000;
@@ -534,7 +523,7 @@ HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_press
   if (problem.boundary != Boundary::periodic || flat || mean_pressure == 0) return {};
   const CellUnits units = cell_units(problem, mean_pressure, flat);
   CellAnswer found = full_contact(cells_under_load(problem, units, mean_pressure, flat), monitor);
-  constexpr int as_far_as_gaps = 2;  // applications
+  constexpr int as_far_as_gaps = 2;  // applications that include the gaps
   if (found.applications == as_far_as_gaps) return in_si(problem, units, mean_pressure, std::move(found));
   HalfSpaceAnswer none;
   none.iterations = found.applications;
@@ -568,7 +557,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
     if (start && !start->pressure.empty() && start->mean_pressure > 0) warm = start_in_cells(units, *start);
     found = nested_descent(cell, {warm.nx, warm.ny, warm.pressure, warm.gap}, monitor);
     found.applications += before;
-    if (found.single && !found.converged) {  // as it might in double precision, too
+    if (found.single && !found.converged) {  // double precision may converge
       before = found.applications;
       cell.shape.single = false;
       found = nested_descent(cell, {}, monitor);

@@ -13,7 +13,6 @@
 namespace asperity {
 
 namespace {
-// No sum of a grid is better than this.
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
 constexpr double noticed = 1e-13;  // of the load
 
@@ -21,10 +20,9 @@ struct Carried {
   double load;      // Σ clip(y + λ)
   double interior;  // moved nodes strictly between the bounds
   double values;    // Σ y over them
-  double bound;     // what the moved nodes at the upper bound carry
+  double bound;     // load of moved nodes at the upper bound
 };
 
-// Where the shift moves a node: everywhere, or where a mark is.
 struct Everywhere {
   bool operator()(std::size_t) const { return true; }
 };
@@ -67,9 +65,8 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
   }
   if (!all && load == fixed) return false;
 
-  // At the one end all moved nodes are at 0, at the other all at the bound, or the least of them carries all.
-  // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry
-  // it must not be what rounding leaves.
+  // From all moved nodes at 0 to all at the bound, or one with the whole load. Shifts for small loads count
+  // from the greatest value: rounding must not decide the few nodes in contact.
   const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
   double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
   double shift = std::clamp(origin, low, std::max(low, high));
@@ -83,8 +80,7 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     }
     if (std::abs(excess) <= round_off * load) break;
     (excess > 0 ? high : low) = shift;
-    // Newton's step, with nothing cancelled; or by what the load is off, which tells shifts apart that the
-    // sums do not.
+    // Without cancellation; otherwise by the excess, which resolves finer shifts than the sums.
     double next = (load - fixed - at.bound - at.values) / at.interior;
     if (!(next > low && next < high)) next = shift - excess / at.interior;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -100,8 +96,7 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     for_nodes(y.size(), [=, target = target.data()](std::size_t k) { target[k] = clipped(k, best_shift); });
     return true;
   }
-  // Values so large beside the load that two neighbouring shifts carry too little and too much: between the
-  // two.
+  // Huge values: two neighbouring shifts carry too little and too much.
   const double least = carried(y, where, upper, origin, low).load;
   const double most = carried(y, where, upper, origin, high).load;
   const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
@@ -141,7 +136,6 @@ void keep_line_loads(const LevelShape& shape, std::span<const double> before,
       same = same && before[k] == settled[k];
     }
     if (same) return;
-    // Newton's steps to the root of a function that never falls and is linear in pieces.
     double shift = 0;
     for (int step = 0; step < most_steps; ++step) {
       double load = bound, inside = 0;

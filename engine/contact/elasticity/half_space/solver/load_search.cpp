@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The search is an inexact Newton method (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982) by
-// secants. Near full contact of a periodic tile the load is the well-posed way: there the deepest gap goes as
-// a power below one of what the approach lacks, and above one of what the load does. Where the contact hardly
-// changes from one load to the next, pressures and gaps go straight on with the load, and so does all that is
-// measured of them, but for the node that is the deepest: the line through two answers is followed then.
+// Inexact Newton method (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982) by secants. Near full
+// contact of a periodic tile the load is well-posed: the deepest gap falls as a power above one of the
+// missing load, but below one of the missing approach. With nearly constant contact area pressures and gaps
+// are linear in the load: the search follows the line through two answers.
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 
 #include <algorithm>
@@ -34,9 +33,8 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
 
 namespace {
 
-// Full contact by the exact filter under a load not far above the least: the first of the loads that are each
-// ten times the one before under which it ends within the tolerance, brought down again towards the last that
-// did not, until the two are within a factor of two. Did not converge where none of the loads did.
+// Full contact by the exact filter: multiplies the least load by ten until the filter converges, then
+// bisects to within a factor of two.
 HalfSpaceAnswer full_under_more(const HalfSpaceProblem& problem, double least, Monitor& monitor) {
   constexpr int tries = 3;
   constexpr double more = 10, near = 2;
@@ -73,8 +71,7 @@ HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double me
     applications += found.iterations;
     return found;
   };
-  // A hardness far above the load weighs what rounding leaves of the gaps by how far, and no descent betters
-  // that: under more load, which moves nothing, it weighs less.
+  // The certificate multiplies rounding of the gaps by hardness / load: more load helps, a descent does not.
   HalfSpaceAnswer answer;
   if (problem.yield.caps()) {
     answer = counted(solve_if_full(problem, mean_pressure, monitor));
@@ -113,14 +110,14 @@ BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtBy
   if (problem.yield.caps()) {
     const double facing = static_cast<double>(known_count(problem.heights->values()));
     const double cap = problem.yield.cap * (1 - 1e-12) * (facing / static_cast<double>(problem.grid.nodes()));
-    // Far from all that there is, that all of it is measured there says nothing of the way.
+    // If the target is below half of the maximum, the value at the upper end misleads the secant.
     constexpr double far = 0.5;
     if (!(end.at < cap)) end = {cap, sought.wanted < far * sought.most ? infinity : sought.most};
   }
   return end;
 }
 
-// What `length` takes on a tile that is one punch, or less.
+// A tenth of the load of the tile as one punch.
 double small_load(const HalfSpaceProblem& problem, double length) {
   return 0.1 * problem.modulus * length / std::max(problem.grid.size_x, problem.grid.size_y);
 }
@@ -133,7 +130,7 @@ class LoadSearch {
         sought_(sought),
         monitor_(monitor),
         end_(upper_end(problem, sought)),
-        // A residual of 1, in what is wanted.
+        // Relative measure per unit residual.
         unit_(problem.rms > 0 ? std::min(problem.rms / sought.length, 1.0) : 1.0),
         bracket_(sought.wanted, {0, 0}, end_, BracketedSecant::Scale::logarithmic),
         root_(bracket_),
@@ -150,41 +147,37 @@ class LoadSearch {
 
  private:
   static constexpr int most_solves = 60, most_applications = 6000;
-  // Before another way is gone; on it, so many times those; and the last time.
+  // Applications before the other way; its budget as a multiple; its last budget.
   static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
-  static constexpr int most_doubts = 4;      // of a bracket
-  static constexpr double good_start = 0.1;  // a certificate whose pressures are worth beginning from
-  static constexpr double near_start = 0.3;  // of the load, that pressures are taken along
-  static constexpr double near_if_easy = 2;  // the same, where solves are easy: those take few applications
+  static constexpr int most_doubts = 4;
+  static constexpr double good_start = 0.1;  // greatest certificate of a warm start
+  static constexpr double near_start = 0.3;  // greatest relative change of load for a warm start
+  static constexpr double near_if_easy = 2;  // the same after an easy solve
   static constexpr int few_applications = 40;
-  static constexpr double loosest = 5e-3;     // tolerance of a solve
-  static constexpr double next_error = 2e-3;  // of the error there is, that the next solve may leave
-  // A residual r may leave the deepest gap off by so many times r: complementarity averages over the load,
-  // and penetration says nothing of nodes that are open. Seen: 20.
+  static constexpr double loosest = 5e-3;
+  static constexpr double next_error = 2e-3;  // tolerance per present error
+  // Complementarity averages over the load, and penetration ignores open nodes. Seen: 20.
   static constexpr double gap_per_residual = 20;
-  // A step so much smaller than the error closes a bracket that does not hold what is wanted.
+  // A smaller step relative to the error means a false bracket.
   static constexpr double least_step = 0.01;
-  // Tolerances below the one asked for, where that leaves the measure too rough.
+  // Factors below the requested tolerance for a rough measure.
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
-  // Answers whose numbers of nodes in contact differ by no more lie on a line.
   static constexpr double same_contact = 0.1;
-  static constexpr double furthest_along = 3;  // a line is followed, in steps between its answers
-  static constexpr double enough_gain = 0.5;   // of an error, that a line may leave
+  static constexpr double furthest_along = 3;  // in steps between the answers
+  static constexpr double enough_gain = 0.5;   // ratio of errors after a step on the line
 
   struct Measured {
     double pressure = 0, found = 0, certificate = infinity;
     std::int64_t contacts = 0, yielded = 0;
   };
 
-  // The two greatest loads that fall short: where all that there is is measured from some load on, the line
-  // through them says from which.
+  // The two greatest loads below complete contact, extrapolated to complete contact.
   struct ShortOfAll {
     BracketedSecant::Point last{}, before{};
     void take(BracketedSecant::Point found) {
       if (found.at <= last.at) return;
       before = std::exchange(last, found);
     }
-    // None where that is about as far as the load that was tried.
     std::optional<double> go_on(double wanted, double tried) const {
       constexpr double less = 0.9;
       if (!(before.at > 0) || !(last.value > before.value)) return {};
@@ -227,14 +220,14 @@ class LoadSearch {
   std::vector<Told> told_;
   int applications_;
   const bool long_cells_;
-  bool easy_ = false, hard_ = false;  // whether the last solve took few applications, or the last resort
-  // Whether the last measure was too rough to tell a side, and the next takes its place.
+  bool easy_ = false, hard_ = false;  // few applications; last resort
+  // The last measure was too rough; the next replaces it.
   bool rough_ = false, in_place_ = false;
   bool went_the_other_way_ = false;
 };
 
 double LoadSearch::first_load() {
-  // A descent that stalled at the approach has told about how much load that takes.
+  // A stalled descent at the approach gives the order of the load.
   double pressure = std::max(answer_.mean_pressure, small_load(problem_, sought_.length));
   for (const auto& met : {sought_.met.below, sought_.met.above})
     if (met && met->at < end_.at) {
@@ -245,21 +238,20 @@ double LoadSearch::first_load() {
   return pressure < end_.at ? pressure : 0.5 * end_.at;
 }
 
-// Gaps are measured by the rms height or, where the contact is light, by the approach (nested_descent.cpp).
 void LoadSearch::set_unit() {
   constexpr double light = 0.01;
   if (!sought_.on_the_line || !(problem_.rms > 0)) return;
   unit_ = (answer_.approach < light * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
 }
 
-// A solve was put on the wrong side: of those before only what no roughness of theirs brings over counts.
+// A solve was on the wrong side: rebuilds the bracket from the certain points.
 void LoadSearch::doubt(BracketedSecant::Point found) {
   root_ = bracket_;
   for (const Told& before : told_) root_.take(before.point, before.certainly);
   root_.take(found, false);
 }
 
-// Pressures and gaps to begin from, in place of the last answer or the one before.
+// Moved out of the last answer or the one before.
 HalfSpaceAnswer LoadSearch::beginning(double pressure) {
   in_place_ = false;
   if (!sought_.on_the_line) return std::move(answer_);
@@ -299,14 +291,13 @@ void LoadSearch::solve(double pressure) {
     before_ = {};
     in_place_ = rough_;
   }
-  // On long cells descents more often need the last resort, and would take all that they took before it
-  // again.
+  // On long cells brief solves often fail and would repeat the descent.
   const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells_;
   const bool tight = now_.tolerance < problem_.tolerance;
   now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
   applications_ += answer_.iterations;
-  // The pressures it began with may have been in the way; what tells the side will do for the time being.
+  // The start may have failed. An unconverged answer is enough if its side is clear.
   set_unit();
   const auto will_do = [&] {
     const double residual = answer_.certificate.worst();
@@ -325,7 +316,7 @@ void LoadSearch::solve(double pressure) {
            answer_.yielded};
 }
 
-// The next load, where the last two contacts are about the same.
+// Empty if the contact areas differ.
 std::optional<double> LoadSearch::along_the_line() const {
   const auto alike = [](std::int64_t a, std::int64_t b) {
     return static_cast<double>(std::abs(a - b)) <= same_contact * static_cast<double>(std::max(a, b));
@@ -333,7 +324,6 @@ std::optional<double> LoadSearch::along_the_line() const {
   if (!sought_.on_the_line) return {};
   if (!(previous_.pressure > 0) || !alike(last_.contacts, previous_.contacts) ||
       !alike(last_.yielded, previous_.yielded)) {
-    // Nearly all touches: straight to the load that brings the rest.
     const auto nodes = static_cast<std::int64_t>(problem_.grid.nodes());
     if (end_.at != sought_.above.at || !(end_.value < infinity) || !alike(last_.contacts, nodes) ||
         !(last_.found < sought_.wanted))
@@ -357,7 +347,7 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
   return std::move(answer_);
 }
 
-// Whether another way led to what is wanted: `answer_` is it then, and what is gone on from otherwise.
+// On success `answer_` is the result, otherwise the next start.
 bool LoadSearch::go_the_other_way(int most) {
   before_ = {};
   answer_ = sought_.other_way(std::move(answer_), most);
@@ -389,14 +379,14 @@ HalfSpaceAnswer LoadSearch::run() {
     const bool kept = !sought_.on_the_line || no_tighter;
     const bool sure = told || (tightest && kept && answer_.converged);
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
-    // Of full contact any more load says the same.
+    // Beyond full contact the measure is constant.
     const bool nothing_more =
         found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
     const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
-    if (near_enough) continue;  // the same again, by a tighter solve
-    // On long cells a step the wrong way is dear: the same again, until the side is told.
+    if (near_enough) continue;
+    // On long cells a wrong step is expensive: repeat until the side is clear.
     if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
     const bool line_fails = by_line && error > enough_gain * error_before;
     std::optional<double> next;
@@ -408,12 +398,12 @@ HalfSpaceAnswer LoadSearch::run() {
     by_line = next.has_value();
     if (!nothing_more && sure && found < sought_.wanted) short_of_all_.take({pressure, found});
     if (!next) next = root_.next();
-    const double room = std::min(pressure, end_.at - pressure);  // that a step is measured by
+    const double room = std::min(pressure, end_.at - pressure);
     if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;
       if (tightest && !kept) least_ = std::max(floor(), tighter * least_);
       now_.tolerance = std::max(least_, least_step * now_.tolerance);
-      if (doubts > 1) told_.clear();  // not even of the certain is that true
+      if (doubts > 1) told_.clear();  // even certain points were false
       doubt({pressure, found});
     } else if (!in_place_) {
       told_.push_back({{pressure, nothing_more ? infinity : found},

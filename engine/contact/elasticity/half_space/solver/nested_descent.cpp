@@ -30,30 +30,27 @@ double greatest(std::span<const double> values) {
   return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
 }
 
-// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height. What is
-// right to a share of the rms then says nothing of how the load is shared. So the solve goes on, its gaps
-// counted from the height that matters, where they are sums of small terms and not small differences of large
-// heights, and measured by how far the ground there moves.
+// Contacts so light, or surfaces so soft, that a residual relative to the rms height is too coarse. Gaps
+// count from the decisive height (sums of small terms) and are measured by the displacement there.
 class LightContact {
  public:
   LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
       : level_(level), fields_(fields), problem_(problem) {}
 
-  // From the feasible pressures and gaps in `fields`, where a chain left them; what it cannot better stays as
-  // it was, and ordinary contacts are left alone. `gap` belongs to the pressures again afterwards. Returns
-  // whether gaps and offset are counted from the highest node, so that the offset is the approach.
+  // Needs feasible pressures and gaps in `fields`; keeps them if no round converges. Recomputes `gap`.
+  // Returns whether gaps count from the highest node: the offset is then the approach.
   bool refine(DescentEnd& end);
 
  private:
-  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
-  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+  static constexpr double light = 0.01;  // greatest approach, per unit of gaps
+  static constexpr double soft = 1e-3;   // displacement of a node at the cap, same unit
 
-  // Once more from the pressures there are; false, and they stay, where that does not converge.
+  // On failure restores the pressures.
   bool again(double length, DescentEnd& end);
   void by_approach(double approach, DescentEnd& end);
   void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // What one node sinks, about, under the pressure `p` on it alone.
+  // Of one node under `p` alone.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
 
   ContactLevel& level_;
@@ -73,10 +70,9 @@ bool LightContact::again(double length, DescentEnd& end) {
 }
 
 void LightContact::by_approach(double approach, DescentEnd& end) {
-  constexpr double right = 0.5;  // of the approach that gaps were measured by
+  constexpr double right = 0.5;  // ratio of the approach to the unit of gaps
   constexpr int most_rounds = 60;
-  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
-  // only what the tolerance left.
+  // Upper bound without a pressure limit. The first approach may be a residual of the tolerance.
   const double alone = sunk(level_.total_load());
   const bool elastic =
       !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
@@ -88,8 +84,7 @@ void LightContact::by_approach(double approach, DescentEnd& end) {
   }
 }
 
-// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
-// rest.
+// Nodes above some height are at the cap, lower ones open; nodes at this height share the rest.
 void LightContact::at_the_cap(double cap, DescentEnd& end) {
   const UnsetArray<double>& p = fields_.pressure;
   for (std::size_t k = 0; k < p.size(); ++k)
@@ -122,13 +117,13 @@ bool LightContact::refine(DescentEnd& end) {
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
-struct Step {                       // one grid of the nest
-  std::optional<CoarserGrid> from;  // how it came from the finer one
+struct Step {
+  std::optional<CoarserGrid> from;  // from the finer grid
   LevelShape shape;
-  Array<double> heights;  // empty on the finest, whose heights are the caller's
+  Array<double> heights;  // empty on the finest grid, which uses the caller's
   Array<double> yield;
   double pitch = 1;          // hx in cells of the finest grid
-  double mean_pressure = 0;  // cell units of this grid
+  double mean_pressure = 0;  // cell units
 };
 
 double work(const LevelShape& shape) {
@@ -146,7 +141,6 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
   return limit;
 }
 
-// In place of pressures at their bounds, how far their gaps are from leaving them.
 void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
                   std::span<double> p) {
   for_nodes(p.size(), [&](std::size_t k) {
@@ -158,7 +152,6 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
   });
 }
 
-// The level-set field of `start`, from its nodes to those of `level`.
 void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
   const LevelShape& shape = level.shape;
   CoarserGrid from{shape, static_cast<double>(shape.nx) / start.nx, static_cast<double>(shape.ny) / start.ny};
@@ -198,9 +191,8 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
-// A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
-// alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
-// under a light load all of them are nothing beside the bound.
+// Off the bound by rounding, a pressure would count as free and could alone fix the offset. Under a light
+// load all pressures are small compared with the bound.
 void snap_to_bounds(double upper, std::span<double> p) {
   const double rounding =
       std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
@@ -221,7 +213,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
-  UnsetArray<double> carried;  // the level-set field of the grid below
+  UnsetArray<double> carried;  // level-set field of the coarser grid
   double all_work = 0, work_done = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
 
@@ -272,7 +264,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
     } else {
       if (gap_known) to_level_set(upper, level.short_wave_stiffness, 0, start.gap, p);
       if (std::isfinite(lowest)) {
-        // Less than any shift to the load can make up for.
+        // Below any shift to the load.
         for (std::size_t k = 0; k < nodes; ++k)
           if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
       }
@@ -284,7 +276,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
         if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
         at = contact_quality(level, p, fields.gap);
         if (!finest || answer.from_peak || !end.converged || at.residual <= tolerance) break;
-        // Nodes that were snapped to the limit no longer balance the load.
+        // Snapped nodes no longer balance the load.
         end.converged = round < most_snaps;
         if (!end.converged) break;
         end = run_chain(level, fields, tolerance, problem.effort);
@@ -308,9 +300,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   return answer;
 }
 
-// The least load of all, or the softest ground: products of pressures and displacements, and their squares,
-// must stay within the range of a double. The power of two to multiply heights and pressures by; rounds
-// nothing.
+// Power of two (exact) that keeps squares and products of tiny pressures in the range of a double.
 int power_within_range(const CellProblem& problem) {
   constexpr double least = 1e-100;
   const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
@@ -341,7 +331,7 @@ UnsetArray<double> times_power_of_two(std::span<const double> values, int power)
 }  // namespace
 
 CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
-  // A given offset is near 1, and so are the pressures.
+  // At an offset, heights and pressures are near 1 already.
   const int power = problem.offset ? 0 : power_within_range(problem);
   if (power == 0) return descend_nest(problem, start, monitor);
   const UnsetArray<double> pressure = times_power_of_two(start.pressure, power),
@@ -367,8 +357,7 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
   level.compliance.apply_inverse(p, p);
   answer.applications = 1;
-  // The mean moves nothing, and may be so large that beside it pressures lose their digits: gaps come from
-  // what they differ by.
+  // The mean moves nothing but can cost pressures their precision.
   answer.gap = p;
   const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
     p[k] += problem.mean_pressure;

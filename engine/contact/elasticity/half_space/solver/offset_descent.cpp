@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact at a given offset δ, on one grid: 0 <= p <= H with g = K p − h − δ (and what yielded) as the
-// law of the pressure has it, and no load to keep. Preconditioned conjugate gradients on the free set,
-// pressures being allowed outside their bounds until the next pass, as in active_set_descent.cpp; there the
-// load balances the gaps of the free nodes, here these are brought to δ itself. So no load is sought, and one
-// that hardly tells offsets apart, or hardly depends on them, costs no more than another. Where that stalls,
-// passes that each lower the energy ½ p·Kp − (h + δ)·p take over, for a while.
+// Contact at an offset δ on one grid: g = K p − h − δ (+ w) with the pressure law, no prescribed load.
+// Conjugate gradients as in active_set_descent.cpp, with free gaps brought to δ. If this stalls, passes that
+// each lower the energy ½ p·Kp − (h + δ)·p.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -19,17 +16,16 @@ namespace asperity {
 
 namespace {
 
-// Of conjugate gradients: of a pass that settles, whose settling carries a step of the preconditioner where K
-// is dear, and of the careful stage, whose passes all lower the energy.
+// Steps of a pass: quick, with an expensive K, downhill.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
-constexpr double careful_gain = 0.03;            // of a residual, that ends its steps
-constexpr int careful_passes_without_gain = 40;  // they lower the energy, which the residual need not follow
-// The opening of a single node in contact, as in contact_quality.cpp.
+constexpr double careful_gain = 0.03;            // relative residual that ends a pass
+constexpr int careful_passes_without_gain = 40;  // the energy falls, the residual may not
+// As in contact_quality.cpp.
 constexpr double touching_weight = 0.125;
 
 struct OffsetQuality {
   double residual = 0;
-  bool within = true;  // nothing had to be settled
+  bool within = true;
 };
 
 template <class Limit>
@@ -60,7 +56,6 @@ class OffsetDescent {
     return {f_.pressure.data(), f_.gap.data(), f_.free.data(), limit_, offset_};
   }
   OffsetQuality quality() const;
-  // Pressures within their bounds.
   void settle() {
     for_nodes(nodes(), [n = view()](std::size_t k) { n.pressure[k] = n.settled(k); });
   }
@@ -81,7 +76,7 @@ class OffsetDescent {
   bool descend(int steps);
   bool go_downhill();
   struct Change {
-    double slope = 0, energy = 0;  // of the energy to the first order, and in all
+    double slope = 0, energy = 0;  // change of energy: first order, total
     bool enough() const { return slope < 0 && energy <= 0.1 * slope; }
   };
   Change change_since() const;
@@ -101,8 +96,7 @@ class OffsetDescent {
   double residual_ = infinity;
 };
 
-// The gap of the pressures there are. On a periodic tile their mean moves nothing, and may be so
-// large that beside it they lose the digits of what differs.
+// A periodic mean moves nothing but can cost p its precision: it is subtracted first.
 template <class Limit>
 void OffsetDescent<Limit>::find_gap() {
   double mean = 0;
@@ -138,13 +132,13 @@ OffsetQuality OffsetDescent<Limit>::quality() const {
   return at;
 }
 
-// work_ = M r, r what the gaps of the free nodes lack of `target`. Returns r·M r.
+// work_ = M r, r = target − gap on the free nodes. Returns r·M r.
 template <class Limit>
 double OffsetDescent<Limit>::turn(double target) {
   const auto lack = [n = view(), target](std::size_t k) {
     return n.moves(k) ? target - n.total_gap(k) : 0.0;
   };
-  // Whose constant the preconditioner does not see.
+  // Nodes whose constant the preconditioner does not see.
   const bool full = set_.count() == static_cast<double>(nodes());
   const bool all_that_moves = full || (Limit::hardens && !preconditioner_.apart());
   const auto counts = [n = view(), all_that_moves](std::size_t k) {
@@ -157,13 +151,12 @@ double OffsetDescent<Limit>::turn(double target) {
     v[1] = counts(k) ? 1.0 : 0.0;
   });
   preconditioner_.apply(f_.free, work_);
-  // On a periodic tile the preconditioner sees nothing of a constant; the longest wave does for it, what
-  // yields, and K(0) of a layer. Where all nodes are free a constant moves the gap of those that yield alone,
-  // if there are any, and of all on a layer.
+  // On a periodic tile the preconditioner ignores a constant. Its stiffness comes from the longest wave,
+  // yielding nodes and K(0). With all nodes free a constant moves only yielding nodes (on a layer all).
   double level = 0;
   if (periodic_ && sums[1] > 0) {
     const double all = static_cast<double>(nodes()), others = all - sums[1];
-    // A constant on nearly all nodes is what the few others lack of it.
+    // A constant on nearly all nodes acts as its negative on the others.
     const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
     const double elastically = std::min(level_.greatest_compliance * sums[1], lacking);
     const double yields = all_that_moves ? limit_.yielding_slope() * set_.yielding_count : 0.0;
@@ -177,7 +170,7 @@ double OffsetDescent<Limit>::turn(double target) {
   })[0];
 }
 
-// Pressures within their bounds, on long cells with the loads of lines kept.
+// On long cells with unchanged line loads.
 template <class Limit>
 void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
   for_nodes(nodes(), [n = view(), to = target.data()](std::size_t k) { to[k] = n.settled(k); });
@@ -189,8 +182,7 @@ void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
   keep_line_loads(level_.shape, f_.pressure, where, limit_.upper(), target);
 }
 
-// What settling changes, and a fixed step of the preconditioner where K is dear, at the cost of one
-// application.
+// Settling and, if K is expensive, a fixed preconditioned step, with one application.
 template <class Limit>
 void OffsetDescent<Limit>::settle_step() {
   const bool steps = dear_ && !all_free();
@@ -214,8 +206,8 @@ void OffsetDescent<Limit>::settle_step() {
   }
 }
 
-// Where all of a periodic tile touches, the same pressure everywhere moves nothing: it goes down until the
-// first node opens, or up until the first yields, and a little further.
+// Periodic full contact: a uniform pressure moves nothing. Shifts down until the first node opens, or up
+// until the first yields, and a little further.
 template <class Limit>
 void OffsetDescent<Limit>::shift_all() {
   const double upper = limit_.upper();
@@ -243,7 +235,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
              static_cast<double>(nodes());
   bool any = steps > 0;
   while (steps < enough) {
-    if (careful_ && level_.report) level_.report(residual_);  // where a stop is seen
+    if (careful_ && level_.report) level_.report(residual_);  // lets the user stop
     const double rz = turn(target);
     if (!(rz > 0)) break;
     if (first == 0) first = rz;
@@ -287,7 +279,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
   return any;
 }
 
-// Of the energy ½ p·Kp − (h + δ)·p, and what yields, from the old pressures and gaps to those there are.
+// Change of the energy ½ p·Kp − (h + δ)·p with yield.
 template <class Limit>
 typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const {
   const auto sums = over_nodes<2>(nodes(), [n = view(), offset = offset_, p0 = f_.old_pressure.data(),
@@ -307,8 +299,8 @@ typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const
   return {sums[0], sums[1]};
 }
 
-// A pass that lowers the energy: steps on the free set, and where they leave the bounds their projection as
-// far as that lowers it, or else that of a step against the gaps.
+// Lowers the energy: steps on the free set or, out of bounds, a projected part of the steps or of a step
+// against the gaps.
 template <class Limit>
 bool OffsetDescent<Limit>::go_downhill() {
   const double upper = limit_.upper();
@@ -320,7 +312,6 @@ bool OffsetDescent<Limit>::go_downhill() {
     v[0] = n.pressure[k] < 0 || n.pressure[k] > upper ? 1.0 : 0.0;
   });
   if (moved && out[0] == 0 && change_since().energy < 0) return true;
-  // Along `direction_`, from the old pressures.
   const auto step_to = [&](double share) {
     for_nodes(nodes(), [n = view(), upper, share, x = direction_.data(), p0 = f_.old_pressure.data(),
                         s = work_.data()](std::size_t k) {
@@ -348,7 +339,6 @@ bool OffsetDescent<Limit>::go_downhill() {
               const double against = -stiff * (g0[k] - offset + n.limit.opening(k, p0[k]));
               x[k] = std::clamp(p0[k] + against, 0.0, upper) - p0[k];
             });
-  // Any share of this step stays within the bounds.
   double share = 1;
   for (int tries = 0; tries < 4; ++tries) {
     step_to(share);
@@ -439,7 +429,7 @@ DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double o
   end.stage = "preconditioned descent at a given approach";
   end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.converged || effort == ChainEffort::start) return end;
-  // On long cells the load is found sooner.
+  // On long cells a search of the load is quicker.
   if (effort != ChainEffort::full && effort != ChainEffort::less && keeps_line_loads(level.shape.aspect))
     return end;
   end.stage = "preconditioned descent at a given approach, downhill";
