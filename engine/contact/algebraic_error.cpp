@@ -13,12 +13,12 @@ namespace asperity {
 namespace {
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// How far a whole number may be from what is certain of it.
+// Greatest distance of `found` from the bracket's ends.
 double farther(const NodeBracket& bracket, std::int64_t found) {
   return static_cast<double>(std::max({bracket.high - found, found - bracket.low, std::int64_t{0}}));
 }
 
-// Of a/b, each with its own bound.
+// Bound of a/b.
 double of_quotient(double a, double error_a, double b, double error_b) {
   if (!(b > 0)) return error_b > 0 || error_a > 0 ? infinity : 0;
   if (!(error_b < b)) return infinity;
