@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of a grid that one of several processes holds, as FFTW's MPI transforms deal them out: equal
-// blocks, ⌈ny/K⌉ rows each, the last ones shorter or empty.
+// Rows of a grid on one process, in the division of FFTW's MPI transforms: blocks of ⌈ny/K⌉ rows, the last
+// ones shorter or empty.
 #pragma once
 
 #include <algorithm>
