@@ -28,15 +28,15 @@ struct SolutionError {
   double plastic_volume = 0;     // m³
   NodeBracket contacts{};        // in contact
   NodeBracket yielded{};         // at the cap, or past the yield pressure
-  // Nodes in contact in only one of this and the exact solution, at most.
+  // Nodes in contact in one of the two solutions only, at most.
   std::int64_t may_differ = 0;
 };
 
-// Greatest absolute differences from the exact solution of the same request on the same grid, in the unit of
-// the quantity; infinite if unknown. Include an allowance for rounding.
+// Greatest absolute differences from the exact solution of the same request on the same grid, rounding
+// included, in the unit of the quantity; infinite if unknown.
 struct AlgebraicError {
-  // Rounding only if the load was prescribed; none after a press by `flatten`, whose other bounds refer to
-  // the exact solution under the load found.
+  // Rounding only if the load was prescribed. None after a press by `flatten`: the other bounds then refer
+  // to the exact solution under the load found.
   std::optional<double> load, pressure;
   double approach = 0;
   double indentation = 0;  // infinite for equal combined heights
@@ -57,7 +57,7 @@ struct AlgebraicError {
   Cost cost;               // of computing this
 };
 
-// Costs solution.error().
+// As costly as solution.error().
 AlgebraicError find_algebraic_error(const Solution& solution, bool plastic);
 
 }  // namespace asperity

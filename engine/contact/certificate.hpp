@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Residuals of the contact conditions, computed from pressures and gaps alone. All entries are relative.
-// With pressure p, requested mean p̄, gap g and rms combined height r:
+// Relative residuals of the contact conditions, from pressures and gaps alone. With pressure p, requested
+// mean p̄, gap g and rms combined height r:
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,6 @@ struct Certificate {
 
   double attraction = 0;  // max |σ(g) − σ| / max σ; 0 without attraction across the gap
 
-  // The residual of the solve.
   double worst() const { return std::max({penetration, tension, complementarity, load, cap, attraction}); }
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Histogram as a probability density: bins of equal width from zero, or of equal ratio from the least to the
-// greatest value.
+// Histogram as a probability density: bins of equal width from zero, or of equal ratio between the extremes.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +21,8 @@ struct Histogram {
   double mean = 0;
 };
 
-// At least one value, all positive and finite. O(values). Throws Error{bad_value} for `bins` out of range,
-// Error{bad_state} without values.
+// Values positive and finite. O(values). Throws Error{bad_value} for `bins` out of range, {bad_state}
+// without values.
 Histogram make_histogram(std::span<const double> values, const HistogramOptions& options);
 
 }  // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An effect of a scene, besides elasticity: one record in one file of effects/. Readers, checks, plans,
-// presses and documents iterate over the records (effects/list.hpp) and name no effect.
+// An effect of a scene: one record in one file of effects/. Readers, checks, plans, presses and documents
+// iterate over the records (effects/list.hpp) and name no effect.
 #pragma once
 
 #include <any>
@@ -37,24 +37,22 @@ struct Effect {
   Acts acts;
   std::any defaults;  // its options struct
   std::vector<OptionRow> options;
-  // Throws Error for conflicting options, missing requirements or unsupported combinations in the scene. The
-  // ranges of the options were checked before. May be null.
+  // Throws Error for conflicting options, missing requirements or unsupported combinations; option ranges
+  // are already checked. May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
-  // Adds terms, pressure bound, buffers, warnings and completed options to the plan. Throws Error naming
-  // effect and body if a material lacks a property.
+  // Adds terms, pressure bound, buffers, warnings and completed options. Throws Error naming effect and body
+  // if a material lacks a property.
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
-  // Adds the changes of the bodies after a press (bodies/after_event.hpp). May be null.
+  // Adds the permanent changes of a press (bodies/after_event.hpp). May be null.
   void (*leave)(const State& state, const Plan& plan, AfterEvent& after) = nullptr;
-  // The BodyMemory written by `leave`; empty: none. The digest of a state includes it for effects that only
-  // read states.
+  // The BodyMemory written by `leave`; empty: none. Part of a state's digest for effects of reads_state.
   std::string_view keeps = {};
   // May be null.
   std::vector<StateQuantity> (*quantities)() = nullptr;
   bool over_ranks = false;  // supported by lab.spread
 };
 
-// The effects of a scene with their options. An options struct names its effect by static const Effect&
-// effect().
+// The effects of a scene with their options. Each options struct has static const Effect& effect().
 class Effects {
  public:
   struct Named {
@@ -103,7 +101,7 @@ class Effects {
   }
   bool names(std::string_view effect) const;
   bool any_that(Effect::Acts acts) const;
-  // Without effects that only read states.
+  // Without effects of reads_state.
   Effects of_solve() const;
   auto begin() const { return named_.begin(); }
   auto end() const { return named_.end(); }
@@ -112,12 +110,12 @@ class Effects {
   std::vector<Named> named_;
 };
 
-// The names of the listed effects with this action; effects_that() joins them for a sentence: "`capillarity`
-// or `adhesion`".
+// The names of the listed effects with this action; effects_that(): for a sentence, "`capillarity` or
+// `adhesion`".
 std::vector<std::string> effect_names(Effect::Acts acts);
 std::string effects_that(Effect::Acts acts);
 
-// Throws Error{bad_state}: `what` needs an effect missing in the scene.
+// Throws Error{bad_state}: `what` needs an effect.
 [[noreturn]] void refuse_without(const std::string& what, const std::string& quoted_effect,
                                  std::string hint = {});
 

@@ -24,29 +24,28 @@ struct ElasticModel {
   std::string_view noun;    // in sentences: "a half-space"
   std::string_view called;  // without article
   std::string sentence;     // lower case, no full stop
-  // Whether every pressure displaces every node: iterative solves, coupled across the rim of a periodic
-  // tile. Otherwise closed form, node by node.
+  // Every pressure displaces every node: iterative solves, coupled across a periodic rim. Otherwise closed
+  // form, node by node.
   bool moves_every_node = false;
   std::any defaults;  // its options struct
   std::vector<OptionRow> options;
   std::string boundary{};  // error if the scene gives none; empty: default allowed
   bool periodic_only = false;
   bool over_ranks = false;  // supported by lab.spread
-  // Throws Error for a scene outside this model. The ranges of the options were checked before. May be null.
+  // Throws Error for a scene outside this model; option ranges are already checked. May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
   // Adds operator, term, buffers, solver name, expected transforms and time.
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
   // Runs after the effects. May be null.
   void (*finish)(const ContactGeometry& geometry, Plan& plan) = nullptr;
-  // Replaces defaulted options by the values of the plan `before`, for bodies that yielded since or have
-  // other cells. Null: options unchanged.
+  // Replaces defaulted options by the values of `before`, for bodies that yielded since or have other cells.
+  // Null: options unchanged.
   std::any (*as_planned)(const std::any& options, const Plan& before) = nullptr;
   // Does the work independent of the load.
   std::shared_ptr<const Solver> (*solver)(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry);
 };
 
-// The model of a scene with its options. An options struct names its model by static const ElasticModel&
-// model().
+// The model of a scene with its options. Each options struct has static const ElasticModel& model().
 class Elasticity {
  public:
   Elasticity();  // box elements

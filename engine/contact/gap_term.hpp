@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Attraction across the gap, as a solver sees it: a traction that falls with the gap g >= 0. Exponential:
-// w/ρ e^(−g/ρ); Dugdale (1960; Maugis 1992): w/ρ while g < ρ. The energies are concave, so descents are
-// monotone. The repulsion is a hard wall.
+// Attraction across the gap g >= 0 as a falling traction. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis
+// 1992): w/ρ while g < ρ. The energies are concave, so descents are monotone. The repulsion is a hard wall.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +17,8 @@ struct GapTerm {
   GapLaw law = GapLaw::exponential;
   double work = 0;   // w, J/m²
   double range = 0;  // ρ, m
-  // Dugdale only: the traction falls to zero from (1 − edge)ρ to (1 + edge)ρ, at equal work. A sharp end
-  // would stick at every node.
+  // Dugdale: the traction falls to zero from (1 − edge)ρ to (1 + edge)ρ, at equal work. Nodes would stick at
+  // a sharp end.
   double edge = 0;
 
   double greatest() const { return work / range; }  // Pa, at touch

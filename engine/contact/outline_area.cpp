@@ -3,11 +3,11 @@
 //   w(p'/p) + within t(E* g/(p h)) + beyond s(g'/g) + turns(edges of the touching node),
 // with p' the pressure of the next node inside, g' the gap of the next node outside, t the share of h within
 // the outline by p and g, s = 1/((g'/g)^(2/3) - 1) the cells beyond the outline by the gaps, at most 1, and
-// w linear between the values below. Fitted, with weights 1/edges, to corrected area fractions on 2048 x
-// 2048 cells: 84 scenes of seven kinds (bench/requested_error.lua, seeds 701 to 712) on 24 to 512 cells a
-// side. With other seeds and resolved waves the rms error of N edges is 0.19 sqrt(N) cells; for
-// State::corrected_area_fraction() it is 0.57 sqrt(N). Nodes flattened up to the outline count whole: the
-// elastic fit makes capped blasted faces up to 4 % too small on 128 x 128 cells.
+// w linear between the values below. Fitted to 84 scenes of seven kinds on 24 to 512 cells a side
+// (bench/requested_error.lua, seeds 701 to 712) against 2048 x 2048 cells. With other seeds and resolved
+// waves the rms error of N edges is 0.19 sqrt(N) cells; of State::corrected_area_fraction() 0.57 sqrt(N).
+// Nodes flattened up to the outline count whole: the elastic fit makes capped blasted faces up to 4 % too
+// small on 128 x 128 cells.
 #include "engine/contact/outline_area.hpp"
 
 #include <algorithm>
@@ -28,9 +28,9 @@ constexpr std::array<Value, 6> by_next_inside{
     {{0, -0.105}, {1, -0.062}, {1.4, -0.052}, {1.8, -0.060}, {2.5, -0.060}, {4, -0.136}}};
 constexpr double within = 0.239, beyond = -0.165;
 constexpr std::array<double, 3> turns{0, -0.004, 0.065};  // for one, two, three or more edges
-// Nine errors in ten are below coefficient · edges^grows_with_edges, in cells, on wrapped and on open tiles:
-// 84 scenes outside the fit (bench/requested_error.lua, seeds 901 to 906 and 1101 to 1106), 50 to 20,000
-// edges, resolved waves, 32 to 512 cells a side against the outline of 2048.
+// Nine errors in ten are below coefficient · edges^grows_with_edges, in cells, for wrapped and for open
+// tiles: 84 scenes outside the fit (bench/requested_error.lua, seeds 901 to 906 and 1101 to 1106), 50 to
+// 20,000 edges, resolved waves.
 constexpr double grows_with_edges = 0.62, in_nine_of_ten_wrapped = 0.13, in_nine_of_ten_open = 0.20;
 
 constexpr int fewest_cells = 8;
@@ -66,8 +66,8 @@ double cells_beyond(double gap, double next) {
   return grows > 1 ? 1 / grows : 1.0;
 }
 
-// Pressures of the touching node and of the next inside, gaps of the next two nodes outside, width of a cell
-// across the edge.
+// Pressures of the touching node and the next inside, gaps of the next two outside, cell width across the
+// edge.
 struct Edge {
   double p, inside, g, further, width;
 };
@@ -129,8 +129,8 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
     }
   const double area = counted + added;
   if (!(edges > 0) || !(area > 0) || rising > most_rising * edges) return {};
-  // A capped outline may run anywhere in the next cell: errors of 30 capped blasted scenes
-  // (bench/requested_error.lua, seeds 11 to 40) are two to three times the elastic ones.
+  // A capped outline may run anywhere in the next cell: two to three times the elastic errors in 30 blasted
+  // scenes (bench/requested_error.lua, seeds 11 to 40).
   const double doubt = (wraps ? in_nine_of_ten_wrapped : in_nine_of_ten_open) *
                        elementary::pow(edges, grows_with_edges) * (1 + 2 * capped / edges);
   return OutlineArea{area / (static_cast<double>(nx) * ny), doubt / area};

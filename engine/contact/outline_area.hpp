@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real contact area within an outline that runs between the nodes; counting nodes puts the outline half-way.
-// Half-spaces: at distance d from the edge of a contact
+// Real contact area within an outline that runs between the nodes. Half-spaces: at distance d from the edge
+// of a contact
 //   p = K sqrt(d) inside,   g = 4/3 (K/E*) d^(3/2) outside,
-// so pressures and gaps near an edge locate the outline between two nodes, h apart, up to effects of the
-// grid and of curved outlines, which are fitted (see the source). Boxes: pressure and gap are linear between
-// nodes. Not for layers or attracting bodies.
+// so pressures and gaps near an edge locate the outline between two nodes, h apart; effects of the grid and
+// of curved outlines are fitted. Boxes: pressure and gap are linear between nodes. Not for layers or
+// attracting bodies.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,8 @@ enum class OutlineLaw {
 
 struct OutlineArea {
   double fraction = 0;  // of the tile
-  // Bounds |fraction − limit on ever finer cells| in nine scenes of ten, relative to `fraction`, if the
-  // waves of the bodies have about seven cells or more.
+  // Bounds |fraction − limit on ever finer cells| / fraction in nine scenes of ten if the waves of the
+  // bodies have about seven cells or more.
   double doubt = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Operator, terms, buffers and expected transforms of a scene, computed before any solve. Solvers read the
-// plan and name no effect. explain() and tables render this struct.
+// plan and name no effect.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,7 @@ struct BoxOperator {
   double lower_share = 1;         // of the shortening, 0 … 1
 };
 
-// u = K p: multiplier 2/(E*|q|) of a periodic tile, or a share of this multiplier, or the Love kernel of a
-// free tile.
+// u = K p: multiplier 2/(E*|q|) or a share of it on a periodic tile, Love kernel on a free tile.
 struct HalfSpaceOperator {
   double modulus = 0;                // E*, Pa
   double lower_share = 1;            // of the elastic displacement, 0 … 1
@@ -71,7 +70,7 @@ struct Plan {
   std::vector<std::string> effects_run;
   std::vector<std::string> effects_off;
 
-  // If so, the bodies may be pulled.
+  // If so, bodies may be pulled.
   bool attracts() const;
   std::int64_t bytes_kept() const;
   std::int64_t bytes_peak() const;   // with temporary buffers
@@ -82,11 +81,10 @@ struct Plan {
 // Adds the buffers of a press by `flatten`.
 void hold_flattening(Plan& plan);
 
-// Throws Error naming effect and body for a missing material property or an impossible default (no
-// peak-to-valley for the stiffness). O(1).
+// Throws Error naming effect and body for a missing material property or an impossible default. O(1).
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry);
 
-// The plan `before` for bodies that yielded since or have other cells. Defaults taken from the placed bodies
+// The plan `before` for bodies that yielded since or have other cells. Defaults from the placed bodies
 // (E*/peak-to-valley) keep their values.
 Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry);
 

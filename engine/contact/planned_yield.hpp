@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limit of the pressure and division of the plastic approach, as planned: 0 <= p <= H, or H + K_h w with
-// hardening. The plastic approach w is taken from both bodies by lower_plastic_share of their present
-// hardness at each node. Volume is removed, not redistributed. A rigid body and a flat counter-body take no
-// share.
+// Pressure limit and division of the plastic approach, as planned: 0 <= p <= H, or H + K_h w with hardening.
+// The plastic approach w is taken from both bodies by lower_plastic_share of their present hardness at each
+// node. Volume is removed, not redistributed. Rigid bodies and flat counter-bodies take no share.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +16,9 @@
 
 namespace asperity {
 
-// A load the bodies have carried as placed. After yielding, its pressures exactly solve the same load again
-// without further yield, and lighter loads have no greater pressures. More yield in a repeated press is
-// solver error and must not wear the specimen.
+// A load carried as placed. Its pressures exactly solve the same load again without further yield; lighter
+// loads have no greater pressures. More yield in a repeated press is solver error and must not wear the
+// specimen.
 struct CarriedLoad {
   double pressure = 0;   // Pa, mean over the tile
   double softening = 1;  // hardness in the press over stated hardness
@@ -62,9 +61,9 @@ struct PlannedYield {
 
 // Share of the plastic approach of the lower body,
 //   s = 1/(1 + exp(1.5 (ρ² − ρ⁻²)) E_lower/E_upper),  ρ = H_lower/H_upper:
-// ½ for like bodies; .25, .06 and .004 for a body 1.2, 1.5 and 2 times as hard as the other. Within .03,
-// between loads, of J2 plasticity below the surface with one Poisson's ratio; exact for equal hardness and
-// unlike E (strains ~ 1/E). 0 or 1 if the other hardness is infinite.
+// ½ for like bodies; .25, .06, .004 for a body 1.2, 1.5, 2 times as hard as the other. Within .03 of J2
+// plasticity below the surface with one Poisson's ratio; exact for equal hardness (strains ~ 1/E). 0 or 1 if
+// the other hardness is infinite.
 double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
 
 // BodyMemory: hardness of each node after hardening, Pa at the reference dwell.
@@ -85,8 +84,7 @@ struct YieldedBodies {
   double mapped_volume = 1;
 };
 
-// Removes `change` from the bodies of `geometry`. Only the increment is mapped; heights are never resampled.
-// O(n).
+// Removes `change` from the bodies. Only the increment is mapped; heights are never resampled. O(n).
 YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
                              const PlasticChange& change);
 

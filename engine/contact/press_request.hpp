@@ -21,15 +21,14 @@ struct PressRequest {
   PressBy by = PressBy::pressure;
   double value = 0;               // zero: first touch, no contact
   std::optional<double> dwell{};  // s; used by creep only
-  // Earlier reversals of the prescribed quantity, in order: the history of attracting bodies. Empty:
-  // approached from apart.
+  // Attracting bodies: earlier reversals of the prescribed quantity, in order. Empty: approached from apart.
   std::vector<double> preload{};
 };
 
 std::string_view name(PressBy by);
 
-// Throws Error{bad_value} naming the key for values that are not finite, `flatten` outside 0 … 1 or a
-// negative `dwell`.
+// Throws Error{bad_value} naming the key for a value not finite, `flatten` outside 0 … 1 or a negative
+// `dwell`.
 void check_numbers(const PressRequest& request);
 // Throws as check_numbers; also for a negative value or `preload` without attraction, `flatten` with
 // attraction, and a single `preload` below the value.
@@ -38,8 +37,8 @@ void check(const PressRequest& request, bool attracts = false);
 void check_fraction(const PressRequest& request, double peak_to_valley);
 
 // The preload of a press to `value` after presses to `visited`: greatest value, least after it, greatest
-// after that, … A press past an earlier reversal erases it, because the branches of a contact are monotone
-// (return-point memory; Sethna et al. 1993). O(n²).
+// after the least, … A press past an earlier reversal erases it: branches are monotone (return-point memory;
+// Sethna et al. 1993). O(n²).
 std::vector<double> turns_before(std::span<const double> visited, double value);
 
 }  // namespace asperity

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The quantities of a state: name, dimension, sentence, value, effect, algebraic bound and order of the
-// discretisation error. Language fields, reference, estimates and the choice of an accuracy read these rows.
-// A new quantity is one row, here or with its effect, and a test.
+// The quantities of a state, one row each: language fields, reference, estimates and the choice of an
+// accuracy read the rows. A new quantity is a row, here or with its effect, and a test.
 #pragma once
 
 #include <optional>
@@ -26,12 +25,12 @@ struct CellError {
   };
   double order;
   double margin;  // factor on the estimate that covers 19 of 20 scenes, measured
-  // Error over the step to a finer grid: further steps mostly have the same sign.
+  // Error over the last step to a finer grid; further steps mostly have the same sign.
   double growth;
   double finer_margin;  // as `margin`, from a finer grid
   Kind kind = Kind::grid;
-  // Missing part of the value if the first touch is between nodes and higher by `rise`, m, under a
-  // prescribed approach; null: unknown.
+  // Missing part of the value if the first touch is higher by `rise`, m, between nodes, under a prescribed
+  // approach; null: unknown.
   double (*lacks)(const State& state, double rise) = nullptr;
   std::string_view remark{};  // appended to the estimate's sentence
 };
@@ -46,7 +45,7 @@ struct StateQuantity {
   std::string_view effect{};  // from Effect::quantities; empty: every state
   bool count = false;         // an integer
   // Against the exact solution on the same grid; none if the solver chose the load or without the effect.
-  // Null: no bound known.
+  // Null: unknown.
   std::optional<double> (*bound)(const State& state) = nullptr;
   std::string_view bound_remark{};   // appended to the bound's sentence
   std::optional<CellError> cells{};  // none: no estimate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Connected regions of a set of nodes, and the length of their outlines in edges. Runs of neighbouring rows
-// are joined in a union-find forest: O(n) reads, memory in proportion to the runs.
+// Connected regions of a set of nodes, and the length of their outlines in edges. A union-find forest of row
+// runs: O(n) reads, memory in proportion to the runs.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace asperity {
 
 enum class Neighbours { four, eight };  // joined by an edge, or also by a corner
 
-// Nodes in each region of mask != 0, in order of first occurrence from row j = 0. `mask`: nx·ny values, row
-// by row. `wrap`: the last column touches the first, the last row the first.
+// Nodes in each region of mask != 0 (nx·ny values, row by row), in order of first occurrence. `wrap`: the
+// last column touches the first, the last row the first.
 Array<std::int64_t> region_sizes(std::span<const std::uint8_t> mask, int nx, int ny, Neighbours neighbours,
                                  bool wrap);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Definition of a contact by a script: two bodies, boundary, elastic model, effects and accuracy. Plain
-// data; plan.hpp turns it into operators, terms and buffers. An effect not named is not computed.
+// A contact as defined by a script. Plain data; plan.hpp turns it into operators, terms and buffers. An
+// effect not named is not computed.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ struct Accuracy {
   // Companion grid of each press for the discretisation error.
   enum class Estimate { none, coarser, finer };
   Estimate estimate = Estimate::none;
-  // Choose cells and tolerance for this error (accuracy/accuracy_choice.hpp); not read by solvers.
+  // Choose cells and tolerance (accuracy/accuracy_choice.hpp); solvers do not read this.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance were chosen
 };
@@ -54,8 +54,8 @@ struct Scene {
 // Throws Error{bad_value} naming both grids if cells or size differ.
 void check_tiles(const Grid& lower, const Grid& upper);
 
-// Throws Error for the first conflict: grids of the bodies, options of elasticity, accuracy or an effect, a
-// property of the flat out of range, an effect without a required one.
+// Throws Error for the first conflict of grids, options (elasticity, accuracy, effects), properties or
+// required effects.
 void check(const Scene& scene);
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A solver's result for a State: the few numbers of the solve, and members that compute the rest on request.
-// One class per solver. Nodes without a counterpart (combined height NaN) carry nothing. Immutable: any
-// thread may call any member and gets the same bits.
+// A solver's result: the few numbers of the solve, and members that compute the rest on request. Nodes
+// without a counterpart (combined height NaN) carry nothing. Immutable: any thread may call any member and
+// gets the same bits.
 #pragma once
 
 #include <cstdint>
@@ -78,8 +78,8 @@ class Solution {
   virtual Field upper_under_load() const = 0;            // m, in the upper body's frame
 };
 
-// A closed solution after release of its memory: the numbers of the solve. Other members throw
-// Error{bad_state} naming the quantity.
+// The numbers of a solve after the release of its memory. Other members throw Error{bad_state} naming the
+// quantity.
 class ClosedSolution final : public Solution {
  public:
   explicit ClosedSolution(const Solution& solution);

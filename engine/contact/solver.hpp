@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact ready to be pressed: all work independent of the load is done. Immutable: threads may press at
-// once. A press depends only on its request and an optional guess.
+// once. A press depends only on request and guess.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,7 @@ class Solver {
     return press(request, monitor);
   }
   const ContactGeometry& geometry() const { return *geometry_; }
-  // Cost of the preparation, once for all presses.
+  // Once for all presses.
   const StateCost& preparation() const { return preparation_; }
 
  protected:

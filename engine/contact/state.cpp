@@ -25,7 +25,7 @@ namespace asperity {
 
 namespace {
 
-// Computed on first request. Failures are not cached: the next call tries again.
+// Failures are not cached: the next call tries again.
 template <class T>
 class Lazy {
  public:
@@ -110,7 +110,6 @@ struct State::Shared {
       return digester.hex();
     });
   }
-  // Nodes per region joined by edges, largest first.
   const std::vector<std::int64_t>& sizes_of_spots() {
     return spot_sizes.get([&] {
       const Array<std::int64_t> sizes = find_regions(Neighbours::four);
@@ -244,7 +243,7 @@ double State::displacement() const {
 }
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
-  // Flats on a periodic tile: uniform compression only.
+  // Two flats on a periodic tile do not approach under load.
   if (!(approach() == 0 && pressure() > 0)) return 0.0;
   laws_met().meet(Law::flat_stiffness);
   return std::numeric_limits<double>::infinity();
@@ -274,8 +273,8 @@ const AlgebraicError& State::algebraic_error() const {
 double State::corrected_area_fraction() const {
   if (outline_) return outline_->fraction;
   return shared_->corrected.get([&] {
-    // A touching node counts as a whole cell: an average over outline directions gives this excess per edge,
-    // in cells (Yastrebov, Anciaux & Molinari 2017, "On the accurate computation of the true contact-area").
+    // Excess of a touching node, counted as a whole cell, per edge, averaged over outline directions, in
+    // cells (Yastrebov, Anciaux & Molinari 2017, "On the accurate computation of the true contact-area").
     constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
     const Grid& grid = shared_->grid();
     const BoundaryEdges edges =
@@ -399,7 +398,7 @@ std::string State::text(const std::string& of_the_cells) const {
              ", since closed";
   }
   const AlgebraicError& error = algebraic_error();
-  // In the unit of the value, for comparison.
+  // In the unit of the value.
   const bool few = rests_on_few_nodes(*this);  // the solver's bound then misleads
   const auto within = [few](double value, double by, Dimension dimension) {
     if (few || !std::isfinite(by)) return format_quantity(value, dimension);

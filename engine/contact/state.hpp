@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact under load: an immutable value, cheap to copy, thread-safe. Quantities are computed on first
-// request and cached. Areas, fractions and spots refer to the nominal tile; spots and outline wrap around
-// the rim of a periodic boundary only.
+// request and cached. Areas and fractions refer to the nominal tile; spots and outline wrap only around a
+// periodic rim.
 #pragma once
 
 #include <memory>
@@ -47,19 +47,17 @@ class State {
   double approach() const;  // m from first touch
   // m from first touch of the unworn bodies: approach() plus wear of the highest point.
   double displacement() const;
-  // m between the mean planes where the bodies face each other, without elastic, with plastic deformation,
-  // also of this press.
+  // m between the mean planes where the bodies face each other: without elastic, with plastic deformation.
   double separation() const;
   // approach / peak-to-valley of the combined heights. Throws Error{bad_state} for flats.
   double indentation() const;
   double flatten() const;        // relative fall of this peak-to-valley, 0 … 1
   double area() const;           // m²
   double area_fraction() const;  // contacts / nodes of the tile
-  // Share of the tile's nodes where the bodies face each other; below 1 only on a free boundary with a
-  // turned upper body.
+  // Share of nodes where the bodies face each other; below 1 only on a free boundary with a turned upper
+  // body.
   double overlap_fraction() const;
-  // outline()->fraction if found; otherwise area_fraction() less (π−1+ln 2)/24 of a cell per edge of the
-  // outline.
+  // outline()->fraction, or area_fraction() less (π−1+ln 2)/24 of a cell per edge of the outline.
   double corrected_area_fraction() const;
   std::int64_t contacts() const;  // nodes with p > 0
   const Grid& grid() const;
@@ -77,8 +75,7 @@ class State {
   int iterations() const;
   const Certificate& certificate() const;
   double residual() const { return certificate().worst(); }
-  // Bounds against the exact solution on this grid. About three operator applications, counted in their own
-  // cost.
+  // Against the exact solution on this grid. About three operator applications, counted in their own cost.
   const AlgebraicError& algebraic_error() const;
   bool converged() const;
   std::string solver() const;
@@ -92,8 +89,7 @@ class State {
   const StateCost& cost() const;                         // of the press only
   // Adds to the cost: work before or after the press.
   State costing_also(const StateCost& more) const;
-  // Companion grids for discretisation_error.hpp, and the accuracy chosen for a requested error. Null if not
-  // requested.
+  // For discretisation_error.hpp, and for a requested error; null if not requested.
   const std::shared_ptr<const CompanionGrids>& companion_grids() const { return companion_grids_; }
   const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
   State beside(std::shared_ptr<const CompanionGrids> companion_grids) const;
@@ -102,7 +98,7 @@ class State {
   // of boxes in Pa/m. No outline if outline_area() gives none or the bodies do not cover the tile.
   State with_outline(double modulus, bool boxes = false) const;
   const std::optional<OutlineArea>& outline() const { return outline_; }
-  // Of pressures, load, approach, and body memory read by effects after the solve.
+  // Digest of pressures, load, approach, and body memory of effects of reads_state.
   const std::string& digest() const;
 
   // In the lower body's frame: "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m, elastic),

@@ -59,7 +59,7 @@ SofterBody softer_body(const ContactGeometry& geometry) {
   return softer;
 }
 
-// Empty without one, and for flats.
+// Warning; empty without one, and for flats.
 std::string cut_off_at_the_rim(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   const Grid& grid = state.grid();

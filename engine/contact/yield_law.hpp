@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Limit of the contact pressure: none; a cap, p <= H (perfectly plastic); or linear hardening: past the
-// yield pressure Y a node yields by w = (p − Y)/K_h, with energy Σ max(0, p − Y)²/(2 K_h). K_h -> 0 is the
-// cap, K_h -> ∞ elastic. In SI, and in the cell units of a solve.
+// yield pressure Y a node yields by w = (p − Y)/K_h, with energy Σ max(0, p − Y)²/(2 K_h). K_h -> 0: cap;
+// K_h -> ∞: elastic. In SI, and in the cell units of a solve.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ struct YieldLaw {
 // field without hardening.
 void check(const YieldLaw& law, int nx, int ny);
 
-// The two laws in cell units, small enough for inner loops. Hardening adds an opening w to the gap and has
-// no upper bound. `settle` corrects a pressure outside its bounds: clipped to the cap, or, far past the
-// yield pressure, set to the balance of the node by itself.
+// The two laws in cell units, small enough for inner loops. Hardening adds an opening w to the gap, without
+// upper bound. `settle` clips to the cap, or sets a pressure far past the yield pressure to the balance of
+// the node by itself.
 struct PressureCap {
   double cap = std::numeric_limits<double>::infinity();
 
@@ -58,7 +58,7 @@ struct LinearHardening {
   double compliance = 0;  // dw/dp
 
   static constexpr bool hardens = true;
-  // Of a single cell, approximately.
+  // Self-compliance of a cell, approximately.
   static constexpr double own_compliance = 1.27;
   double upper() const { return std::numeric_limits<double>::infinity(); }
   double yields_at(std::size_t k) const { return yield ? yield[k] * factor : uniform; }

@@ -23,7 +23,6 @@ double stress_at_cap(const JunctionLaw& law) {
   return law.alpha() > 0 ? room / law.alpha() : infinite;
 }
 
-// Nodes before and after, and the steps between them.
 struct Neighbours {
   int before, after, steps;
 };

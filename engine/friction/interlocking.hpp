@@ -9,10 +9,9 @@
 // junction with a q α >= 1 locks unless capped. On a steep descent (τ0 |a| q > P) shear alone carries the
 // load: no tension, so t = P/(|a| q). T < 0 if the junction slides by itself.
 //
-// Slopes: central differences of the surface midway between the loaded bodies, the mean of both slopes at
-// open nodes. Each node keeps its load of the normal problem. The sum of a P is the change of elastic
-// energy, of either sign, zero on average over placements; the remaining extra force grows with α and the
-// mean square slope.
+// Slopes: central differences of the surface midway between the loaded bodies. Each node keeps its load of
+// the normal problem. The sum of a P is the change of elastic energy, zero on average over placements; the
+// remaining extra force grows with α and the mean square slope.
 #pragma once
 
 #include "engine/contact/effects/interlocking.hpp"

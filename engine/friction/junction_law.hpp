@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Static friction of a contact: sum over its junctions of τ = min(τ0 + α P, τ_max), eq. (1) of Hanaor, Gan &
-// Einav (2013). All junctions slide at once: no partial slip, no history. P includes the load of an
-// attraction across the gap; μ refers to the applied load alone. Without a cap T = τ0 A + α F for any
-// contact. Effects read here: `ageing` (τ0 grows with a rest) and `interlocking` (slopes of the junctions).
+// Einav (2013). All junctions slide at once. P includes the load of an attraction across the gap; μ refers
+// to the applied load alone. Without a cap T = τ0 A + α F for any contact. Reads the effects `ageing` and
+// `interlocking`.
 #pragma once
 
 #include <optional>
@@ -48,8 +48,8 @@ class JunctionLaw {
 
   // Pa, at P >= 0.
   double strength(double pressure) const;
-  // O(1) if no junction reaches the cap; otherwise sums the junctions below the cap, with `interlocking`
-  // all. `rest`: s >= 0 under load. Throws Error{bad_state} for a rest without `ageing`, and as interlock().
+  // O(1) if no junction reaches the cap; otherwise O(n). `rest`: s >= 0 under load. Throws Error{bad_state}
+  // for a rest without `ageing`, and as interlock().
   FrictionResult on(const State& state, std::optional<double> rest = {}) const;
   // τ0 strengthened, the cap unchanged.
   JunctionLaw rested(double strengthening) const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Partial slip: a contact under the load P is sheared by Q < f P (f: Coulomb's coefficient). By Jäger and
-// Ciavarella (1998) the solution is the difference of two normal contacts of the same bodies: tractions q =
-// f (p − p*), with p* the pressures under P* = P − Q/f. The contact area under P* sticks; the rest slips.
-// Displacement U = C f (δ(P) − δ(P*)), C the tangential over the normal compliance
-// (contact/effects/tangential.hpp). Spheres: c/a = (1 − Q/(f P))^(1/3) (Cattaneo, Mindlin).
+// Ciavarella (1998) the tractions are q = f (p − p*), with p* the pressures of a second normal contact under
+// P* = P − Q/f. The contact area under P* sticks; the rest slips. Displacement U = C f (δ(P) − δ(P*)), C the
+// tangential over the normal compliance (contact/effects/tangential.hpp). Spheres: c/a = (1 − Q/(f P))^(1/3)
+// (Cattaneo, Mindlin).
 //
 // Exact for like elastic bodies with ν = 0, or boxes, while Q rises from zero at constant P, or at falling P
 // and P*. For other ν, shear along Q only and the mean compliance over directions. No history of Q, no
@@ -65,9 +65,8 @@ class PartialSlip {
 bool has_tangential(const Effects& effects);
 void require_tangential(const Effects& effects);
 
-// `normal`: a state of `contact`. Throws Error{bad_state} without the effect `tangential` or without load,
-// Error{bad_value} for `force`, `ratio` or `friction` out of range, Error{infeasible} if Q > f P (sliding),
-// and as Solver::press.
+// `normal`: a state of `contact`. Throws Error{bad_state} without `tangential` or load, {bad_value} for
+// `force`, `ratio` or `friction` out of range, {infeasible} if Q > f P (sliding), and as Solver::press.
 PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request,
                   Monitor& monitor = Monitor::silent());
 

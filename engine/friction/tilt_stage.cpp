@@ -54,8 +54,7 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
   };
 
   double held = 0;
-  // Multiples, not sums, of the step: rounding does not accumulate. A step within rounding of the limit is
-  // the limit.
+  // Multiples of the step, not sums, and snapped to the limit: rounding does not accumulate.
   for (std::int64_t k = 0;; ++k) {
     stop_flag().check();
     const double reached = static_cast<double>(k) * step;

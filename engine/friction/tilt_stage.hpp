@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tilt stage: raised in steps until a specimen of weight W slides, at T(W cos θ) = W sin θ with friction T
-// of the normal force. Gives the exact angle and the reading, the last step held. Friction is a function of
-// the normal force only.
+// Tilt stage: raised in steps until a specimen of weight W slides, T(W cos θ) = W sin θ with friction T.
+// Gives the exact angle and the reading, the last step held.
 #pragma once
 
 #include <functional>
@@ -28,10 +27,9 @@ struct SlipAngle {
 // Throws Error{bad_value} naming `mass`, `gravity`, `step` or `limit`.
 void check(const TiltOptions& options);
 
-// Tests the balance at k·step for k = 0, 1, … and at the limit. Bisects between the last step held and the
-// first failure. Exact balance holds. At 90 deg the normal force is the least positive double of the cosine,
-// so contact is not lost. Throws Error{bad_value} naming `step` if the specimen slips within the first step
-// at an angle above 0.
+// Tests the balance at k·step for k = 0, 1, … and at the limit; bisects after the first failure. Exact
+// balance holds. At 90 deg rounding leaves the normal force positive. Throws Error{bad_value} naming `step`
+// if the specimen slips within the first step at an angle above 0.
 SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, double limit);
 SlipAngle slip_angle(const FrictionForce& friction, const TiltOptions& options);
 

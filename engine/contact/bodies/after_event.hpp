@@ -11,11 +11,11 @@
 namespace asperity {
 
 struct AfterEvent {
-  const ContactGeometry& geometry;  // the bodies during the event
+  const ContactGeometry& geometry;  // during the event
   Surface lower;
   UpperBody upper;
   BodyMemory memory;
-  // m, loss of both bodies, at the nodes of the lower one; none: heights unchanged.
+  // m, removed from both bodies, at the nodes of the lower one; none: heights unchanged.
   std::optional<Field> yielded{};
   // Mapped over intended volume of the upper body, before rescaling.
   double mapped_volume = 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic properties of two bodies: contact modulus, 1/E* = Σ (1−ν²)/E, and shares of a displacement in
-// proportion to the compliances. Heights of both under load, in their own frames: minus the shares of
-// elastic displacement and plastic approach.
+// Contact modulus of two bodies, 1/E* = Σ (1−ν²)/E, their shares of a displacement (as their compliances),
+// and their heights under load in their own frames.
 #pragma once
 
 #include <optional>
@@ -13,14 +12,14 @@
 
 namespace asperity {
 
-// E*, Pa. An error's sentence begins with `needs` ("the half-space needs `young` and `poisson`") and ends
-// with `purpose`; `otherwise` is added to its hint. Both may be empty. Throws Error{bad_state} naming effect
-// and body if a property is missing or both bodies are rigid.
+// E*, Pa. An error's sentence is `needs` ("the half-space needs `young` and `poisson`"), body and `purpose`;
+// `otherwise` extends its hint. Throws Error{bad_state} naming effect and body if a property is missing or
+// both bodies are rigid.
 double contact_modulus(const ContactGeometry& geometry, const std::string& needs, const std::string& purpose,
                        const std::string& otherwise);
 
-// Share of the lower body. A rigid body takes none. Without moduli a flat takes none and two rough bodies
-// take half each.
+// Share of the lower body; a rigid body takes none. Without moduli a flat takes none, two rough bodies half
+// each.
 double lower_elastic_share(const ContactGeometry& geometry);
 
 struct Deformation {

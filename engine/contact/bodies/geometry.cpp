@@ -81,7 +81,6 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemor
     facing_ = static_cast<std::int64_t>(lower_.grid().nodes());
     range_ = lower_.height_range();
   }
-  // Solvers sum squares of heights.
   const double squares = range_.span() * range_.span() * static_cast<double>(facing_);
   if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(squares))
     throw Error(ErrorCode::bad_value,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Undeformed geometry of a contact: combined heights h = z1 + T z2 of the placed bodies. First touch is at
-// the greatest h; the gap at a node is max h − h. Nodes without a counterpart have h = NaN, no gap and no
-// load. Under a flat, h is the height field of the lower body, not copied. Immutable; threads may read at
-// once.
+// Undeformed contact: combined heights h = z1 + T z2 of the placed bodies. First touch is at the greatest h;
+// the gap is max h − h. Nodes without a counterpart have h = NaN, no gap and no load. Under a flat, h is the
+// lower body's own field. Immutable; threads may read at once.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +18,15 @@ namespace asperity {
 
 class ContactGeometry {
  public:
-  // The bodies of `scene` (after check) placed by `pose`, with `memory` in their own frames. `uncovered`: 1
-  // at nodes of the lower body without counterpart, besides those of a turn off the lattice; empty: none.
-  // O(n); one field for two rough bodies. Throws Error{bad_value} if sums of heights or squares overflow, or
-  // if the bodies do not overlap.
+  // The bodies of `scene` (after check) placed by `pose`, `memory` in their own frames. `uncovered`: 1 at
+  // additional nodes without a counterpart; empty: none. O(n); one field for two rough bodies. Throws
+  // Error{bad_value} if sums of heights or squares overflow, or if the bodies do not overlap.
   ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory = {},
                   std::span<const std::uint8_t> uncovered = {});
 
   // The bodies after an event, placed as `before`. `yielded`: m removed from both together, at the nodes of
-  // the lower body; none: shapes unchanged. Off the lattice the new shapes are approximate (mapping between
-  // nodes), but the combined heights decrease by exactly `yielded` until the bodies move.
+  // the lower body; none: shapes unchanged. Off the lattice the mapped shapes are approximate, but the
+  // combined heights decrease by exactly `yielded` until the bodies move.
   ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
                   const std::optional<Field>& yielded);
 
@@ -37,21 +35,20 @@ class ContactGeometry {
   const UpperBody& upper() const { return upper_; }
   Boundary boundary() const { return boundary_; }
   const Pose& pose() const { return pose_; }
-  // Memory of earlier events, besides shapes: all, or by name (empty if none).
+  // Besides shapes; all, or by name (empty if none).
   const BodyMemory& memory() const { return memory_; }
   const NodeMemory& kept(std::string_view name) const;
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
-  // m; NaN at nodes without a counterpart, which the next two functions exclude.
+  // m; NaN at nodes without a counterpart; the next two functions exclude them.
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
   Range combined_range() const { return range_; }          // m
   double peak_to_valley() const { return range_.span(); }  // m
-  // m, greatest combined height before any event changed the shapes.
+  // m, before any event changed the shapes.
   double first_touch() const { return first_touch_.value_or(range_.max); }
   void keep_first_touch(const ContactGeometry& before) { first_touch_ = before.first_touch_; }
-  // Combined heights of facing nodes, in the order of the nodes.
   Array<double> facing_heights() const;
-  // Facing nodes; fewer than all only with overhang on a free boundary.
+  // Fewer than all only with overhang on a free boundary.
   std::int64_t facing() const { return facing_; }
   bool overhangs() const { return facing_ < static_cast<std::int64_t>(grid().nodes()); }
   double overlap_fraction() const {

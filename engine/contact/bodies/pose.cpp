@@ -109,8 +109,7 @@ namespace {
 constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
 
-// Turns counter-clockwise by `angle` about the centre of the nodes, bilinear; `outside` beyond the original
-// nodes.
+// Counter-clockwise about the centre of the nodes, bilinear; `outside` beyond the original nodes.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
   double c = elementary::cos(angle), s = elementary::sin(angle);

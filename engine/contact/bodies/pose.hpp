@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Placement of the upper body on the lower: an exact lattice isometry, then a turn about the centre of the
-// nodes, counter-clockwise seen from above the lower body. The total angle is snapped to quarter turns
-// within 1e-9 rad, where the pose permutes nodes. The rest interpolates, always from the stored heights, and
-// needs a free boundary.
+// Placement of the upper body on the lower: an exact lattice isometry, then the rest of the turn. The angle
+// snaps to quarter turns within 1e-9 rad, where the pose permutes nodes. The rest interpolates, always from
+// the stored heights, and needs a free boundary.
 #pragma once
 
 #include "engine/core/grid.hpp"
@@ -27,11 +26,11 @@ class LatticeIsometry {
   // Adds a cyclic shift, any sign.
   LatticeIsometry shifted(int cells_x, int cells_y) const;
 
-  // Node `own` must be on the grid.
+  // The node must be on the grid.
   Node to_lower(Node own) const;
   Node to_upper(Node lower) const;
 
-  // Maps a field of the upper body to the lower body's nodes, and back. Copies values; O(n).
+  // From the upper body's frame to the lower body's nodes, and back. Copies values; O(n).
   Field to_lower(const Field& own) const;
   Field to_upper(const Field& lower) const;
 
@@ -62,11 +61,11 @@ class Pose {
   double rest() const { return rest_; }    // rad, the part off the lattice
   double angle() const { return angle_; }  // rad, total, −π … π
 
-  // Maps a field of the upper body to the lower body's nodes, bilinear; NaN without a node of the turned
-  // body. A quarter turn of an oblong tile of square cells copies values between coinciding nodes. O(n).
+  // From the upper body's frame to the lower body's nodes, bilinear; NaN without a node of the turned body.
+  // A quarter turn of an oblong tile of square cells copies values between coinciding nodes. O(n).
   Field to_lower(const Field& own, const Grid& grid) const;
-  // Maps a field of the lower body to the upper body's frame, bilinear: positive weights with sum one give
-  // no new sign and no new extreme. Zero without a node of the lower body. O(n).
+  // From the lower body to the upper body's frame, bilinear: positive weights with sum one give no new sign
+  // or extreme. Zero without a node of the lower body. O(n).
   Field to_upper(const Field& lower, const Grid& grid) const;
 
   bool operator==(const Pose&) const = default;

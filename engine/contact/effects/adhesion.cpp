@@ -40,8 +40,8 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
       plan.buffers.push_back({"preload from which presses go on", 3 * field});
       plan.buffers.push_back({"work of the tangents", 5 * field, false});
       plan.solver = "tangents of the attraction, each a contact by preconditioned descent";
-      // Median of 60 attracting contacts (balls, rough surfaces, 64 x 64 cells): 161 transforms by approach,
-      // 228 by pressure.
+      // Medians of 60 contacts (balls, rough surfaces, 64 x 64 cells): 161 transforms by approach, 228 by
+      // pressure.
       constexpr double times_without = 5;
       plan.transforms *= times_without;
       plan.seconds *= times_without;
@@ -68,7 +68,6 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
 
 namespace {
 
-// Without work, adhesion is part of no solve.
 void check_adhesion(const std::any& given, const Scene& scene) {
   if (std::any_cast<const AdhesionOptions&>(given).work > 0) check_attraction(scene, "adhesion");
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adhesion: attraction across the gap by w/ρ e^(−g/ρ), or Dugdale's constant w/ρ up to a gap of ρ: one
-// energy of the gap. Dugdale's traction falls to zero over half a range to either side of ρ, at equal work,
-// because a sharp end stops nodes.
+// Adhesion: attraction across the gap by w/ρ e^(−g/ρ), or Dugdale's constant w/ρ up to a gap of ρ (falling
+// to zero over half a range to either side, at equal work). One energy of the gap.
 #pragma once
 
 #include <string>
@@ -21,8 +20,8 @@ struct AdhesionOptions {
 // Throws Error{bad_value} for scenes not computed with an attraction across the gap.
 void check_attraction(const Scene& scene, const std::string& effect);
 
-// Adds term and costs to the plan of a half-space. Warns if the zone of attraction around a contact, about
-// (π/4) E* w/σ0² (Maugis 1992), is under four cells wide.
+// Adds term and costs to the plan of a half-space. Warns if the zone of attraction, about (π/4) E* w/σ0²
+// (Maugis 1992), is under four cells wide.
 void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& geometry, Plan& plan);
 
 }  // namespace asperity

@@ -2,7 +2,7 @@
 // Capillarity: liquid fills gaps below the meniscus height and pulls with the Laplace pressure p = γ/r.
 // Kelvin radius r = γ V_m/(R T |ln h|) at humidity h; height 2 r cos θ; work p times height. One energy of
 // the gap: constant traction up to the height (falling over half of it to either side, at equal work). The
-// liquid is not conserved and resists no motion.
+// liquid is not conserved.
 #pragma once
 
 #include "engine/contact/effect.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creep: the hardness falls with the dwell, H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)).
-// Scales the limit of plasticity at no cost.
+// Creep: scales the hardness by the dwell, H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)).
 #pragma once
 
 #include "engine/contact/effect.hpp"

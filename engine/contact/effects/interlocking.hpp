@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interlocking: slopes of two rough bodies add to the friction angle of their junctions
-// (friction/interlocking.hpp). No term of the normal problem.
+// Interlocking: slopes of rough bodies add to the friction angle of junctions (friction/interlocking.hpp).
 #pragma once
 
 #include "engine/contact/effect.hpp"

@@ -29,7 +29,7 @@ ASPERITY_EFFECTS(ASPERITY_DECLARED)
 
 namespace {
 
-// Processes outside the model on purpose.
+// Left out on purpose.
 constexpr std::array not_modelled = {
     std::pair<std::string_view, std::string_view>{"oxide", "a brittle film between the metals"},
     std::pair<std::string_view, std::string_view>{"breakage", "asperities that break off"},

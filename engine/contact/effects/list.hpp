@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every effect of a scene, and the effects left out on purpose. An effect outside the list is refused by
-// name, never ignored.
+// Every effect of a scene. Effects outside the list are refused by name, never ignored.
 #pragma once
 
 #include <span>
@@ -15,11 +14,11 @@ namespace asperity {
 // In the order of plans and reports, after the elasticity.
 std::span<const Effect* const> known_effects();
 
-// Throws Error{unknown_name} with the nearest known name, Error{bad_value} for a process not modelled. Null
-// for the elasticity.
+// Throws Error{unknown_name} with the nearest known name, {bad_value} for a process not modelled. Null:
+// elasticity.
 const Effect* require_effect(std::string_view name);
 
-// Effects missing in `run`, in their order; the elasticity first.
+// In the order of the list; the elasticity first.
 std::vector<std::string> effects_not_in(std::span<const std::string> run);
 
 }  // namespace asperity

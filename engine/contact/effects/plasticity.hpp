@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plasticity: the hardness of the softer body limits the pressure, and the flattening is permanent
+// Plasticity: the softer body's hardness limits the pressure; flattening is permanent
 // (contact/planned_yield.hpp).
 #pragma once
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tangential compliance, for partial slip (friction/partial_slip.hpp): ratio of tangential to normal
-// compliance. Half-spaces: Mindlin's C = Σ (2−ν)/(4G) / Σ (1−ν)/(2G) over both bodies, G = E/(2(1+ν)); for
-// like bodies (2−ν)/(2(1−ν)) (Mindlin 1949; Johnson, Contact Mechanics, eq. 7.43). In Fourier space the
-// compliance along the shear is (1 − ν cos²θ)/(G|q|); C is its mean over the directions of q: exact for ν =
-// 0 or a circular contact, otherwise a mean. Not included: normal displacement by shear and lateral
-// displacement by pressure, zero for like bodies or ν = ½, growing with Dundurs' β.
+// Ratio of tangential to normal compliance, for partial slip (friction/partial_slip.hpp). Half-spaces:
+// Mindlin's C = Σ (2−ν)/(4G) / Σ (1−ν)/(2G) over both bodies, G = E/(2(1+ν)); for like bodies (2−ν)/(2(1−ν))
+// (Mindlin 1949; Johnson, Contact Mechanics, eq. 7.43). In Fourier space the compliance along the shear is
+// (1 − ν cos²θ)/(G|q|); C is its mean over the directions of q, exact for ν = 0 or circular contacts. Not
+// included: coupling of shear and pressure, zero for like bodies or ν = ½, growing with Dundurs' β.
 #pragma once
 
 #include "engine/contact/effect.hpp"

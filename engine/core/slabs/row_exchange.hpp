@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exchange of rows of a field in slabs: beyond the rim, or between differently divided grids. Every process
-// computes the needs of all others, so no requests are sent. Costs the exchanged rows, and their memory
-// twice.
+// computes the needs of all. Costs the exchanged rows, and twice their memory.
 #pragma once
 
 #include <functional>
@@ -20,8 +19,7 @@ class RowExchange {
   // All processes together.
   RowExchange(Team& team, const Slab& from, const Needs& needs);
 
-  // All processes together. `pack` gives own row j, counted from the first; `place` receives the k-th needed
-  // row. Neither may throw.
+  // All together. `pack` gives own row j, `place` receives the k-th needed row. Neither may throw.
   using Pack = std::function<void(int j, double* to)>;
   using Place = std::function<void(std::size_t k, const double* row)>;
   void run(const Pack& pack, const Place& place);
@@ -37,7 +35,7 @@ class RowExchange {
   Array<double> out_, in_;
 };
 
-// The `depth` rows before a slab, then `depth` rows after it, around the rim; none for an empty slab.
+// `depth` rows before and after a slab, around the rim; none for an empty slab.
 RowExchange rim_rows(Team& team, const Slab& slab, int depth);
 
 }  // namespace asperity

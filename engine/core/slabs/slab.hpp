@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a grid on one process, in the division of FFTW's MPI transforms: blocks of ⌈ny/K⌉ rows, the last
-// ones shorter or empty.
+// Rows of a grid on one process, in blocks of ⌈ny/K⌉ as FFTW's MPI transforms; the last ones shorter or
+// empty.
 #pragma once
 
 #include <algorithm>

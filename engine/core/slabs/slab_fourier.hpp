@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real Fourier transform of a field in slabs, unnormalised, in its own buffer. Each process has rows before,
-// and some waves along x with all waves along y after. Plans are not measured: equal numbers of processes
-// give equal bits on one kind of processor. One process gives the same bits on all. With several processes
-// the last bits depend on FFTW's choice for the processor and on the C library.
+// and some waves along x with all waves along y after. No plan is measured: one process gives the same bits
+// everywhere, K processes only on one kind of processor and C library.
 #pragma once
 
 #include <complex>
@@ -41,7 +40,6 @@ class SlabFourier {
   int first_wave_ = 0, waves_ = 0;
 };
 
-// A single process: the same bits on every processor.
 std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny);
 
 // FFTW's planner is not thread-safe: lock while plans are made or destroyed.

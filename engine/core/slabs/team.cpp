@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-// Appended to every sum: failure of this process, and its reason to stop.
+// Appended to every sum: failure and reason to stop.
 constexpr std::size_t marks = 2;
 constexpr std::size_t text_room = 2000;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processes working together on fields in slabs; all make the same calls in the same order. A local step
-// runs inside work(), which stores its error; at the next sum every process throws this error, so no process
+// Processes working together on fields in slabs, by the same calls in the same order. A local step runs
+// inside work(), which stores its error; at the next sum every process throws this error, so no process
 // waits for a failed one. A stop in one process stops all. Sums are added in the order of the processes:
 // equal bits for equal numbers of processes. One thread.
 #pragma once
@@ -21,14 +21,13 @@ namespace asperity {
 class Team {
  public:
   virtual ~Team() = default;
-  // A single process.
   static Team& alone();
 
   int rank() const { return rank_; }
   int size() const { return size_; }
   Slab slab(int nx, int ny) const { return {nx, ny, rank_, size_}; }
 
-  // Runs `body` in this process; nothing after a failure.
+  // Nothing after a failure.
   template <class Body>
   void work(Body&& body) {
     if (failure_) return;
@@ -41,8 +40,8 @@ class Team {
     }
   }
 
-  // All together: adds the first `sums` numbers, takes the minimum of the others. If one process failed,
-  // every process throws its error.
+  // All together: adds the first `sums` numbers, takes the minimum of the others. Every process throws a
+  // failed one's error.
   template <std::size_t sums, std::size_t minima = 0>
   std::array<double, sums + minima> reduce(const std::array<double, sums + minima>& own) {
     constexpr std::size_t n = sums + minima;
@@ -51,11 +50,11 @@ class Team {
     return total;
   }
   void reduce(std::span<const double> own, std::size_t sums, std::span<double> total);
-  // All numbers, in the order of the processes; the same count in each.
+  // In the order of the processes; the same count in each.
   Array<double> gather(std::span<const double> own);
   // Broadcasts the first process's text.
   std::string text_of_first(const std::string& own);
-  // If work() failed in one process, every process throws its error.
+  // Every process throws a failed one's error.
   void agree() { reduce({}, 0, {}); }
 
   // With its buffer.

@@ -13,7 +13,7 @@
 namespace asperity {
 
 struct BoxOptions {
-  // Pa/m; default E*/(peak-to-valley of the combined heights as placed).
+  // Pa/m; default as above.
   std::optional<double> stiffness;
   static const ElasticModel& model();
 };

@@ -257,8 +257,8 @@ State BoxSolver::press(const PressRequest& request, Monitor&) const {
   auto solution = std::make_shared<const UnderLoad>(ready_, load);
   const State state(solution, plan_, elasticity_alone(scope.so_far()));
 
-  // Rounding resolves no less than an ulp of the depth, per touched node in the sum and per gap. The
-  // certificate is computed here only if this bound exceeds the tolerance.
+  // Rounding leaves an ulp of the depth in each gap and at each touched node of the sum. The certificate is
+  // computed here only if this bound exceeds the tolerance.
   const SortedDrops& drops = ready_->drops;
   const double length = drops.rms() > 0 ? drops.rms() : load.approach;
   const double bound =

@@ -19,7 +19,7 @@ class BoxSolver final : public Solver {
   BoxSolver(const Plan& plan, const BoxOperator& box, std::shared_ptr<const ContactGeometry> geometry);
 
   using Solver::press;
-  // Besides check(PressRequest), refuses a pressure above zero but below 1e-280 of the modulus, overflow of
+  // Besides check(PressRequest), refuses pressures above zero but below 1e-280 of the modulus, overflow of
   // approach or peak, and `indentation` or `flatten` of equal heights.
   State press(const PressRequest& request, Monitor& monitor) const override;
 
@@ -40,7 +40,7 @@ void check_rounding(const State& state, const Accuracy& accuracy);
 
 // Yielding box elements and rigid elements under a plane: each node carries the pressure of its element law
 // at its depth (yielding_elements.hpp). Rigid elements with a single yield pressure H are the bearing model
-// of Abbott and Firestone (1933): contact area = load / H, whatever the heights.
+// of Abbott and Firestone (1933): contact area = load / H.
 class YieldingBoxSolver final : public Solver {
  public:
   // `plan` has a yield of finite hardness. O(n) once (a sort); a press costs O(log n), O(n log n) on
@@ -49,9 +49,9 @@ class YieldingBoxSolver final : public Solver {
                     std::shared_ptr<const ContactGeometry> geometry);
 
   using Solver::press;
-  // Besides check(PressRequest), refuses a mean pressure at or above the hardness without hardening
-  // (Error{infeasible}), a pressure above zero but below 1e-280 of the hardness, overflow of depth or
-  // energy, and `indentation` or `flatten` of equal heights.
+  // Besides check(PressRequest), refuses mean pressures at or above the hardness without hardening
+  // (Error{infeasible}), or above zero but below 1e-280 of the hardness, overflow of depth or energy, and
+  // `indentation` or `flatten` of equal heights.
   State press(const PressRequest& request, Monitor& monitor) const override;
 
  private:

@@ -109,7 +109,7 @@ void SortedDrops::build_checkpoints() {
 void SortedDrops::find_rms() {
   const std::size_t n = drops_.size();
   const double mean_drop = checkpoints_.front().remaining_gap / static_cast<double>(n);
-  // Scaled against over- and underflow of squares.
+  // Against over- and underflow of squares.
   const double scale = peak_to_valley();
   if (scale == 0) return;
   Accumulator squares;

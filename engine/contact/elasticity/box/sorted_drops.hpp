@@ -52,9 +52,8 @@ class Accumulator {
   double low_ = 0;
 };
 
-// Sorts in place, ascending, values >= +0.0 (no -0.0), not NaN. O(n); needs a second array. Checks the stop
-// flag. A radix sort of the bit patterns, which order like the doubles (M. Herf, "Radix tricks"): six
-// passes.
+// Sorts values >= +0.0 (no -0.0), not NaN, in place. O(n); needs a second array. Checks the stop flag. Radix
+// sort of the bit patterns, which order like the doubles (M. Herf, "Radix tricks").
 void sort_ascending(Array<double>& values);
 
 class SortedDrops {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sorted elements that may yield, under a plane at a mean pressure. With drops g_i below the highest and
 // yield pressures Y_i, the mean pressure at depth d sums touched elements (g_i < d) and yielding elements
-// (g_i + Y_i/k < d): both are leading parts of sorted sequences with double-double prefix sums. The mean
-// pressure never falls with d. Bisection finds the two neighbouring depths around the requested pressure;
-// mixing their pressures gives it exactly, also for rigid elements, whose pressure jumps. No bit depends on
-// the order of the nodes.
+// (g_i + Y_i/k < d): leading parts of sorted sequences with double-double prefix sums. Bisection finds the
+// two neighbouring depths around the requested pressure; mixing their pressures gives it exactly, also for
+// rigid elements, whose pressure jumps. No bit depends on the order of the nodes.
 #pragma once
 
 #include <algorithm>

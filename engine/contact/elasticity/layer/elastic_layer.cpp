@@ -73,7 +73,7 @@ std::string sinking_under_pressure(double metres_per_pascal) {
   return format_quantity(metres_per_pascal * 1e6, dimension::length) + " a MPa";
 }
 
-// Throws Error{bad_value} unless the boundary is periodic, the lower body elastic and the upper body rigid.
+// Throws Error{bad_value} unless the boundary is periodic, the lower body elastic, the upper body rigid.
 void check_layer(const std::any&, const Scene& scene) {
   if (scene.boundary != Boundary::periodic)
     throw Error(ErrorCode::bad_value,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Descents of a contact in slabs: preconditioned conjugate gradients as half_space/active_set_descent.cpp,
-// and projected gradients as half_space/descent.hpp. Decisions follow sums over all processes: all processes
-// decide alike.
+// Descents of a contact in slabs, as half_space/active_set_descent.cpp and half_space/descent.hpp. Decisions
+// follow sums over all processes: all processes decide alike.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Approximate inverse of the compliance on the free nodes of a contact in slabs: z = Extᵀ (|q|/2) Ext r, as
 // half_space/contact_preconditioner.hpp, with exact |q|/2. Ext extends r past the edge of the set by eight
-// Jacobi sweeps (mean of four neighbours). Sweeps follow each other row by row: the field passes through the
-// cache once.
+// Jacobi sweeps (mean of four neighbours), row by row: the field passes through the cache once.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of a periodic half-space in slabs over a team of processes: problem, certificate and units of
-// half_space/half_space_solve.hpp. No process holds the whole grid; about 70 bytes a node over all,
-// transforms included. All processes call together and get the same numbers; bits depend on the number of
-// processes.
+// half_space/half_space_solve.hpp. About 70 bytes a node over all processes, transforms included. All
+// processes call together and get the same numbers; bits depend on the number of processes.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +46,8 @@ struct SlabContactAnswer {
 SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& problem, double mean_pressure,
                                           const SlabContactAnswer* start, Monitor& monitor);
 
-// approach in m from first touch; the load is found by a bracketed root search. certificate.load is the
-// relative error of the approach. Throws Error{infeasible} if no load gives the approach.
+// approach in m from first touch. certificate.load is the relative error of the approach. Throws
+// Error{infeasible} if no load gives the approach.
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor);
 
