@@ -66,8 +66,7 @@ double cells_beyond(double gap, double next) {
   return grows > 1 ? 1 / grows : 1.0;
 }
 
-// Pressures of the touching node and the next inside, gaps of the next two outside, cell width across the
-// edge.
+// Pressures of the touching node and the next inside, gaps of the next two outside, cell width.
 struct Edge {
   double p, inside, g, further, width;
 };

@@ -54,8 +54,7 @@ class State {
   double flatten() const;        // relative fall of this peak-to-valley, 0 … 1
   double area() const;           // m²
   double area_fraction() const;  // contacts / nodes of the tile
-  // Share of nodes where the bodies face each other; below 1 only on a free boundary with a turned upper
-  // body.
+  // Share of nodes where the bodies face each other; 1 unless a turned upper body overhangs a free boundary.
   double overlap_fraction() const;
   // outline()->fraction, or area_fraction() less (π−1+ln 2)/24 of a cell per edge of the outline.
   double corrected_area_fraction() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Placement of the upper body on the lower: an exact lattice isometry, then the rest of the turn. The angle
-// snaps to quarter turns within 1e-9 rad, where the pose permutes nodes. The rest interpolates, always from
-// the stored heights, and needs a free boundary.
+// Placement of the upper body on the lower: an exact lattice isometry, then the rest of the turn,
+// counter-clockwise seen from above the lower body. The angle snaps to quarter turns within 1e-9 rad, where
+// the pose permutes nodes. The rest interpolates, always from the stored heights, and needs a free boundary.
 #pragma once
 
 #include "engine/core/grid.hpp"
@@ -9,8 +9,8 @@
 namespace asperity {
 
 // T = shift ∘ turn ∘ mirror on the nodes: the mirror i → nx−1−i turns the upper body over about the y axis,
-// the turn is k·90° about the centre of the nodes (counter-clockwise seen from above the lower body), the
-// shift is cyclic by whole cells. T is a permutation: its inverse restores the same bits.
+// the turn is k·90° about the centre of the nodes, the shift is cyclic by whole cells. T is a permutation:
+// its inverse restores the same bits.
 class LatticeIsometry {
  public:
   struct Node {

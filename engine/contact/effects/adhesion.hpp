@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adhesion: attraction across the gap by w/ρ e^(−g/ρ), or Dugdale's constant w/ρ up to a gap of ρ (falling
-// to zero over half a range to either side, at equal work). One energy of the gap.
+// Adhesion: an energy of the gap, traction w/ρ e^(−g/ρ) or Dugdale's w/ρ up to a gap of ρ (GapTerm::edge ½).
 #pragma once
 
 #include <string>

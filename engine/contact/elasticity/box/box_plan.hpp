@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plan of box elements (pressure = stiffness · shortening, node by node) and of rigid bodies, which deform
-// only by yielding.
+// only by yielding. Shares of the shortening: lower_elastic_share().
 //
 // stiffness: as given, or E*/(peak-to-valley of the combined heights as placed), which needs `young` and
 // `poisson` of every body that is not rigid, and unequal heights.
-// lower_share: a rigid body takes no shortening; two elastic bodies share it as their compliances (1−ν²)/E.
-// Without moduli a flat takes none and two rough bodies take half each.
 #pragma once
 
 #include "engine/contact/elastic_model.hpp"

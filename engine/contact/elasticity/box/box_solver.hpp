@@ -43,8 +43,8 @@ void check_rounding(const State& state, const Accuracy& accuracy);
 // of Abbott and Firestone (1933): contact area = load / H.
 class YieldingBoxSolver final : public Solver {
  public:
-  // `plan` has a yield of finite hardness. O(n) once (a sort); a press costs O(log n), O(n log n) on
-  // hardened bodies.
+  // `plan` has a yield of finite hardness. O(n) once (a sort); a press O(log n), on hardened bodies O(n log
+  // n).
   YieldingBoxSolver(const Plan& plan, const BoxOperator& box,
                     std::shared_ptr<const ContactGeometry> geometry);
 
