@@ -13,12 +13,11 @@ namespace asperity {
 namespace {
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// How far a whole number may be from what is certain of it.
 double farther(const NodeBracket& bracket, std::int64_t found) {
   return static_cast<double>(std::max({bracket.high - found, found - bracket.low, std::int64_t{0}}));
 }
 
-// Of a/b, each with its own bound.
+// Bound of a/b.
 double of_quotient(double a, double error_a, double b, double error_b) {
   if (!(b > 0)) return error_b > 0 || error_a > 0 ? infinity : 0;
   if (!(error_b < b)) return infinity;
@@ -54,7 +53,7 @@ AlgebraicError find_algebraic_error(const Solution& solution, bool plastic) {
   error.contacts = farther(found.contacts, solution.contacts());
   error.area = error.contacts * error.node_area;
   error.area_fraction = error.contacts / n;
-  // A node that changes sides changes the outline by up to four edges.
+  // Changing a node changes up to four edges of the outline.
   constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
   error.corrected_area_fraction = static_cast<double>(found.may_differ) * (1 + 4 * excess) / n;
   if (plastic) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lies beyond the rim of the tile: nothing, or the same tile again and again.
+// Boundary of the tile.
 #pragma once
 
 #include <string_view>
 
 namespace asperity {
 
-// Whether contact regions, displacements and shifts go round the rim of the tile.
+// Periodic: contact regions, displacements and shifts wrap around the rim.
 enum class Boundary { free, periodic };
 std::string_view name(Boundary boundary);
 

@@ -19,7 +19,6 @@ std::vector<double> linear_edges(double greatest, int bins) {
 }
 
 std::vector<double> geometric_edges(double least, double greatest, int bins) {
-  // Values all alike still need a bin of some width.
   if (!(least < greatest)) {
     least *= 0.5;
     greatest *= 2;

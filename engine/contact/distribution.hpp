@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A histogram of some values as a probability density: bins of equal width from zero, or of equal
-// ratio from the least to the greatest value. It fits nothing and smooths nothing.
+// Histogram as a probability density: bins of equal width from zero, or of equal ratio between the extremes.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,14 @@ struct HistogramOptions {
 
 struct Histogram {
   std::vector<double> edges;         // bins + 1, ascending, in the unit of the values
-  std::vector<std::int64_t> counts;  // values in [edge k, edge k+1); the last bin holds its upper edge too
+  std::vector<std::int64_t> counts;  // values in [edge k, edge k+1); the last bin includes its upper edge
   std::vector<double> density;       // counts / (values · bin width): integrates to 1
-  std::int64_t values = 0;           // all counted
+  std::int64_t values = 0;
   double mean = 0;
 };
 
-// At least one value, all positive and finite. O(values). Throws Error{bad_value} naming `bins` when it
-// is out of range, Error{bad_state} when there are no values.
+// Values positive and finite. O(values). Throws Error{bad_value} for `bins` out of range, {bad_state}
+// without values.
 Histogram make_histogram(std::span<const double> values, const HistogramOptions& options);
 
 }  // namespace asperity

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the bodies of a scene give way: a model of elasticity is a record of one folder of elasticity/, with
-// its options, what it needs, what it adds to a plan and the solver that carries the plan out. Whoever reads
-// a scene, checks, plans, solves or documents walks these records (elasticity/list.hpp).
+// A model of elasticity: one record in one folder of elasticity/. Readers, checks, plans, solvers and
+// documents iterate over the records (elasticity/list.hpp).
 #pragma once
 
 #include <any>
@@ -21,34 +20,32 @@ struct Plan;
 struct Scene;
 
 struct ElasticModel {
-  std::string_view name;    // "half_space", as a script names it
-  std::string_view noun;    // "a half-space", in sentences
-  std::string_view called;  // the same without an article
-  std::string sentence;     // what it is, lower case, no full stop
-  // Whether every pressure moves every node, so that a press is solved by iterations and feels what lies
-  // across the rim of a periodic tile. Else the nodes are solved one by one, in closed form.
+  std::string_view name;    // key in a script: "half_space"
+  std::string_view noun;    // in sentences: "a half-space"
+  std::string_view called;  // without article
+  std::string sentence;     // lower case, no full stop
+  // Every pressure displaces every node: iterative solves, coupled across a periodic rim. Otherwise closed
+  // form, node by node.
   bool moves_every_node = false;
-  std::any defaults;  // the struct of its options
+  std::any defaults;  // its options struct
   std::vector<OptionRow> options;
-  std::string boundary{};  // what is said where a scene gives none; empty: it may
+  std::string boundary{};  // error if the scene gives none; empty: default allowed
   bool periodic_only = false;
-  bool over_ranks = false;  // whether lab.spread computes it
-  // Throws Error for a scene that this model does not compute; the ranges of the options were checked before.
-  // May be null.
+  bool over_ranks = false;  // supported by lab.spread
+  // Throws Error for a scene outside this model; option ranges are already checked. May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
-  // Fills operator, term, buffers, solver name, expected transforms and time.
+  // Adds operator, term, buffers, solver name, expected transforms and time.
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
-  // Completes the plan after the effects have added theirs. May be null.
+  // Runs after the effects. May be null.
   void (*finish)(const ContactGeometry& geometry, Plan& plan) = nullptr;
-  // The options with their defaults replaced by the values of the plan `before`, for bodies that have yielded
-  // since or lie on other cells. Null: the options stay as they were given.
+  // Replaces defaulted options by the values of `before`, for bodies that yielded since or have other cells.
+  // Null: options unchanged.
   std::any (*as_planned)(const std::any& options, const Plan& before) = nullptr;
-  // The contact made ready to be pressed: the work that does not depend on the load is done here.
+  // Does the work independent of the load.
   std::shared_ptr<const Solver> (*solver)(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry);
 };
 
-// The model that a scene names, with its options. The struct of a model's options says which it is:
-// static const ElasticModel& model().
+// The model of a scene with its options. Each options struct has static const ElasticModel& model().
 class Elasticity {
  public:
   Elasticity();  // box elements
@@ -63,7 +60,7 @@ class Elasticity {
   bool is() const {
     return model_ == &O::model();
   }
-  // Null of another model.
+  // Null for another model.
   template <class O>
   const O* find() const {
     return is<O>() ? std::any_cast<O>(&options_) : nullptr;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An attraction across the gap, as a solver sees it: a traction that falls with the gap g >= 0, whatever
-// brought it. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis 1992): w/ρ while g < ρ. The energies that the
-// tractions are slopes of are concave, which is what makes their descent monotone. The repulsion is a hard
-// wall.
+// Attraction across the gap g >= 0 as a falling traction. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis
+// 1992): w/ρ while g < ρ. The energies are concave, so descents are monotone. The repulsion is a hard wall.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +17,12 @@ struct GapTerm {
   GapLaw law = GapLaw::exponential;
   double work = 0;   // w, J/m²
   double range = 0;  // ρ, m
-  // Of Dugdale's: the traction ends over gaps from (1 − edge)ρ to (1 + edge)ρ. A sharp end is caught by every
-  // node that it has to pass; the work is the same.
+  // Dugdale: the traction falls to zero from (1 − edge)ρ to (1 + edge)ρ, at equal work. Nodes would stick at
+  // a sharp end.
   double edge = 0;
 
   double greatest() const { return work / range; }  // Pa, at touch
-  // Pa, of g >= 0.
+  // Pa, for g >= 0.
   double traction(double g) const {
     if (law == GapLaw::dugdale)
       return greatest() * (edge > 0 ? std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every edge between a node that touches and one that does not adds to the nodes counted, in cells,
-//   w(p'/p) + within t(E* g/(p h)) + beyond s(g'/g) + turns(edges of the node that touches),
-// p' the pressure of the next node inside and g' the gap of the next outside, t the share of h that p and g
-// leave within the outline, s = 1/((g'/g)^(2/3) - 1) the cells that the gaps leave beyond it, at most 1, w
-// linear between the values below. These are fitted, weighted by 1/edges, to the corrected area fractions of
-// 2048 x 2048 cells: 84 scenes of seven kinds (bench/requested_error.lua, seeds 701 to 712) on 24 to 512
-// cells a side. In scenes with seeds outside the fit and with resolved waves, the
-// error of N edges is 0.19 sqrt(N) cells in the mean square; less the same excess for every edge, as
-// State::corrected_area_fraction() counts, it is 0.57. Nodes flattened as far as the outline touch whole:
-// with the fit for elastic edges, capped blasted faces were up to 4 % too small on 128 x 128 cells.
+// Each edge between a touching and an open node adds to the counted nodes, in cells,
+//   w(p'/p) + within t(E* g/(p h)) + beyond s(g'/g) + turns(edges of the touching node),
+// with p' the pressure of the next node inside, g' the gap of the next node outside, t the share of h within
+// the outline by p and g, s = 1/((g'/g)^(2/3) - 1) the cells beyond the outline by the gaps, at most 1, and
+// w linear between the values below. Fitted to 84 scenes of seven kinds on 24 to 512 cells a side
+// (bench/requested_error.lua, seeds 701 to 712) against 2048 x 2048 cells. With other seeds and resolved
+// waves the rms error of N edges is 0.19 sqrt(N) cells; of State::corrected_area_fraction() 0.57 sqrt(N).
+// Nodes flattened up to the outline count whole: the elastic fit makes capped blasted faces up to 4 % too
+// small on 128 x 128 cells.
 #include "engine/contact/outline_area.hpp"
 
 #include <algorithm>
@@ -28,11 +27,10 @@ struct Value {
 constexpr std::array<Value, 6> by_next_inside{
     {{0, -0.105}, {1, -0.062}, {1.4, -0.052}, {1.8, -0.060}, {2.5, -0.060}, {4, -0.136}}};
 constexpr double within = 0.239, beyond = -0.165;
-constexpr std::array<double, 3> turns{0, -0.004, 0.065};  // of one edge, two, three or more
-// Cells, for the edges to this power: the errors of 84 scenes left out of the fit (bench/requested_error.lua,
-// seeds 901 to 906 and 1101 to 1106), on 32 to 512 cells a side that do not miss their waves, against the
-// outline of 2048 cells, grow so on either boundary, from 50 edges to 20,000. 90 in 100 of those on tiles
-// that wrap were within the first, and of the others within the second.
+constexpr std::array<double, 3> turns{0, -0.004, 0.065};  // for one, two, three or more edges
+// Nine errors in ten are below coefficient · edges^grows_with_edges, in cells, for wrapped and for open
+// tiles: 84 scenes outside the fit (bench/requested_error.lua, seeds 901 to 906 and 1101 to 1106), 50 to
+// 20,000 edges, resolved waves.
 constexpr double grows_with_edges = 0.62, in_nine_of_ten_wrapped = 0.13, in_nine_of_ten_open = 0.20;
 
 constexpr int fewest_cells = 8;
@@ -46,7 +44,7 @@ double between_values(double ratio) {
   return low.w + (high.w - low.w) * (x - low.at) / (high.at - low.at);
 }
 
-// t of 4/3 (1 - t)^(3/2) / sqrt(t) = r: with s = 1 - t and u = (3r/4)², s³ + u s - u = 0, of which Newton's
+// Solves 4/3 (1 - t)^(3/2) / sqrt(t) = r for t: with s = 1 - t and u = (3r/4)², s³ + u s - u = 0; Newton's
 // steps from 1 fall to the root.
 double share_within(double r) {
   constexpr double largest = 1e6, close = 1e-12;
@@ -61,7 +59,6 @@ double share_within(double r) {
   return 1 - s;
 }
 
-// s of the ratio of the gaps of the next two nodes outside.
 double cells_beyond(double gap, double next) {
   constexpr double two_thirds = 2.0 / 3;
   if (!(gap > 0)) return next > 0 ? 0.0 : 1.0;
@@ -69,14 +66,12 @@ double cells_beyond(double gap, double next) {
   return grows > 1 ? 1 / grows : 1.0;
 }
 
-// An edge between a node that touches and one that does not: the pressure of the first and that of the next
-// node inside, the gaps of the next two outside, and the width of a cell across the edge.
+// Pressures of the touching node and the next inside, gaps of the next two outside, cell width.
 struct Edge {
   double p, inside, g, further, width;
 };
 
-// The area that an edge adds to the nodes counted, in cells. Pressures and gaps of boxes are linear across
-// the outline, and either direction gives half of the area.
+// In cells. Boxes: linear across the outline; each direction gives half of the area.
 double added_by(const Edge& edge, double modulus, OutlineLaw law) {
   if (law == OutlineLaw::boxes) return 0.5 * (edge.p / (edge.p + modulus * edge.g) - 0.5);
   return between_values(edge.inside / edge.p) +
@@ -93,7 +88,7 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
   if (std::min(nx, ny) < fewest_cells || hx > longest_cell * hy || hy > longest_cell * hx) return {};
   const auto pressures = pressure.values(), gaps = gap.values();
   double counted = 0, edges = 0, capped = 0, added = 0, rising = 0;
-  // The place of the node beside (i, j); none past a rim that nothing lies behind.
+  // -1 past the rim of an open tile.
   constexpr std::ptrdiff_t none = -1;
   const auto beside = [&](int i, int j, int steps_x, int steps_y) -> std::ptrdiff_t {
     int a = i + steps_x, b = j + steps_y;
@@ -119,7 +114,7 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
         const Edge edge{p, in == none ? 0.0 : pressures[static_cast<std::size_t>(in)], g,
                         next == none ? g : gaps[static_cast<std::size_t>(next)], x != 0 ? hx : hy};
         edges += 1;
-        // A node flattened as far as the outline touches whole.
+        // Flattened up to the outline: counts whole.
         if (law == OutlineLaw::capped && std::abs(edge.inside - p) <= alike * p) {
           capped += 1;
           continue;
@@ -133,8 +128,8 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
     }
   const double area = counted + added;
   if (!(edges > 0) || !(area > 0) || rising > most_rising * edges) return {};
-  // Where the pressure is capped, the outline may run anywhere in the next cell: of 30 capped blasted scenes
-  // (bench/requested_error.lua, seeds 11 to 40) the errors are two to three times those of elastic outlines.
+  // A capped outline may run anywhere in the next cell: two to three times the elastic errors in 30 blasted
+  // scenes (bench/requested_error.lua, seeds 11 to 40).
   const double doubt = (wraps ? in_nine_of_ten_wrapped : in_nine_of_ten_open) *
                        elementary::pow(edges, grows_with_edges) * (1 + 2 * capped / edges);
   return OutlineArea{area / (static_cast<double>(nx) * ny), doubt / area};

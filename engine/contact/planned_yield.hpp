@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What limits the pressure of a contact and which body gives way, as a plan has it: 0 <= p <= H, and the
-// plastic approach w that the limit leaves open is taken from both bodies, half each of like ones and nearly
-// all from the softer of unlike ones (lower_plastic_share), by the hardness that each node has by then. With
-// hardening a node carries H + K_h w instead. Volume is removed, not redistributed; a rigid body and a flat
-// counter-body take no share.
+// Pressure limit and division of the plastic approach, as planned: 0 <= p <= H, or H + K_h w with hardening.
+// The plastic approach w is taken from both bodies by lower_plastic_share of their present hardness at each
+// node. Volume is removed, not redistributed. Rigid bodies and flat counter-bodies take no share.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +16,14 @@
 
 namespace asperity {
 
-// What two bodies have carried as they lie. Ground that gave way under a load fits the other body under it:
-// the pressures that left it so are, unchanged, the exact solution of the same load again, with nothing more
-// to yield, and no pressure is greater under a lighter one. What a solve finds beyond is its own error; taken
-// for yield, it would wear away a specimen that is pressed again and again.
+// A load carried as placed. Its pressures exactly solve the same load again without further yield; lighter
+// loads have no greater pressures. More yield in a repeated press is solver error and must not wear the
+// specimen.
 struct CarriedLoad {
   double pressure = 0;   // Pa, mean over the tile
-  double softening = 1;  // hardness under it over the one stated
+  double softening = 1;  // hardness in the press over stated hardness
 
-  // Whether ground that carried this gives way no more under `other`.
+  // Whether `other` causes no further yield.
   bool covers(const CarriedLoad& other) const {
     return other.pressure <= pressure && other.softening >= softening;
   }
@@ -36,7 +33,7 @@ inline bool covered(const std::vector<CarriedLoad>& carried, const CarriedLoad& 
   return std::any_of(carried.begin(), carried.end(), [&](const CarriedLoad& c) { return c.covers(load); });
 }
 
-// Adds a load; those that it covers are left out.
+// Adds a load and erases the loads covered by it.
 inline void carry(std::vector<CarriedLoad>& carried, const CarriedLoad& load) {
   if (covered(carried, load)) return;
   std::erase_if(carried, [&](const CarriedLoad& c) { return load.covers(c); });
@@ -45,52 +42,49 @@ inline void carry(std::vector<CarriedLoad>& carried, const CarriedLoad& load) {
 
 struct PlasticChange;
 
-// A body that takes no share of what yields has infinite hardness here.
+// A body without a share has infinite hardness.
 struct PlannedYield {
   double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
   double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
-  // E of the lower body over that of the upper one; 1 where one of them is not known or nothing is elastic.
+  // E of the lower over E of the upper body; 1 if unknown or without elasticity.
   double modulus_ratio = 1;
-  // H(dwell, s)/H; none: the hardness does not depend on how long a press lasts.
+  // H(dwell, s)/H; none: independent of the dwell.
   std::function<double(std::optional<double> dwell)> softening{};
-  // The loads that the bodies have carried as they lie now; under none of them does a node yield again.
+  // Loads carried as placed now.
   std::vector<CarriedLoad> carried{};
 
   double hardness() const { return std::min(lower_hardness, upper_hardness); }
-  bool limits() const { return std::isfinite(hardness()); }  // whether anything can yield
+  bool limits() const { return std::isfinite(hardness()); }
   bool hardens() const { return limits() && std::isfinite(hardening); }
   double softened(std::optional<double> dwell) const { return softening ? softening(dwell) : 1.0; }
 };
 
-// The share of the plastic approach that the lower of two bodies takes,
+// Share of the plastic approach of the lower body,
 //   s = 1/(1 + exp(1.5 (ρ² − ρ⁻²)) E_lower/E_upper),  ρ = H_lower/H_upper:
-// ½ each of like bodies, .25 of a body 1.2 times as hard as the other, .06 of one 1.5 times and .004 of one
-// twice as hard, which hardly yields at the pressure that the softer one limits. What J2 plasticity below the
-// surface gives, within .03 between loads, of bodies of one Poisson's ratio; of equal hardness and unlike E
-// it is exact: the strains go as 1/E. All or nothing where the other body's hardness is infinite.
+// ½ for like bodies; .25, .06, .004 for a body 1.2, 1.5, 2 times as hard as the other. Within .03 of J2
+// plasticity below the surface with one Poisson's ratio; exact for equal hardness (strains ~ 1/E). 0 or 1 if
+// the other hardness is infinite.
 double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
 
-// The name of the BodyMemory that holds the hardness of each node after hardening, Pa at the reference dwell.
+// BodyMemory: hardness of each node after hardening, Pa at the reference dwell.
 inline constexpr std::string_view hardness_memory = "hardness";
 
-// The hardness of each node with the other body on it, each as the lower body's nodes meet it; none where it
-// is the same everywhere.
+// Hardness of each node of both bodies as placed, at the nodes of the lower body; none if uniform.
 MetMemory local_hardness(const ContactGeometry& geometry, const PlannedYield& yield);
 
-// What limits the pressure while the hardness is `factor` of the one stated.
+// With the hardness scaled by `factor`.
 YieldLaw yield_law(const PlannedYield& yield, const MetMemory& local, double factor);
 
-// The bodies after an event, in their own frames.
+// In the bodies' own frames.
 struct YieldedBodies {
   Surface lower;
   UpperBody upper;
   NodeMemory hardness;
-  // Of what the upper body lost: mapped off the lattice over meant, before it was scaled to be equal.
+  // Mapped over intended volume of the upper body, before rescaling.
   double mapped_volume = 1;
 };
 
-// Takes `change` from the bodies of `geometry`. Stored heights are never resampled: only the increment is
-// mapped. O(n).
+// Removes `change` from the bodies. Only the increment is mapped; heights are never resampled. O(n).
 YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
                              const PlasticChange& change);
 

@@ -82,7 +82,7 @@ void check_fraction(const PressRequest& request, double peak_to_valley) {
 std::vector<double> turns_before(std::span<const double> visited, double value) {
   std::vector<double> turns;
   for (bool highest = true; !visited.empty(); highest = !highest) {
-    // The last of equal ones: what lies between two is wiped out.
+    // The last of equal values: turns between them are erased.
     const auto turn = highest ? std::max_element(visited.rbegin(), visited.rend())
                               : std::min_element(visited.rbegin(), visited.rend());
     if (highest ? value >= *turn : value <= *turn) break;

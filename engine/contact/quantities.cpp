@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The orders, and the share of the outline, are those with which the estimate was within a factor of three of
-// the true error most often over some 160 scenes (spheres, waves, self-affine, blasted; free, periodic,
-// capped) on 128² and 256² cells against 1024² and exact answers. Margins and growths are those that were
-// best on 150 such scenes of other seeds than tests/accuracy.
+// Orders and outline shares: estimates most often within a factor of three of the true error, over about 160
+// scenes (spheres, waves, self-affine, blasted; free, periodic, capped) on 128² and 256² cells against 1024²
+// and exact answers. Margins and growths: best on 150 such scenes with seeds other than tests/accuracy.
 #include "engine/contact/quantities.hpp"
 
 #include <algorithm>
@@ -20,9 +19,9 @@ namespace asperity {
 namespace {
 
 double by_rise(const State&, double rise) { return rise; }
-// Of a load for the approach: d pressure / d approach, per area of the tile or in all.
+// d pressure / d approach times the rise.
 double pressure_by_rise(const State& state, double rise) {
-  const double stiffness = state.stiffness();  // infinite of a full contact
+  const double stiffness = state.stiffness();  // infinite at full contact
   return std::isfinite(stiffness) ? -stiffness * rise : 0;
 }
 double load_by_rise(const State& state, double rise) {

@@ -21,7 +21,7 @@ class Forest {
     nodes_.push_back(nodes);
     return parent_.back();
   }
-  // The root is always the lowest number of its region: regions keep the order of their first run.
+  // The root is the lowest number: regions keep the order of their first run.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);
@@ -69,7 +69,7 @@ void cut_into_runs(std::span<const std::uint8_t> row, Forest& forest, Row& runs)
   }
 }
 
-// `diagonal` is 0 for neighbours across an edge, 1 for corners too.
+// `diagonal`: 1 if corners join, 0 otherwise.
 void join_rows(const Row& above, const Row& below, int diagonal, int nx, bool wrap, Forest& forest) {
   std::size_t a = 0, b = 0;
   while (a < above.size() && b < below.size()) {

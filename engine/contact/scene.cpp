@@ -19,10 +19,9 @@ std::string tile(const Grid& g) {
          format_quantity(g.size_y, dimension::length, 6);
 }
 
-// Sizes that differ by the rounding of a product (3 · 50 against 150) are the same size.
+// Up to the rounding of a product (3 · 50 against 150).
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(a, b); }
 
-// A contact needs a height at every node, and the error says which body lacks them.
 void require_complete(const Surface& body, const std::string& which) {
   if (body.complete()) return;
   const std::size_t all = body.grid().nodes();

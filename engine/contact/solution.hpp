@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a solver hands to a State: the few numbers it had to find, and ways to work out the rest when
-// somebody asks. One class per way of solving; a State knows no other difference between them.
-// Where nothing faces the lower body (combined heights of NaN) no solution carries anything.
-// Implementations are immutable: every member may be called from any number of threads at once, and gives
-// the same bits each time.
+// A solver's result: the few numbers of the solve, and members that compute the rest on request. Nodes
+// without a counterpart (combined height NaN) carry nothing. Immutable: any thread may call any member and
+// gets the same bits.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +18,19 @@
 
 namespace asperity {
 
-// The nodes in contact parted at a pressure.
+// Nodes in contact, divided at a pressure.
 struct PressureSplit {
-  std::int64_t above = 0;  // nodes with p >= the threshold
-  std::int64_t below = 0;  // nodes with 0 < p < the threshold
-  double sum_below = 0;    // Σ p over the latter, Pa
+  std::int64_t above = 0;  // p >= threshold
+  std::int64_t below = 0;  // 0 < p < threshold
+  double sum_below = 0;    // Σ p of `below`, Pa
 };
 
-// What a press leaves in the bodies once the load is off.
+// Permanent change of the bodies after a press.
 struct PlasticChange {
-  Field approach;  // w, m: the plastic part of the local approach, both bodies together
-  // Pa, at the reference dwell: the hardness of a node that yielded, 0 elsewhere. Empty unless the bodies
-  // harden.
+  Field approach;  // w, m: plastic part of the local approach, both bodies
+  // Pa, at the reference dwell, of yielded nodes; 0 elsewhere. Empty without hardening.
   Field hardness;
-  // What the bodies then have carried; none where the solve did not reach its tolerance.
+  // None if the solve missed its tolerance.
   std::optional<CarriedLoad> carried{};
 };
 
@@ -43,32 +40,31 @@ class Solution {
 
   virtual const ContactGeometry& geometry() const = 0;
 
-  // Known when the solve ends; each O(1).
+  // Each O(1).
   virtual double load() const = 0;      // N on the tile
   virtual double pressure() const = 0;  // Pa, load over nominal area
   virtual double approach() const = 0;  // m
-  // N on the tile that an attraction across the gap adds to the load on the junctions.
+  // N on the tile; an attraction across the gap adds this to the load on the junctions.
   virtual double attraction() const { return 0; }
-  // Values of the prescribed quantity that were gone to before: the branch it is on.
+  // Turning points of the load history; they select the branch.
   virtual std::span<const double> preload() const { return {}; }
   virtual std::int64_t contacts() const = 0;  // nodes with p > 0
   virtual double peak_pressure() const = 0;   // Pa
   virtual int iterations() const = 0;
   virtual std::string_view solver() const = 0;
 
-  // What plasticity adds; all zero where nothing can yield.
-  virtual std::int64_t yielded() const { return 0; }   // nodes at the cap, or past their yield pressure
-  virtual double plastic_volume() const { return 0; }  // m³, from both bodies together
-  // None where nothing yielded.
+  // Plasticity; all zero without yield.
+  virtual std::int64_t yielded() const { return 0; }   // at the cap, or past the yield pressure
+  virtual double plastic_volume() const { return 0; }  // m³, both bodies
   virtual std::optional<PlasticChange> plastic_change() const { return {}; }
 
-  // What this solution alone keeps in memory.
+  // Memory of this solution alone.
   virtual std::int64_t bytes() const { return 0; }
 
-  // Worked out when asked.
-  virtual double flatten() const = 0;    // share of the peak-to-valley of the combined heights pressed away
-  virtual double stiffness() const = 0;  // Pa/m, d pressure / d approach at this contact set
-  virtual double mean_gap() const = 0;   // m, over the nodes that face each other
+  // Computed on request.
+  virtual double flatten() const = 0;    // relative fall of the peak-to-valley of the combined heights
+  virtual double stiffness() const = 0;  // Pa/m, d pressure / d approach at constant contact set
+  virtual double mean_gap() const = 0;   // m, over facing nodes
   virtual double energy() const = 0;     // J in the tile, elastic
   virtual Certificate certificate() const = 0;
   // Bounds against the exact solution on the same grid.
@@ -76,14 +72,14 @@ class Solution {
   virtual PressureSplit split(double threshold) const = 0;
   virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
   virtual Field pressure_field() const = 0;              // Pa
-  virtual Field gap_field() const = 0;                   // m, 0 in contact; means nothing off the overlap
-  virtual Field displacement_field() const = 0;  // m, of both bodies together, elastic, positive into them
-  virtual Field lower_under_load() const = 0;    // m, heights in the lower body's own frame
-  virtual Field upper_under_load() const = 0;    // m, heights in the upper body's own frame
+  virtual Field gap_field() const = 0;                   // m, 0 in contact; undefined off the overlap
+  virtual Field displacement_field() const = 0;          // m, elastic, of both bodies, positive into them
+  virtual Field lower_under_load() const = 0;            // m, in the lower body's frame
+  virtual Field upper_under_load() const = 0;            // m, in the upper body's frame
 };
 
-// What is left of a solution once its contact was closed and its memory is free: the few numbers that were
-// known when the solve ended. Whatever would have to be worked out now throws Error{bad_state} that names it.
+// The numbers of a solve after the release of its memory. Other members throw Error{bad_state} naming the
+// quantity.
 class ClosedSolution final : public Solution {
  public:
   explicit ClosedSolution(const Solution& solution);

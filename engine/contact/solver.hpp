@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact made ready to be pressed: the bodies as they lie, the plan carried out as far as it does
-// not depend on the load. Which solver it is follows from the plan alone. Immutable, so many threads
-// may press at once, and each press depends on nothing but its request and, where one is given, a guess.
+// A contact ready to be pressed: all work independent of the load is done. Immutable: threads may press at
+// once. A press depends only on request and guess.
 #pragma once
 
 #include <memory>
@@ -20,20 +19,19 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  // The state under this load. Throws Error{bad_value} for a request that makes no sense (negative, not
-  // finite, too small to mean anything), Error{infeasible} for one that has no solution, and
-  // Error{not_converged} when the certificate misses the tolerance and the scene did not ask for the
-  // best there is.
+  // Throws Error{bad_value} for a negative, non-finite or too small request, Error{infeasible} without
+  // solution, Error{not_converged} if the certificate misses the tolerance and the scene does not accept the
+  // best result.
   virtual State press(const PressRequest& request, Monitor& monitor) const = 0;
   State press(const PressRequest& request) const { return press(request, Monitor::silent()); }
-  // The same within the tolerance, begun from `guess`, a press like it on these or other cells of the tile,
-  // where that saves transforms. The last digits depend on the guess.
+  // Starts from `guess`, a similar press on any cells of the tile, if this saves transforms. The last digits
+  // depend on the guess.
   virtual State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const {
     static_cast<void>(guess);
     return press(request, monitor);
   }
   const ContactGeometry& geometry() const { return *geometry_; }
-  // What making it ready cost, once for all presses.
+  // Once for all presses.
   const StateCost& preparation() const { return preparation_; }
 
  protected:
@@ -42,10 +40,9 @@ class Solver {
 
   Plan plan_;
   std::shared_ptr<const ContactGeometry> geometry_;
-  StateCost preparation_;  // the constructor of a solver sets it
+  StateCost preparation_;  // set by the constructor of a solver
 };
 
-// Does what is done once for all loads (for box elements: the sort, O(n)).
 inline std::shared_ptr<const Solver> make_solver(const Plan& plan,
                                                  std::shared_ptr<const ContactGeometry> geometry) {
   return plan.model->solver(plan, std::move(geometry));

@@ -24,7 +24,7 @@ namespace asperity {
 
 namespace {
 
-// A value worked out when first asked for. A failure is not kept: the next asker tries again.
+// Failures are not cached: the next call tries again.
 template <class T>
 class Lazy {
  public:
@@ -67,7 +67,7 @@ struct State::Shared {
   Effects effects;
   bool moves_every_node = false;
   std::vector<GapTerm> attraction;
-  bool yields = false;  // whether anything limits the pressure
+  bool yields = false;
 
   Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
   Lazy<Certificate> certificate;
@@ -77,8 +77,8 @@ struct State::Shared {
   Lazy<std::string> digest;
   std::array<Lazy<std::shared_ptr<const Field>>, 5> fields;
 
-  mutable std::mutex mutex;                  // of what follows
-  std::shared_ptr<const Solution> solution;  // or what is left of it
+  mutable std::mutex mutex;                  // of the members below
+  std::shared_ptr<const Solution> solution;  // a ClosedSolution once closed
   bool closed = false;
 
   const Grid& grid() const { return tile; }
@@ -109,7 +109,6 @@ struct State::Shared {
       return digester.hex();
     });
   }
-  // Nodes in each region joined by edges, largest first.
   const std::vector<std::int64_t>& sizes_of_spots() {
     return spot_sizes.get([&] {
       const Array<std::int64_t> sizes = find_regions(Neighbours::four);
@@ -242,7 +241,7 @@ double State::displacement() const {
 }
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
-  // A flat on a flat over all of a periodic tile: it gives nowhere way before anywhere else.
+  // Two flats on a periodic tile do not approach under load.
   return approach() == 0 && pressure() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
@@ -270,14 +269,13 @@ const AlgebraicError& State::algebraic_error() const {
 double State::corrected_area_fraction() const {
   if (outline_) return outline_->fraction;
   return shared_->corrected.get([&] {
-    // A node that touches counts as a whole cell though its cell touches in part: on average over the
-    // directions of an outline each edge counts this share of a cell too much. Source: Yastrebov,
-    // Anciaux & Molinari (2017), "On the accurate computation of the true contact-area".
+    // Excess of a touching node, counted as a whole cell, per edge, averaged over outline directions, in
+    // cells (Yastrebov, Anciaux & Molinari 2017, "On the accurate computation of the true contact-area").
     constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
     const Grid& grid = shared_->grid();
     const BoundaryEdges edges =
         boundary_edges(shared_->now()->contact_mask(), grid.nx, grid.ny, shared_->wraps());
-    // An edge between columns is hy long and stands for hx across it, and the other way about.
+    // Edges between columns have length hy and width hx, edges between rows the reverse.
     const auto cells = static_cast<double>(edges.between_columns + edges.between_rows);
     return (static_cast<double>(contacts()) - excess * cells) / static_cast<double>(grid.nodes());
   });
@@ -396,8 +394,8 @@ std::string State::text(const std::string& of_the_cells) const {
              ", since closed";
   }
   const AlgebraicError& error = algebraic_error();
-  // In the unit of the value, so that the two are compared at a glance.
-  const bool few = rests_on_few_nodes(*this);  // the bound of the solver then hides the error of the cells
+  // In the unit of the value.
+  const bool few = rests_on_few_nodes(*this);  // the solver's bound then misleads
   const auto within = [few](double value, double by, Dimension dimension) {
     if (few || !std::isfinite(by)) return format_quantity(value, dimension);
     const DisplayUnit unit = display_unit(std::abs(value), dimension);
@@ -422,7 +420,7 @@ std::string State::text(const std::string& of_the_cells) const {
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
               " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";
-  // Of what is mostly the greatest part of the whole error the solver knows nothing.
+  // The solver does not know the discretisation error, mostly the greatest part.
   if (result.find("±") != std::string::npos)
     result += of_the_cells.empty()
                   ? "; ± is the solver's alone: cells, seed and inputs are not in it"

@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-// By forward differences between neighbours, never across the rim, where the bodies face each other.
+// Forward differences at facing nodes, not across the rim.
 double combined_rms_slope(const ContactGeometry& geometry) {
   const Field& z = geometry.combined();
   const Grid& grid = geometry.grid();
@@ -30,7 +30,7 @@ double combined_rms_slope(const ContactGeometry& geometry) {
   return nodes > 0 ? std::sqrt(squares / nodes) : 0;
 }
 
-// 1/E*; nothing where a material does not say.
+// 1/E*; none if a material lacks moduli.
 std::optional<double> contact_compliance(const ContactGeometry& geometry) {
   double sum = 0;
   for (const Material* material : {lower_material(geometry.lower()), upper_material(geometry.upper())}) {
@@ -59,7 +59,7 @@ SofterBody softer_body(const ContactGeometry& geometry) {
   return softer;
 }
 
-// The warning about a contact or an attraction at the rim of a free tile; empty without one, and for flats.
+// Warning; empty without one, and for flats.
 std::string cut_off_at_the_rim(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   const Grid& grid = state.grid();
@@ -73,7 +73,7 @@ std::string cut_off_at_the_rim(const State& state) {
       if ((*contact)(i, j) > 0) return "the contact reaches the rim of the free tile, where the bodies end";
       if (!std::isnan((*gap)(i, j))) least = std::min(least, std::max((*gap)(i, j), 0.0));
     }
-  constexpr double noticeable = 0.01;  // of the traction at touch, and about of the whole force
+  constexpr double noticeable = 0.01;  // of the traction at touch
   for (const GapTerm& term : state.attraction_terms())
     if (const double share = term.traction(least) / term.greatest(); share > noticeable)
       return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end, with " +

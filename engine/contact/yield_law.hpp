@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What limits the contact pressure: nothing; a cap, p <= H, perfectly plastic; or linear hardening, where
-// a node whose pressure passes its yield pressure Y gives way by w = (p − Y)/K_h beyond its elastic
-// displacement, the energy term Σ max(0, p − Y)²/(2 K_h). K_h -> 0 is the cap again, K_h -> ∞ no yield.
-// Once in SI, as a problem has it, and once in the cell units of a solve.
+// Limit of the contact pressure: none; a cap, p <= H (perfectly plastic); or linear hardening: past the
+// yield pressure Y a node yields by w = (p − Y)/K_h, with energy Σ max(0, p − Y)²/(2 K_h). K_h -> 0: cap;
+// K_h -> ∞: elastic. In SI, and in the cell units of a solve.
 #pragma once
 
 #include <algorithm>
@@ -17,41 +16,35 @@
 namespace asperity {
 
 struct YieldLaw {
-  // Pa, one for all nodes; in force while no hardening is given. Infinite: no cap.
+  // Pa; without hardening. Infinite: no cap.
   double cap = std::numeric_limits<double>::infinity();
-  // Pa at each node, the pressure at which it begins to yield; only with a finite `hardening`. Where it is
-  // empty, `cap` stands for every node.
+  // Yield pressure of each node, Pa, with hardening; empty: `cap` everywhere.
   std::shared_ptr<const Field> yield;
-  // K_h, Pa/m; infinite: none given.
+  // K_h, Pa/m; infinite: no hardening.
   double hardening = std::numeric_limits<double>::infinity();
 
-  // Whether pressures past the yield pressure are met by linear hardening.
   bool hardens() const;
-  // Whether no pressure may pass `cap`.
   bool caps() const;
-  // The pressure at which node k begins to yield.
   double yields_at(std::size_t k) const { return yield ? (*yield)[k] : cap; }
   bool limits() const { return hardens() || caps(); }
 };
 
-// Throws Error{bad_value} for a cap, yield pressure or hardening that is not positive, a field that is not
-// nx × ny, or one given without hardening.
+// Throws Error{bad_value} for a cap, yield pressure or hardening not positive, a field not nx × ny, or a
+// field without hardening.
 void check(const YieldLaw& law, int nx, int ny);
 
-// The two laws that limit a pressure, in the cell units of a solve and small enough to vanish in a loop:
-// a cap (infinite for the elastic contact), or linear hardening past a yield pressure of each node, which
-// adds an opening of its own to the gap and leaves the pressure without an upper bound. `settle` is what
-// a descent does to a pressure that left its bounds: clipped to the cap, or, where it went past the
-// yield pressure as if elastic, brought to where the node by itself would be in balance.
+// The two laws in cell units, small enough for inner loops. Hardening adds an opening w to the gap, without
+// upper bound. `settle` clips to the cap, or sets a pressure far past the yield pressure to the balance of
+// the node by itself.
 struct PressureCap {
   double cap = std::numeric_limits<double>::infinity();
 
   static constexpr bool hardens = false;
   double upper() const { return cap; }
-  // w at node k under pressure p, and dw/dp of a node that yields.
+  // w at node k under p; dw/dp of a yielding node.
   double opening(std::size_t, double) const { return 0; }
   double yielding_slope() const { return 0; }
-  // p without overshoot; g is the gap without w, `balance` the gap of the nodes in contact (NaN: unknown).
+  // p without overshoot. g: gap without w; `balance`: gap of the nodes in contact (NaN: unknown).
   double settle(std::size_t, double p, double, double) const {
     const double positive = p > 0 ? p : 0.0;
     return p < cap ? positive : cap;
@@ -65,7 +58,7 @@ struct LinearHardening {
   double compliance = 0;  // dw/dp
 
   static constexpr bool hardens = true;
-  // Of one cell by itself, about.
+  // Self-compliance of a cell, approximately.
   static constexpr double own_compliance = 1.27;
   double upper() const { return std::numeric_limits<double>::infinity(); }
   double yields_at(std::size_t k) const { return yield ? yield[k] * factor : uniform; }
@@ -82,7 +75,6 @@ struct LinearHardening {
 
 using PressureLimit = std::variant<PressureCap, LinearHardening>;
 
-// The bound that no pressure passes.
 inline double greatest_pressure(const PressureLimit& limit) {
   return std::visit([](const auto& law) { return law.upper(); }, limit);
 }

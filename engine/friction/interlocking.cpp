@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The normal stress from which a junction is at the cap; the same test as on level junctions.
+// Least normal stress of a capped junction; the same test as on level junctions.
 double stress_at_cap(const JunctionLaw& law) {
   if (!law.tau_max()) return infinite;
   const double room = *law.tau_max() - law.tau0();
@@ -23,7 +23,6 @@ double stress_at_cap(const JunctionLaw& law) {
   return law.alpha() > 0 ? room / law.alpha() : infinite;
 }
 
-// Nodes before and after along one side and how many steps lie between them.
 struct Neighbours {
   int before, after, steps;
 };
@@ -33,7 +32,7 @@ Neighbours neighbours(int k, int n, bool wraps) {
   return {before, after, std::max(1, after - before)};
 }
 
-// Those of them that are there; overhanging bodies are on a free boundary, which does not wrap.
+// Neighbours with heights; overhanging bodies are on a free boundary, which does not wrap.
 template <class There>
 Neighbours inside(Neighbours all, int k, There there) {
   if (!there(all.before)) all.before = k;
@@ -46,11 +45,11 @@ Neighbours inside(Neighbours all, int k, There there) {
 InclinedJunction inclined_junction(const JunctionLaw& law, double pressure, double along, double across) {
   const double rise = 1 + along * along;
   const double widening = std::sqrt(1 + across * across / rise);
-  const double wedge = along * widening;  // how much normal stress a unit of shear brings
+  const double wedge = along * widening;  // normal stress per shear
   InclinedJunction result;
   const auto with = [&](double shear) { return along * pressure + rise * widening * shear; };
   if (along == 0 && across == 0) {
-    // The very number of the law, so that level bodies give what they give without the effect.
+    // The number of the law itself: level bodies give the result without the effect.
     result.force = law.strength(pressure);
     result.capped = pressure >= stress_at_cap(law);
     return result;
@@ -86,7 +85,7 @@ Slopes junction_slopes(const State& state) {
     for (int i = 0; i < grid.nx; ++i) {
       const Neighbours columns = neighbours(i, grid.nx, wraps);
       Neighbours across = columns, along = rows;
-      if (overhangs) {  // where nothing faces the ground there is no face between: a rim
+      if (overhangs) {  // a missing counterpart is a rim
         if (std::isnan(middle(i, j))) continue;
         across = inside(columns, i, [&](int k) { return !std::isnan(middle(k, j)); });
         along = inside(rows, j, [&](int k) { return !std::isnan(middle(i, k)); });

@@ -47,7 +47,7 @@ JunctionLaw::JunctionLaw(const FrictionOptions& options) : tau0_(options.tau0), 
     throw Error(ErrorCode::bad_value, "`tau_max` and `yield_pressure` are both given",
                 "give one: `yield_pressure` stands for tau_max = tau0 + alpha yield_pressure");
   std::optional<double> cap = options.tau_max;
-  // α = 0 leaves the strength at τ0 whatever the pressure: no cap can bind, and 0·∞ is avoided.
+  // With α = 0 no cap can bind; avoids 0·∞.
   if (options.yield_pressure && alpha_ > 0) cap = tau0_ + alpha_ * *options.yield_pressure;
   if (cap && std::isfinite(*cap)) tau_max_ = cap;
 }

@@ -17,7 +17,7 @@ namespace {
 
 const std::array<std::string, 2> names_of_fields = {"shear", "stick"};
 
-// Q/(f P), which must not pass 1 but for rounding.
+// Q/(f P), at most 1 up to rounding.
 double ratio_of(const ShearRequest& request, double load) {
   require_positive("friction", request.friction, "", "give a finite coefficient above zero");
   if (request.force.has_value() == request.ratio.has_value())

@@ -22,7 +22,7 @@ std::string degrees(double angle) { return format_short(angle * 180 / std::numbe
 
 void check_stage(double step, double limit) {
   require_positive("step", step, "rad");
-  // Degrees converted one way or another may pass a right angle by an ulp.
+  // Conversion of degrees may exceed a right angle by an ulp.
   if (!(limit > 0 && limit <= right_angle * (1 + 1e-12)))
     throw Error(ErrorCode::bad_value, "`limit` is " + degrees(limit), "a stage is raised to at most 90 deg");
   constexpr double most_steps = 1e6;
@@ -54,8 +54,7 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
   };
 
   double held = 0;
-  // Steps are multiples, not sums, so that their rounding does not pile up; one within rounding of the
-  // limit is the limit.
+  // Multiples of the step, not sums, and snapped to the limit: rounding does not accumulate.
   for (std::int64_t k = 0;; ++k) {
     stop_flag().check();
     const double reached = static_cast<double>(k) * step;
@@ -63,13 +62,13 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
     const double angle = last ? limit : reached;
     if (!holds(angle)) {
       double low = held, high = angle;
-      // Down to neighbouring doubles: under sixty halvings.
+      // To neighbouring doubles: under sixty halvings.
       for (;;) {
         const double middle = low + 0.5 * (high - low);
         if (!(low < middle && middle < high)) break;
         (holds(middle) ? low : high) = middle;
       }
-      // What slips at an angle that is nothing beside the step slips at once, and mu is 0 indeed.
+      // A slip angle negligible to the step is slip at once, with mu = 0.
       constexpr double nothing = 1e-3;
       if (held == 0 && low > nothing * step)
         throw Error(ErrorCode::bad_value,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an event leaves on the bodies, in their own frames: their heights, and what effects keep of each node
-// beside them (BodyMemory). Each effect of the scene adds its own (Effect::leave), one after the other.
+// Changes of the bodies after an event, in their own frames: heights and BodyMemory. Each effect of the
+// scene adds its changes in turn (Effect::leave).
 #pragma once
 
 #include <optional>
@@ -11,16 +11,16 @@
 namespace asperity {
 
 struct AfterEvent {
-  const ContactGeometry& geometry;  // the bodies during the event
+  const ContactGeometry& geometry;  // during the event
   Surface lower;
   UpperBody upper;
   BodyMemory memory;
-  // m at the nodes of the lower body, what both lost together; none: their heights are as they were.
+  // m, removed from both bodies, at the nodes of the lower one; none: heights unchanged.
   std::optional<Field> yielded{};
-  // Of what the upper body lost: mapped off the lattice over meant, before it was scaled to be equal.
+  // Mapped over intended volume of the upper body, before rescaling.
   double mapped_volume = 1;
   std::optional<CarriedLoad> carried{};
-  bool changed = false;  // whether anything of the bodies is another than before
+  bool changed = false;
 
   explicit AfterEvent(const ContactGeometry& during)
       : geometry(during), lower(during.lower()), upper(during.upper()), memory(during.memory()) {}

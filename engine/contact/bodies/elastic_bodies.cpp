@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-// (1−ν²)/E, 1/Pa; nothing when the material does not say.
+// (1−ν²)/E, 1/Pa; none if the material lacks moduli.
 std::optional<double> compliance(const Material* material) {
   if (material == nullptr) return {};
   if (!material->rigid && !(material->young && material->poisson)) return {};

@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-// Rows are grouped so that small grids stay on one thread.
+// Row blocks: small grids stay on one thread.
 template <class Row>
 void for_each_row(const Field& field, Row row) {
   constexpr std::int64_t nodes_per_block = 1 << 16;
@@ -44,7 +44,7 @@ Field combine_turned(const Field& lower, const Field& upper, const Pose& pose, c
   return sum;
 }
 
-// One pattern of bits for a height that is not there, whatever made it: digests see bits.
+// A single bit pattern for missing heights: digests depend on bits.
 std::int64_t mark_missing(Field& heights, std::span<const std::uint8_t> uncovered) {
   std::int64_t facing = 0;
   for (std::size_t k = 0; k < heights.size(); ++k) {
@@ -81,7 +81,6 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemor
     facing_ = static_cast<std::int64_t>(lower_.grid().nodes());
     range_ = lower_.height_range();
   }
-  // Every solver adds up squares of heights.
   const double squares = range_.span() * range_.span() * static_cast<double>(facing_);
   if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(squares))
     throw Error(ErrorCode::bad_value,

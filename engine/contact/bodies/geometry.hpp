@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The undeformed geometry of a contact: the combined heights h = z1 + T z2, both bodies as they lie
-// over each other. With no deformation the bodies first touch where h is greatest, and the gap at
-// node (i, j) is max h − h there. Where a turned upper body does not cover the lower one there is no h (NaN):
-// nothing faces that ground, so it has no gap and carries nothing. Under a flat, h is the lower body's own
-// height field, shared and not copied. Immutable; any number of threads may read it.
+// Undeformed contact: combined heights h = z1 + T z2 of the placed bodies. First touch is at the greatest h;
+// the gap is max h − h. Nodes without a counterpart have h = NaN, no gap and no load. Under a flat, h is the
+// lower body's own field. Immutable; threads may read at once.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +18,15 @@ namespace asperity {
 
 class ContactGeometry {
  public:
-  // The bodies of `scene` (which must have passed check) lying as `pose` says, put down afresh: `memory`
-  // holds in each body's own frame. A rough upper body that is turned off the lattice leaves some nodes of
-  // the lower body uncovered; `uncovered` marks further ones (1 at each such node; empty: none). O(n), and
-  // one field of memory for two rough bodies. Throws Error{bad_value} when the sums of heights or of their
-  // squares leave the range of a double, or no node of one body lies over the other.
+  // The bodies of `scene` (after check) placed by `pose`, `memory` in their own frames. `uncovered`: 1 at
+  // additional nodes without a counterpart; empty: none. O(n); one field for two rough bodies. Throws
+  // Error{bad_value} if sums of heights or squares overflow, or if the bodies do not overlap.
   ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory = {},
                   std::span<const std::uint8_t> uncovered = {});
 
-  // The bodies after an event, still lying as in `before`. The event took `yielded` (m, at the nodes of the
-  // lower body) from both together; none: the shapes are as they were. Off the lattice the shape of each body
-  // is known only as well as its nodes map onto those of the other, but the combined heights have lost
-  // exactly `yielded` until the bodies are moved.
+  // The bodies after an event, placed as `before`. `yielded`: m removed from both together, at the nodes of
+  // the lower body; none: shapes unchanged. Off the lattice the mapped shapes are approximate, but the
+  // combined heights decrease by exactly `yielded` until the bodies move.
   ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
                   const std::optional<Field>& yielded);
 
@@ -40,22 +35,20 @@ class ContactGeometry {
   const UpperBody& upper() const { return upper_; }
   Boundary boundary() const { return boundary_; }
   const Pose& pose() const { return pose_; }
-  // What events have left on the bodies beside their shapes: all of it, and the memory of one name (empty
-  // where there is none).
+  // Besides shapes; all, or by name (empty if none).
   const BodyMemory& memory() const { return memory_; }
   const NodeMemory& kept(std::string_view name) const;
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
-  // m; NaN at nodes where nothing faces the lower body. The two functions below leave such nodes out.
+  // m; NaN at nodes without a counterpart; the next two functions exclude them.
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
   Range combined_range() const { return range_; }          // m
   double peak_to_valley() const { return range_.span(); }  // m
-  // m, the greatest combined height of the bodies as they lay before any event changed their shapes.
+  // m, before any event changed the shapes.
   double first_touch() const { return first_touch_.value_or(range_.max); }
   void keep_first_touch(const ContactGeometry& before) { first_touch_ = before.first_touch_; }
-  // The combined heights at the nodes where the bodies face each other, in the order of the nodes.
   Array<double> facing_heights() const;
-  // The nodes at which the bodies face each other; all, unless a free boundary lets one body overhang.
+  // Fewer than all only with overhang on a free boundary.
   std::int64_t facing() const { return facing_; }
   bool overhangs() const { return facing_ < static_cast<std::int64_t>(grid().nodes()); }
   double overlap_fraction() const {
@@ -70,11 +63,11 @@ class ContactGeometry {
   BodyMemory memory_;
   std::shared_ptr<const Field> combined_;  // none under a flat
   Range range_;
-  std::optional<double> first_touch_;  // none while the bodies are unworn
+  std::optional<double> first_touch_;  // none while unworn
   std::int64_t facing_ = 0;
 };
 
-// The material of a body, if it has one.
+// Null without a material.
 const Material* lower_material(const Surface& lower);
 const Material* upper_material(const UpperBody& upper);
 

@@ -24,7 +24,7 @@ MetMemory met(const ContactGeometry& geometry, const NodeMemory& memory, double 
   MetMemory here{memory.lower, memory.upper_here};
   if (memory.upper_here || !memory.upper) return here;
   Field seen = geometry.pose().to_lower(*memory.upper, geometry.grid());
-  // Where the turned upper body has no node it cannot be touched.
+  // No contact where the turned upper body has no node.
   for (double& value : seen.values())
     if (std::isnan(value)) value = at_first;
   here.upper = std::make_shared<const Field>(std::move(seen));

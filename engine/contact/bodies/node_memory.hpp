@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What earlier events left on the bodies beside their shapes: fields by name, one of each body in that body's
-// own frame, so that a field is turned, shifted and copied with its body. The effect that keeps a field reads
-// it at the nodes of the lower body (met) and raises it after an event (raised).
+// Memory of earlier events besides shapes: named fields of each body in its own frame, moved with the body.
+// Their effect reads them at the nodes of the lower body (met) and updates them after an event (raised).
 #pragma once
 
 #include <functional>
@@ -16,11 +15,11 @@ namespace asperity {
 
 class ContactGeometry;
 
-// The fields of one name; null for a body on which no event has left one.
+// Null for a body without memory.
 struct NodeMemory {
   std::shared_ptr<const Field> lower, upper;
-  // After events off the lattice: the field of the upper body at the nodes of the lower one, exact until the
-  // bodies are moved.
+  // After events off the lattice: the upper body's field at the lower body's nodes, exact until the bodies
+  // move.
   std::shared_ptr<const Field> upper_here;
 
   bool empty() const { return !lower && !upper && !upper_here; }
@@ -28,16 +27,15 @@ struct NodeMemory {
 
 using BodyMemory = std::map<std::string, NodeMemory, std::less<>>;
 
-// The fields of both bodies at the nodes of the lower body; null where no event has left one.
+// At the nodes of the lower body; null without memory.
 struct MetMemory {
   std::shared_ptr<const Field> lower, upper;
 };
-// `at_first`: the value at nodes over which no node of the upper body lies.
+// `at_first`: value at nodes without a counterpart.
 MetMemory met(const ContactGeometry& geometry, const NodeMemory& memory, double at_first);
 
-// The memory after an event that gave `values` at the nodes of the lower body: at each node the greater of
-// the value before and the new one. A body without memory begins with the value given for it; a body for
-// which none is given keeps no memory.
+// After an event with `values` at the nodes of the lower body: the greater of old and new at each node. A
+// body without memory starts from its `at_first`; without `at_first` it stores none.
 NodeMemory raised(const ContactGeometry& geometry, const NodeMemory& before, const Field& values,
                   std::optional<double> lower_at_first, std::optional<double> upper_at_first);
 

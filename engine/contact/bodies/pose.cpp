@@ -109,20 +109,19 @@ namespace {
 constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
 
-// The field turned counter-clockwise by `angle` about the centre of its nodes, bilinear; `outside` where
-// no node of the original lies around.
+// Counter-clockwise about the centre of the nodes, bilinear; `outside` beyond the original nodes.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
   double c = elementary::cos(angle), s = elementary::sin(angle);
   const double middle_i = 0.5 * (grid.nx - 1), middle_j = 0.5 * (grid.ny - 1);
   double hx = grid.hx(), hy = grid.hy();
-  // A quarter turn of square cells brings nodes onto nodes, or between them by half a cell: without rounding.
+  // Quarter turns of square cells map nodes to nodes or half-way between: no rounding.
   if (std::abs(std::abs(angle) - quarter) <= snap && std::abs(hx - hy) <= 1e-12 * hx) {
     c = 0;
     s = angle > 0 ? 1 : -1;
     hx = hy = 1;
   }
-  // The cell a place lies in and how far along; a place past the rim by rounding is on the rim.
+  // Cell and fraction; a place past the rim by rounding is on the rim.
   struct Place {
     int low, high;
     double part;

@@ -40,14 +40,14 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
       plan.buffers.push_back({"preload from which presses go on", 3 * field});
       plan.buffers.push_back({"work of the tangents", 5 * field, false});
       plan.solver = "tangents of the attraction, each a contact by preconditioned descent";
-      // Of 60 contacts that attract each other, balls and rough ground on 64 x 64 cells: 161 by approach, 228
-      // by pressure in the middle.
+      // Medians of 60 contacts (balls, rough surfaces, 64 x 64 cells): 161 transforms by approach, 228 by
+      // pressure.
       constexpr double times_without = 5;
       plan.transforms *= times_without;
       plan.seconds *= times_without;
     }
     const double modulus = std::get<HalfSpaceOperator>(plan.elasticity).modulus;
-    constexpr double most = 100;  // of the modulus; beyond it no grid holds the tangents together
+    constexpr double most = 100;  // of the modulus; beyond it tangents fail on any grid
     if (!(term.greatest() <= most * modulus))
       throw Error(ErrorCode::bad_value,
                   quoted(term.effect) + " pulls with " +
@@ -68,7 +68,6 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
 
 namespace {
 
-// Without strength it is part of no solve, whatever else is in the scene.
 void check_adhesion(const std::any& given, const Scene& scene) {
   if (std::any_cast<const AdhesionOptions&>(given).work > 0) check_attraction(scene, "adhesion");
 }

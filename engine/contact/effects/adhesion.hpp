@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adhesion: the surfaces attract each other across the gap, in contact and beside it, with w/ρ e^(−g/ρ) or
-// Dugdale's constant w/ρ up to a gap of ρ. Its one term is an energy of the gap. Dugdale's traction ends over
-// half a range to either side of ρ, its work unchanged, so that no node catches its edge.
+// Adhesion: an energy of the gap, traction w/ρ e^(−g/ρ) or Dugdale's w/ρ up to a gap of ρ (GapTerm::edge ½).
 #pragma once
 
 #include <string>
@@ -18,11 +16,11 @@ struct AdhesionOptions {
   static const Effect& effect();
 };
 
-// Throws Error{bad_value} for what is not computed beside an attraction across the gap.
+// Throws Error{bad_value} for scenes not computed with an attraction across the gap.
 void check_attraction(const Scene& scene, const std::string& effect);
 
-// Adds a term to the plan of a half-space, with what it costs, and warns where the zone in which it pulls
-// beside a contact, about (π/4) E* w/σ0² (Maugis 1992), is under four cells wide.
+// Adds term and costs to the plan of a half-space. Warns if the zone of attraction, about (π/4) E* w/σ0²
+// (Maugis 1992), is under four cells wide.
 void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& geometry, Plan& plan);
 
 }  // namespace asperity

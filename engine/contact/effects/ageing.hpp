@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ageing: junctions strengthen as they rest, τ0(t) = τ0 (1 + rate ln(1 + t/onset)), the logarithmic growth of
-// static friction with the time of stationary contact (Dieterich 1972, Rabinowicz 1951). No term of the
-// normal problem; friction reads it where a rest is named.
+// Ageing: junctions strengthen at rest, τ0(t) = τ0 (1 + rate ln(1 + t/onset)) (Dieterich 1972, Rabinowicz
+// 1951). Used by friction only.
 #pragma once
 
 #include "engine/contact/effect.hpp"

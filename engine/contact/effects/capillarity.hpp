@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Capillarity: liquid bridges the gaps lower than a meniscus and pulls with the pressure of Laplace, p = γ/r.
-// Its radius follows from the humidity, r = γ V_m/(R T |ln h|) (Kelvin), its height is 2 r cos θ, its work p
-// times that height. Its one term is an energy of the gap, constant in traction up to the height (ending over
-// half of it to either side, the work unchanged). Liquid is neither conserved nor in the way.
+// Capillarity: liquid fills gaps below the meniscus height and pulls with the Laplace pressure p = γ/r.
+// Kelvin radius r = γ V_m/(R T |ln h|) at humidity h; height 2 r cos θ; work p times height. One energy of
+// the gap: constant traction up to the height (falling over half of it to either side, at equal work). The
+// liquid is not conserved.
 #pragma once
 
 #include "engine/contact/effect.hpp"
 
 namespace asperity {
 
-// Either the pressure is given, or the humidity, which sets the radius.
+// Either the pressure, or the humidity.
 struct CapillarityOptions {
   std::optional<double> pressure{};  // Pa
   std::optional<double> humidity{};  // relative, 0 … 1
@@ -20,7 +20,7 @@ struct CapillarityOptions {
   static const Effect& effect();
 };
 
-// As a term: its work, its height and p = work/height. No term has work 0 at humidity 0 and pressure 0.
+// Traction and range of the term; both 0 without a meniscus.
 struct Meniscus {
   double pressure = 0;  // Pa
   double height = 0;    // m

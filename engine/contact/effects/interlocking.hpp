@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interlocking: the slopes of two rough bodies add to the angle of friction of their junctions. No term of
-// the normal problem, only the direction that friction is asked for along. What the slopes do is in
-// friction/interlocking.hpp.
+// Interlocking: slopes of rough bodies add to the friction angle of junctions (friction/interlocking.hpp).
 #pragma once
 
 #include "engine/contact/effect.hpp"
@@ -9,7 +7,7 @@
 namespace asperity {
 
 struct InterlockingOptions {
-  // rad, counter-clockwise from x seen from above the lower body: the way the upper body is pushed over it.
+  // rad, push of the upper body, counter-clockwise from x seen from above the lower body.
   double direction = 0;
   static const Effect& effect();
 };

@@ -8,7 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
-// A line for each: NAME_effect() is the record in NAME.cpp.
+// NAME_effect() is defined in NAME.cpp.
 // clang-format off
 #define ASPERITY_EFFECTS(effect) \
   effect(plasticity)   \
@@ -29,7 +29,7 @@ ASPERITY_EFFECTS(ASPERITY_DECLARED)
 
 namespace {
 
-// Processes of the experiment that the program leaves out on purpose.
+// Left out on purpose.
 constexpr std::array not_modelled = {
     std::pair<std::string_view, std::string_view>{"oxide", "a brittle film between the metals"},
     std::pair<std::string_view, std::string_view>{"breakage", "asperities that break off"},

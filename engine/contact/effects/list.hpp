@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every physical effect that a scene can name, a line each, and those that the program leaves out on purpose.
-// Whoever reads a scene asks here first, so that an effect which is not computed is refused by name and never
-// silently left out.
+// Every effect of a scene. Effects outside the list are refused by name, never ignored.
 #pragma once
 
 #include <span>
@@ -13,15 +11,14 @@
 
 namespace asperity {
 
-// In the order in which they are planned and reports list them, after the elasticity.
+// In the order of plans and reports, after the elasticity.
 std::span<const Effect* const> known_effects();
 
-// Throws Error{unknown_name} with the nearest name for a name that is not listed, and Error{bad_value} that
-// names the effect for a process that is not modelled. Null for the elasticity, which is no effect beside
-// others.
+// Throws Error{unknown_name} with the nearest known name, {bad_value} for a process not modelled. Null:
+// elasticity.
 const Effect* require_effect(std::string_view name);
 
-// The effects a scene could name that are not in `run`, in their order, the elasticity first.
+// In the order of the list; the elasticity first.
 std::vector<std::string> effects_not_in(std::span<const std::string> run);
 
 }  // namespace asperity

@@ -37,10 +37,10 @@ double hardness_of(const Material* material, const std::optional<double>& given,
 
 std::string share_text(double share) { return format_short(100 * share, 3) + " %"; }
 
-// E_lower/E_upper, by which bodies of one hardness share what yields below their faces.
+// E_lower/E_upper; divides the plastic approach at equal hardness.
 double modulus_ratio_of(const ContactGeometry& geometry, const Plan& plan) {
   const auto* box = std::get_if<BoxOperator>(&plan.elasticity);
-  if (box != nullptr && !std::isfinite(box->stiffness)) return 1;  // rigid but for what yields
+  if (box != nullptr && !std::isfinite(box->stiffness)) return 1;  // rigid
   const auto young = [](const Material* material) {
     return material != nullptr && !material->rigid && material->young ? *material->young : 0.0;
   };
@@ -50,7 +50,6 @@ double modulus_ratio_of(const ContactGeometry& geometry, const Plan& plan) {
   return lower > 0 && upper > 0 && ratio > 0 && std::isfinite(ratio) ? ratio : 1;
 }
 
-// How what yields is shared, and by what where both bodies may yield.
 std::string sharing_text(const PlannedYield& yield) {
   const double share = lower_plastic_share(yield.lower_hardness, yield.upper_hardness, yield.modulus_ratio);
   std::string text = "; the lower body takes " + share_text(share) + " of what yields";
@@ -61,7 +60,7 @@ std::string sharing_text(const PlannedYield& yield) {
   return text;
 }
 
-// Throws Error{bad_state} naming effect and body where a hardness is missing, or where no body can yield.
+// Throws Error{bad_state} naming effect and body if a hardness is missing or no body can yield.
 void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const auto& options = std::any_cast<const PlasticityOptions&>(given);
   PlannedYield yield;
@@ -89,7 +88,7 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
   if (yield.hardens()) {
     const auto bytes = static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double));
     plan.buffers.push_back({"hardness of each body's nodes, and where they meet", 3 * bytes});
-    // Measured on half-spaces: 45 transforms on 256 cells a side, 60 on 512 and 100 on 1024. Boxes have none.
+    // Half-spaces: 45 transforms on 256 cells a side, 60 on 512, 100 on 1024. Boxes: none.
     const double more =
         std::max(1.0, std::sqrt(std::sqrt(static_cast<double>(geometry.grid().nodes())) / 256.0));
     plan.transforms *= more;
@@ -98,7 +97,6 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
   plan.yield = yield;
 }
 
-// Takes what yielded from the bodies, and keeps the hardness it reached where they harden.
 void leave_yielded(const State& state, const Plan& plan, AfterEvent& after) {
   const std::optional<PlasticChange> change = state.plastic_change();
   if (!change) return;

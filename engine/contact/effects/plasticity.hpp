@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plasticity: the pressure is limited by the hardness of the softer body, and what yields stays flattened.
-// Which body gives way, and how a node hardens, is in contact/planned_yield.hpp, which every solver reads.
+// Plasticity: the softer body's hardness limits the pressure; flattening is permanent
+// (contact/planned_yield.hpp).
 #pragma once
 
 #include <limits>
@@ -10,10 +10,10 @@
 namespace asperity {
 
 struct PlasticityOptions {
-  // Pa, of both bodies; by default each body's own. Infinite: never yields.
+  // Pa, both bodies; default: each body's own. Infinite: no yield.
   std::optional<double> hardness;
-  // K_h, Pa/m: a node that yields by w carries its hardness and K_h·w, and is as hard afterwards. Infinite:
-  // none named, the pressure never passes the hardness.
+  // K_h, Pa/m: a node yielding by w carries its hardness + K_h·w, its hardness from then on. Infinite: a
+  // constant cap.
   double hardening = std::numeric_limits<double>::infinity();
   static const Effect& effect();
 };

@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-// 1/G and ν; a rigid body gives way to nothing. Other bodies have both properties: elasticity asked.
+// 1/G and ν; zero for a rigid body. Elasticity has checked the properties.
 struct Shear {
   double compliance = 0, poisson = 0;
 };

@@ -9,7 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
-// A line for each: NAME_model() is the record in its folder.
+// NAME_model() is defined in the model's folder.
 // clang-format off
 #define ASPERITY_ELASTIC_MODELS(model) \
   model(half_space) \

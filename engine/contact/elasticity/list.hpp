@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every model of elasticity that a scene can name, a line each.
+// Every model of elasticity that a scene can name.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace asperity {
 
-// In the order in which they are documented.
+// In the order of the documents.
 std::span<const ElasticModel* const> elastic_models();
 
-// Throws Error{unknown_name} with the nearest name for a name that is not listed.
+// Throws Error{unknown_name} with the nearest known name.
 const ElasticModel& require_elastic_model(std::string_view name);
 
 }  // namespace asperity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processes that mpirun started as a team, by the functions of asperity-mpi.so.
+// Processes started by mpirun, through asperity-mpi.so.
 #pragma once
 
 #include "engine/core/loaded_part.hpp"
@@ -11,7 +11,7 @@ namespace asperity {
 
 class MpiTeam final : public Team {
  public:
-  // After MPI has been started. Throws Error{bad_state} where `part` was built without FFTW's MPI transforms.
+  // Requires a started MPI. Throws Error{bad_state} if `part` lacks FFTW's MPI transforms.
   MpiTeam(const LoadedPart& part, int rank, int size);
 
   std::unique_ptr<SlabFourier> fourier(int nx, int ny) override;

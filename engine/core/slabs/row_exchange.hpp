@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a field in slabs that a process needs and others hold: the ones beyond its rim, or those of a grid
-// that is dealt out in another way. Every process can work out what every other one needs, so nothing is
-// asked for. Costs the rows that change hands, and memory for them twice.
+// Exchange of rows of a field in slabs: beyond the rim, or between differently divided grids. Every process
+// computes the needs of all. Costs the exchanged rows, and twice their memory.
 #pragma once
 
 #include <functional>
@@ -14,14 +13,13 @@ namespace asperity {
 
 class RowExchange {
  public:
-  // The rows that rank r needs, in the order in which they are handed to it; any may come more than once.
+  // Rows for `rank`, in the order of delivery; repetitions allowed.
   using Needs = std::function<std::vector<int>(int rank)>;
 
   // All processes together.
   RowExchange(Team& team, const Slab& from, const Needs& needs);
 
-  // All together. `pack` gives own row j of this process, counted from its first, `place` takes the k-th
-  // needed row. Neither may throw.
+  // All together. `pack` gives own row j, `place` receives the k-th needed row. Neither may throw.
   using Pack = std::function<void(int j, double* to)>;
   using Place = std::function<void(std::size_t k, const double* row)>;
   void run(const Pack& pack, const Place& place);
@@ -31,13 +29,13 @@ class RowExchange {
  private:
   Team& team_;
   Slab from_;
-  std::vector<int> sent_;           // own rows, in the order of the processes that need them
-  std::vector<std::size_t> order_;  // place in `in_` of each needed row
+  std::vector<int> sent_;           // own rows, in the order of the receivers
+  std::vector<std::size_t> order_;  // position of each needed row in `in_`
   std::vector<int> out_counts_, in_counts_;
   Array<double> out_, in_;
 };
 
-// The `depth` rows before a slab, then as many after it, round the rim; none of an empty one.
+// `depth` rows before and after a slab, around the rim; none for an empty slab.
 RowExchange rim_rows(Team& team, const Slab& slab, int depth);
 
 }  // namespace asperity

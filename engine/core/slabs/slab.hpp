@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of a grid that one of several processes holds, as FFTW's MPI transforms deal them out: equal
-// blocks, ⌈ny/K⌉ rows each, the last ones shorter or empty.
+// Rows of a grid on one process, in blocks of ⌈ny/K⌉ as FFTW's MPI transforms; the last ones shorter or
+// empty.
 #pragma once
 
 #include <algorithm>

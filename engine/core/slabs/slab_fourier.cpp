@@ -10,7 +10,6 @@ namespace asperity {
 
 namespace {
 
-// Rows and columns in batches, on this thread.
 class SlabFourierOfOne final : public SlabFourier {
  public:
   SlabFourierOfOne(int nx, int ny)

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The real Fourier transform of a field in slabs, in place in a buffer of its own: each process holds rows of
-// the field before and some of the waves along x, with all those along y, after. Unnormalised both ways. No
-// plan is measured, so the same number of processes gives the same bits on one kind of processor. One process
-// gives the same on all; of several FFTW chooses the operations by the processor, and takes factors from the
-// C library: elsewhere the last bits may differ.
+// Real Fourier transform of a field in slabs, unnormalised, in its own buffer. Each process has rows before,
+// and some waves along x with all waves along y after. No plan is measured: one process gives the same bits
+// everywhere, K processes only on one kind of processor and C library.
 #pragma once
 
 #include <complex>
@@ -22,18 +20,18 @@ class SlabFourier {
   // Row j of this process, nx values.
   double* row(int j) { return buffer_.data() + static_cast<std::ptrdiff_t>(j) * stride_; }
 
-  // All processes together. From rows to waves, and back.
+  // From rows to waves, and back; all processes together.
   virtual void forward() = 0;
   virtual void inverse() = 0;
 
-  // The waves of this process: a = first_wave() … + waves(), b = 0 … ny − 1; b > ny/2 stands for b − ny.
+  // The waves of this process: a = first_wave() … + waves(), b = 0 … ny − 1; b > ny/2 represents b − ny.
   int first_wave() const { return first_wave_; }
   int waves() const { return waves_; }
   std::complex<double>& bin(int a, int b) {
     return reinterpret_cast<std::complex<double>*>(
         buffer_.data())[(a - first_wave_) * step_a_ + static_cast<std::ptrdiff_t>(b) * step_b_];
   }
-  // Along b in steps of step_b, or along a in steps of step_a: the smaller runs faster.
+  // The loop with the smaller memory step is faster.
   bool along_b_is_faster() const { return step_b_ == 1; }
 
  protected:
@@ -42,10 +40,9 @@ class SlabFourier {
   int first_wave_ = 0, waves_ = 0;
 };
 
-// Of a process alone, in batches of lanes: the same bits on every processor.
 std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny);
 
-// Held while plans are made or destroyed: FFTW's planner is not thread-safe.
+// FFTW's planner is not thread-safe: lock while plans are made or destroyed.
 std::unique_lock<std::mutex> lock_fourier_planner();
 
 }  // namespace asperity

@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-// What every sum carries along: whether this process has failed, and why it was asked to stop.
+// Appended to every sum: failure and reason to stop.
 constexpr std::size_t marks = 2;
 constexpr std::size_t text_room = 2000;
 
@@ -52,7 +52,7 @@ Team& Team::alone() {
 
 void Team::reduce(std::span<const double> own, std::size_t sums, std::span<double> total) {
   const std::size_t n = own.size(), stride = n + marks;
-  // Few numbers: no allocation that could fail in one process alone.
+  // No allocation: it could fail in one process alone.
   constexpr std::size_t most = 64, most_together = 16384;
   std::array<double, most> packed{};
   std::array<double, most_together> together;
@@ -110,7 +110,7 @@ void Team::throw_what_happened(const double* happened, std::size_t stride) {
     stop_flag().check();
   }
   if (size_ == 1) throw Error(*own);
-  static Report report;  // of one thread in each process, and never in want of memory
+  static Report report;  // used by one thread of a process; needs no allocation
   report.code = own ? static_cast<int>(own->code()) : 0;
   put(own ? own->sentence() : "", report.sentence);
   put(own ? own->hint() : "", report.hint);

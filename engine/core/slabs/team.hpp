@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processes that share one piece of work on fields in slabs, all of which make the same calls in the same
-// order; or one process alone. No process may wait for one that has failed, so what each does by itself
-// stands inside work(): what it throws there is kept, the others go on, and at the next sum all of them throw
-// the same error. A stop asked for in one process stops all. Sums are added in the order of the processes:
-// the same bits for the same number of them. Called from one thread.
+// Processes working together on fields in slabs, by the same calls in the same order. A local step runs
+// inside work(), which stores its error; at the next sum every process throws this error, so no process
+// waits for a failed one. A stop in one process stops all. Sums are added in the order of the processes:
+// equal bits for equal numbers of processes. One thread.
 #pragma once
 
 #include <array>
@@ -22,14 +21,13 @@ namespace asperity {
 class Team {
  public:
   virtual ~Team() = default;
-  // This process by itself.
   static Team& alone();
 
   int rank() const { return rank_; }
   int size() const { return size_; }
   Slab slab(int nx, int ny) const { return {nx, ny, rank_, size_}; }
 
-  // What this process does by itself; nothing once it has failed.
+  // Nothing after a failure.
   template <class Body>
   void work(Body&& body) {
     if (failure_) return;
@@ -42,8 +40,8 @@ class Team {
     }
   }
 
-  // All together: what each offers, `sums` numbers that are added and then minima of which the least counts.
-  // If one process failed, every process throws its error.
+  // All together: adds the first `sums` numbers, takes the minimum of the others. Every process throws a
+  // failed one's error.
   template <std::size_t sums, std::size_t minima = 0>
   std::array<double, sums + minima> reduce(const std::array<double, sums + minima>& own) {
     constexpr std::size_t n = sums + minima;
@@ -52,16 +50,16 @@ class Team {
     return total;
   }
   void reduce(std::span<const double> own, std::size_t sums, std::span<double> total);
-  // The numbers of each process one after the other; the same count in all.
+  // In the order of the processes; the same count in each.
   Array<double> gather(std::span<const double> own);
-  // The bytes that the first process gives, in all of them.
+  // Broadcasts the first process's text.
   std::string text_of_first(const std::string& own);
-  // If work() failed in one process, every process throws its error.
+  // Every process throws a failed one's error.
   void agree() { reduce({}, 0, {}); }
 
-  // The transform of this grid, whose buffer is made.
+  // With its buffer.
   virtual std::unique_ptr<SlabFourier> fourier(int nx, int ny) = 0;
-  // To and from each process its count of doubles. No agreement.
+  // Counts of doubles per process. No agreement.
   virtual void exchange(const double* out, const int* out_counts, double* in, const int* in_counts) = 0;
 
  protected:

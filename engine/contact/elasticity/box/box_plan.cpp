@@ -18,7 +18,6 @@ namespace asperity {
 
 namespace {
 
-// What every plan of elements has: the operator, and the heights sorted.
 void plan_sorting(const BoxOperator& box, const ContactGeometry& geometry, Plan& plan) {
   const auto nodes = static_cast<std::size_t>(geometry.facing());
   constexpr double seconds_per_node = 4e-8;  // of sorting, measured on one core
@@ -39,7 +38,7 @@ void plan_box(const std::any& given, const ContactGeometry& geometry, Plan& plan
   if (options.stiffness) {
     box.stiffness = *options.stiffness;
     origin = "as given";
-    // A plane of heights has no peak-to-valley: a cell is the only length left.
+    // With equal heights a cell is the only length.
     const Grid& grid = geometry.grid();
     box.reference_pressure = box.stiffness * (height > 0 ? height : std::min(grid.hx(), grid.hy()));
   } else {
@@ -72,8 +71,7 @@ void plan_rigid(const std::any&, const ContactGeometry& geometry, Plan& plan) {
   plan_sorting(box, geometry, plan);
 }
 
-// What yielding adds once the plan says whether anything does. Throws Error{bad_state} for rigid bodies that
-// cannot yield: nothing would carry a load.
+// Throws Error{bad_state} for rigid bodies that cannot yield: nothing would carry a load.
 void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
   const auto& box = std::get<BoxOperator>(plan.elasticity);
   if (!plan.yield || !plan.yield->limits()) {
@@ -90,7 +88,7 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
   const auto fields = [&](int count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   if (plan.yield->hardens())
     plan.buffers.push_back({"elements of bodies that have hardened, in order", fields(3)});
-  else  // what yields takes the room that sorting has left
+  else  // yielding reuses the room of sorting
     plan.buffers.push_back({"bodies as they have yielded", fields(geometry.upper_is_flat() ? 1 : 2), false});
 }
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box elements, independent of each other over the nodes: pressure = stiffness · shortening; and rigid
-// bodies, which give way only by yielding. What they add to a plan: their stiffness with where it comes from,
-// how two bodies share the shortening, and the sorted heights.
+// Plan of box elements (pressure = stiffness · shortening, node by node) and of rigid bodies, which deform
+// only by yielding. Shares of the shortening: lower_elastic_share().
 //
-// stiffness: as given, or E*/(peak-to-valley of the combined heights as placed); then both bodies need
-// `young` and `poisson` (or are rigid), and the combined heights must not all be equal.
-// lower_share: a rigid body takes no shortening; two elastic bodies share it as their compliances
-// (1−ν²)/E; where the materials do not say, a flat takes none and two rough bodies take half each.
+// stiffness: as given, or E*/(peak-to-valley of the combined heights as placed), which needs `young` and
+// `poisson` of every body that is not rigid, and unequal heights.
 #pragma once
 
 #include "engine/contact/elastic_model.hpp"
@@ -14,12 +11,12 @@
 namespace asperity {
 
 struct BoxOptions {
-  // Pa/m; by default E*/(peak-to-valley of the combined heights as placed).
+  // Pa/m; default as above.
   std::optional<double> stiffness;
   static const ElasticModel& model();
 };
 
-// No elastic deformation: a node gives way only by yielding, so the scene names what limits the pressure.
+// The scene must name an effect to limit the pressure.
 struct RigidOptions {
   static const ElasticModel& model();
 };

@@ -75,10 +75,10 @@ class BoxSolver::UnderLoad final : public Solution {
   Field upper_under_load() const override;
 
  private:
-  // Of the nodes that face the other body; mean pressures are over all nodes of the tile.
+  // Drops of facing nodes only.
   const SortedDrops& drops() const { return ready_->drops; }
   double nodes() const { return static_cast<double>(geometry().grid().nodes()); }
-  // None where nothing faces the ground, of which the height is NaN.
+  // 0 at NaN heights (no counterpart).
   double shortening(double h) const { return std::max(0.0, at_.approach - (drops().peak() - h)); }
   template <class Function>
   Field from_heights(Function function) const {
@@ -95,7 +95,7 @@ class BoxSolver::UnderLoad final : public Solution {
 Certificate BoxSolver::UnderLoad::certificate() const {
   Certificate result;
   if (touched_ == 0) {
-    // Nothing touches: right for no load, and the whole load is missing otherwise.
+    // The whole load is missing.
     result.load = at_.pressure > 0 ? 1 : 0;
     return result;
   }
@@ -116,7 +116,7 @@ Certificate BoxSolver::UnderLoad::certificate() const {
   Accumulator apart;
   for (std::size_t i = 0; i < touched_; ++i) apart.add(pressure_at(i) * (gap_at(i) - least_gap));
 
-  // Heights that are all equal have no rms; the approach is then the only length.
+  // Equal heights have no rms.
   const double length = drops().rms() > 0 ? drops().rms() : at_.approach;
   const double mean = total.value() / nodes();
   result.penetration = std::max(0.0, -least_gap) / length;
@@ -126,8 +126,8 @@ Certificate BoxSolver::UnderLoad::certificate() const {
   return result;
 }
 
-// Every quantity is a monotone function of the approach, and the load fixes that but for rounding: the bounds
-// are what they are at both ends of it.
+// Every quantity is monotone in the approach: the bounds are the values at both ends of its rounding
+// interval.
 SolutionError BoxSolver::UnderLoad::error() const {
   SolutionError error{.load = 0.0};
   if (!(at_.approach > 0)) return error;
@@ -170,7 +170,7 @@ PressureSplit BoxSolver::UnderLoad::split(double threshold) const {
     result.sum_below = k * drops().shortening(at_.approach);
     return result;
   }
-  // Summed over the rest itself: the difference of two large sums would lose a small remainder.
+  // Summed directly: a difference of two large sums would lose a small rest.
   Accumulator sum;
   for (auto drop = first_below; drop != touched.end(); ++drop) sum.add(pressure(*drop));
   result.sum_below = sum.value();
@@ -181,7 +181,7 @@ Field BoxSolver::UnderLoad::lower_under_load() const {
   Field z = geometry().lower().heights();
   const double share = ready_->box.lower_share;
   if (share == 1 && geometry().upper_is_flat()) {
-    // Cut by the plane itself, so that what touches is flat to the last bit.
+    // Cut by the plane itself: touching nodes are exactly flat.
     const double plane = drops().peak() - at_.approach;
     for (double& height : z.values()) height = std::min(height, plane);
     return z;
@@ -240,7 +240,7 @@ BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
     throw Error(ErrorCode::bad_value,
                 asked + ", a pressure under 1e-280 of the modulus: too small to mean anything",
                 "give zero for no load, or check its unit");
-  // The energy holds the square of the approach: it is the first to overflow.
+  // The squared approach in the energy overflows first.
   const double square = result.approach * result.approach;
   if (!std::isfinite(square * nodes) || !std::isfinite(k * square * tile) ||
       !std::isfinite(k * result.approach) || !std::isfinite(result.load) || !std::isfinite(result.pressure))
@@ -257,9 +257,8 @@ State BoxSolver::press(const PressRequest& request, Monitor&) const {
   auto solution = std::make_shared<const UnderLoad>(ready_, load);
   const State state(solution, plan_, elasticity_alone(scope.so_far()));
 
-  // The closed form is exact but for rounding, whose size is known beforehand: a sum of shortenings
-  // cannot be resolved below an ulp of the depth on every node touched, nor a gap below an ulp of the
-  // depth. Only where that bound is no comfort is the certificate worked out at once.
+  // Rounding leaves an ulp of the depth in each gap and at each touched node of the sum. The certificate is
+  // computed here only if this bound exceeds the tolerance.
   const SortedDrops& drops = ready_->drops;
   const double length = drops.rms() > 0 ? drops.rms() : load.approach;
   const double bound =

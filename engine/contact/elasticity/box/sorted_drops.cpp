@@ -16,7 +16,7 @@
 namespace asperity {
 
 void sort_ascending(Array<double>& values) {
-  constexpr std::size_t small = 2048;  // below this the passes cost more than comparing
+  constexpr std::size_t small = 2048;  // below, comparing is faster
   if (values.size() < small) {
     std::sort(values.begin(), values.end());
     return;
@@ -36,7 +36,7 @@ void sort_ascending(Array<double>& values) {
   for (int pass = 0; pass < passes; ++pass) {
     stop_flag().check();
     auto& next = counts[static_cast<std::size_t>(pass)];
-    if (next[digit(values.front(), pass)] == values.size()) continue;  // one digit for all
+    if (next[digit(values.front(), pass)] == values.size()) continue;
     std::size_t start = 0;
     for (std::size_t& bucket : next) {
       const std::size_t count = bucket;
@@ -109,7 +109,7 @@ void SortedDrops::build_checkpoints() {
 void SortedDrops::find_rms() {
   const std::size_t n = drops_.size();
   const double mean_drop = checkpoints_.front().remaining_gap / static_cast<double>(n);
-  // Divided by the greatest drop, so that no square over- or underflows.
+  // Against over- and underflow of squares.
   const double scale = peak_to_valley();
   if (scale == 0) return;
   Accumulator squares;
@@ -162,7 +162,7 @@ double SortedDrops::remaining_gap(double d) const {
 
 double SortedDrops::depth(double total) const {
   if (total <= 0) return 0;
-  // The last block whose first drop is passed before the total is reached; block 0 always is.
+  // The last block whose first drop is passed before `total` is reached, or block 0.
   const auto above = std::lower_bound(checkpoints_.begin() + 1, checkpoints_.end(), total,
                                       [](const Checkpoint& c, double w) { return c.shortening < w; });
   const auto b = static_cast<std::size_t>(above - checkpoints_.begin()) - 1;

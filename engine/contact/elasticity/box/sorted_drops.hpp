@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Heights sorted once, so that any plane pressed into them is answered in O(log n). A drop is
-// g = max h − h, ascending. A plane that has come down by d shortens box i by max(0, d − g_i); with
-// n boxes touched the total shortening W(d) = Σ (d − g_i) is linear between neighbouring drops, so
-// its inverse is closed form: d = g_n + (W − W(g_n))/n. Sums are kept per block as sums of
-// non-negative terms, so nothing cancels and W and d hold to a few ulp. Knows no pressure and no unit.
+// Sorted heights: a query about a plane costs O(log n). A drop is g = max h − h, ascending; a plane at depth
+// d shortens box i by max(0, d − g_i). With n boxes touched, the total shortening W(d) = Σ (d − g_i) is
+// linear between neighbouring drops, with the inverse d = g_n + (W − W(g_n))/n. Block sums have only
+// non-negative terms: W and d are exact to a few ulp.
 #pragma once
 
 #include <cmath>
@@ -15,9 +14,9 @@
 
 namespace asperity {
 
-// A running sum kept as an unevaluated pair of doubles: each addition is exact to about 2⁻¹⁰⁶ of the
-// sum. Source: Knuth's TwoSum and Dekker (1971), "A floating-point technique for extending the
-// available precision". Scaling every term by a power of two scales the sum bit for bit.
+// A sum as an unevaluated pair of doubles, exact to about 2⁻¹⁰⁶ per addition (Knuth's TwoSum; Dekker 1971,
+// "A floating-point technique for extending the available precision"). Powers of two scale the sum bit for
+// bit.
 class Accumulator {
  public:
   explicit Accumulator(double start = 0) : high_(start) {}
@@ -28,7 +27,7 @@ class Accumulator {
     low_ += (high_ - (sum - part)) + (x - part);
     renormalise(sum);
   }
-  // Adds a·b without rounding the product.
+  // The product is not rounded.
   void add_product(double a, double b) {
     const double product = a * b;
     add(product);
@@ -53,17 +52,14 @@ class Accumulator {
   double low_ = 0;
 };
 
-// Sorting many non-negative doubles. Their bit patterns sort as integers, so a radix sort on eleven
-// bits at a time (M. Herf, "Radix tricks") does it in at most six passes over memory. Sorted doubles
-// without NaN are one sequence whatever the method, so the choice of method never shows in a result.
-// Ascending, in place. Every value must be >= +0.0 (no -0.0) and not NaN. O(n); a second array of the
-// same length is held while it runs. Looks at the stop flag between passes.
+// Sorts values >= +0.0 (no -0.0), not NaN, in place. O(n); needs a second array. Checks the stop flag. Radix
+// sort of the bit patterns, which order like the doubles (M. Herf, "Radix tricks").
 void sort_ascending(Array<double>& values);
 
 class SortedDrops {
  public:
-  // At least one finite height with a finite range. O(n); holds n doubles and, while sorting, n more.
-  // Throws Error{bad_value} when the sum of their squared drops exceeds a double.
+  // At least one height, finite range. O(n); 2 n doubles while sorting, then n. Throws Error{bad_value} if
+  // the sum of squared drops overflows.
   explicit SortedDrops(std::span<const double> heights);
 
   std::size_t size() const { return drops_.size(); }
@@ -72,20 +68,19 @@ class SortedDrops {
   double peak_to_valley() const { return drops_.back(); }  // max h − min h
   double rms() const { return rms_; }                      // of h about its mean
 
-  // For a plane at depth d >= 0 below the peak; each O(log n).
+  // For depth d >= 0 below the peak; each O(log n).
   std::size_t touched(double d) const;        // boxes with g < d
   double shortening(double d) const;          // Σ max(0, d − g)
   double squared_shortening(double d) const;  // Σ max(0, d − g)²
   double remaining_gap(double d) const;       // Σ max(0, g − d)
-  // The depth whose total shortening is `total` >= 0; 0 for 0. O(log n).
+  // Inverse of `shortening` for `total` >= 0; 0 for 0. O(log n).
   double depth(double total) const;
 
-  // Bytes held for a given number of heights, and for a moment while sorting.
   static std::int64_t bytes(std::size_t heights);
   static std::int64_t bytes_while_sorting(std::size_t heights);
 
  private:
-  // Sums over everything before (or from) the first drop of a block, for a plane at that drop.
+  // For a plane at the first drop of a block.
   struct Checkpoint {
     double shortening = 0;          // Σ_{i<s} (g_s − g_i)
     double squared_shortening = 0;  // Σ_{i<s} (g_s − g_i)²

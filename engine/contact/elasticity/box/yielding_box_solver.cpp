@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box elements that yield, under a plane: box_solver.hpp says what is solved, yielding_elements.hpp how.
+// Solver of yielding box elements.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,9 +26,9 @@ struct YieldingBoxSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   BoxOperator box;
   PlannedYield yield;
-  MetMemory hardness;  // empty unless events have left fields of it
+  MetMemory hardness;  // empty before the first event
   SortedDrops drops;
-  YieldingElements alike;  // of one yield pressure
+  YieldingElements alike;  // with one yield pressure
 
   Ready(std::shared_ptr<const ContactGeometry> g, const BoxOperator& b, const PlannedYield& y)
       : geometry(std::move(g)),
@@ -56,7 +56,7 @@ struct YieldingBoxSolver::Ready {
 
 class YieldingBoxSolver::UnderLoad final : public Solution {
  public:
-  // `law` the yield pressures that held, `factor` the softening by creep.
+  // `law`: yield pressures of this press; `factor`: softening by creep.
   UnderLoad(std::shared_ptr<const Ready> ready, std::shared_ptr<const YieldingElements> elements,
             YieldLaw law, const RestingPlane& plane, double pressure, double load, double factor)
       : ready_(std::move(ready)),
@@ -131,7 +131,7 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
  private:
   struct Element {
     double depth, yield, pressure;
-    double elastic, plastic;  // parts of its shortening, m
+    double elastic, plastic;  // parts of the shortening, m
   };
   static Element element(const ElementLaw& law, const RestingPlane& plane, double drop, double yield) {
     const double pressure = plane.pressure(law, drop, yield);
@@ -140,7 +140,7 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
   }
 
   const SortedDrops& drops() const { return ready_->drops; }
-  // Of the tile, over which mean pressures are; elements are those that face the other body.
+  // Nodes of the tile; elements exist only at facing nodes.
   double nodes() const { return static_cast<double>(geometry().grid().nodes()); }
   double mean_over_elements() const { return pressure_ / geometry().overlap_fraction(); }
   double cell() const { return geometry().grid().cell_area(); }
@@ -181,7 +181,7 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
   double greatest(Function function) const {
     return greatest_at(plane_, function);
   }
-  // In the frame of the lower body; nothing happens where nothing faces it, of which the height is NaN.
+  // In the frame of the lower body; zero at NaN heights (no counterpart).
   template <class Function>
   Field field(Function function) const {
     Field result = geometry().combined();
@@ -196,7 +196,7 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
   YieldLaw law_;
   RestingPlane plane_;
   double pressure_, load_, factor_;
-  bool fits_;  // the bodies have carried this load as they lie
+  bool fits_;  // this load was carried before, as placed
   std::int64_t contacts_, yielded_;
   double peak_pressure_;
 };
@@ -206,7 +206,7 @@ std::optional<PlasticChange> YieldingBoxSolver::UnderLoad::plastic_change() cons
   PlasticChange change{field([](const Element& e) { return e.plastic; }), {}, carried()};
   if (range(change.approach.values()).max == 0) return {};
   if (law_.hardens())
-    // At the reference dwell, so that the same press again finds nodes exactly as hard as it left them.
+    // At the reference dwell: the same press again finds exactly this hardness.
     change.hardness = field([&](const Element& e) { return e.plastic > 0 ? e.pressure / factor_ : 0.0; });
   return change;
 }
@@ -214,11 +214,11 @@ std::optional<PlasticChange> YieldingBoxSolver::UnderLoad::plastic_change() cons
 Certificate YieldingBoxSolver::UnderLoad::certificate() const {
   Certificate result;
   if (contacts_ == 0) {
-    // Nothing touches: right for no load, and the whole load is missing otherwise.
+    // The whole load is missing.
     result.load = pressure_ > 0 ? 1 : 0;
     return result;
   }
-  // Heights that are all equal have no rms; the approach is then the only length.
+  // Equal heights have no rms.
   const double length = drops().rms() > 0 ? drops().rms() : std::max(approach(), drops().peak_to_valley());
   const double total = sum([](const Element& e) { return e.pressure; });
   result.load = std::abs(total / nodes() - pressure_) / pressure_;
@@ -226,7 +226,6 @@ Certificate YieldingBoxSolver::UnderLoad::certificate() const {
   if (!law_.hardens())
     result.cap = greatest([](const Element& e) { return std::max(0.0, e.pressure - e.yield) / e.yield; });
   if (!(length > 0)) return result;
-  // What is left between the plane and an element shortened by both its parts.
   const auto gap = [](const Element& e) { return (e.elastic + e.plastic) - e.depth; };
   result.penetration = greatest([&](const Element& e) { return -gap(e); }) / length;
   result.complementarity =
@@ -234,8 +233,8 @@ Certificate YieldingBoxSolver::UnderLoad::certificate() const {
   return result;
 }
 
-// Every quantity grows or falls with the depth alone: the bounds are what they are at two planes of which the
-// one surely carries too little and the other too much.
+// Every quantity is monotone in the depth: the bounds are the values at two planes with certainly too little
+// and too much load.
 SolutionError YieldingBoxSolver::UnderLoad::error() const {
   SolutionError error{.load = 0.0};
   if (contacts_ == 0) return error;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t elements_a_block = 256;
 
-// count · depth − Σ drops, with all the digits that the sums have.
+// count · depth − Σ drops, without loss of digits.
 Accumulator depth_below(double depth, std::size_t count, const Accumulator& drops) {
   Accumulator sum;
   sum.add_product(static_cast<double>(count), depth);
@@ -66,8 +66,7 @@ YieldingElements::YieldingElements(const ElementLaw& law, std::span<const double
   const auto begins = [&](const std::pair<double, double>& e) {
     return e.first + law_.depth_at_yield(e.second);
   };
-  // By the depth at which an element begins to yield; by its own numbers where that is the same, so that the
-  // order in which nodes came never shows.
+  // By depth of first yield; ties by drop and yield pressure, so the order of the nodes has no effect.
   std::sort(elements.begin(), elements.end(), [&](const auto& a, const auto& b) {
     const double first = begins(a), second = begins(b);
     return first != second ? first < second : a < b;
@@ -94,7 +93,7 @@ Accumulator YieldingElements::yields_of_first(std::size_t count) const {
 }
 
 double YieldingElements::mean_pressure(double depth) const {
-  // Those that yield are the first of this order; those touched are the first by drop.
+  // Yielding elements come first in this order.
   std::size_t first = 0;
   for (std::size_t step = std::bit_floor(size()); step > 0; step /= 2)
     if (const std::size_t k = first + step; k <= size() && law_.yields(depth - drop(k - 1), yield(k - 1)))
@@ -130,12 +129,12 @@ RestingPlane YieldingElements::plane_under(double mean_pressure) const {
     const double below = this->mean_pressure(low), above = this->mean_pressure(high);
     return {low, high, above > below ? std::clamp((mean_pressure - below) / (above - below), 0.0, 1.0) : 1.0};
   };
-  // The highest of rigid elements is touched at no depth at all.
+  // At depth 0 the highest rigid element is already touched.
   constexpr double nothing = -std::numeric_limits<double>::denorm_min();
   if (this->mean_pressure(0) >= mean_pressure) return between(nothing, 0);
 
-  // A depth at which all yield and carry enough. Halved as numbers, so that all lengths may be rescaled by
-  // powers of two.
+  // Bisects between 0 and a depth at which all elements yield and carry enough. Values are bisected, not
+  // bits: a power of two in the lengths changes no digit.
   double low = 0, high = last_to_yield_;
   if (const double slope = law_.slope_past_yield(); slope > 0) high += mean_pressure / slope;
   high = std::max(high, std::numeric_limits<double>::min());

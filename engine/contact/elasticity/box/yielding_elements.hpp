@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements that may yield, sorted, and the plane that rests on them under a mean pressure. With drops g_i
-// below the highest and yield pressures Y_i, the mean pressure at depth d is a sum over those touched
-// (g_i < d) and those past their yield (g_i + Y_i/k < d): both are first parts of a sorted sequence, whose
-// sums are kept as pairs of doubles, so that a difference of two of them keeps its digits. The mean pressure
-// never falls with d; halving finds the two neighbouring doubles between which it passes what is asked, and
-// the rest is made up by mixing the pressures at the two. Rigid elements, whose pressure jumps, need nothing
-// else. The order of the nodes shows in no bit.
+// Sorted elements that may yield, under a plane at a mean pressure. With drops g_i below the highest and
+// yield pressures Y_i, the mean pressure at depth d sums touched elements (g_i < d) and yielding elements
+// (g_i + Y_i/k < d): leading parts of sorted sequences with double-double prefix sums. Bisection finds the
+// two neighbouring depths around the requested pressure; mixing their pressures gives it exactly, also for
+// rigid elements, whose pressure jumps. No bit depends on the order of the nodes.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +17,14 @@
 
 namespace asperity {
 
-// The pressure that one element carries at a depth, where it may yield: p = k δ up to its yield pressure Y,
-// then Y itself (perfectly plastic) or Y + (δ − Y/k)/(1/k + 1/K_h), the two springs one after the other. A
-// rigid element carries Y as soon as it is touched, then Y + K_h δ. Never falls with the depth.
+// p = k δ up to the yield pressure Y, then Y (perfectly plastic) or Y + (δ − Y/k)/(1/k + 1/K_h), two springs
+// in series. Rigid: Y at first touch, then Y + K_h δ. Never falls with the depth.
 struct ElementLaw {
   double stiffness = 0;  // k, Pa/m; infinite: rigid
   double hardening = 0;  // K_h, Pa/m; 0: perfectly plastic
 
   bool rigid() const { return !std::isfinite(stiffness); }
-  double depth_at_yield(double yield) const { return yield / stiffness; }  // 0 of a rigid one
+  double depth_at_yield(double yield) const { return yield / stiffness; }  // 0 if rigid
   // Pa/m, past the yield pressure.
   double slope_past_yield() const { return hardening == 0 ? 0 : 1 / (1 / stiffness + 1 / hardening); }
 
@@ -38,8 +35,7 @@ struct ElementLaw {
     if (yields(depth, yield)) return yield + slope_past_yield() * (depth - depth_at_yield(yield));
     return std::min(stiffness * depth, yield);
   }
-  // What of the shortening stays. From the depth and not from the pressure, in which a weak hardening leaves
-  // few digits of it.
+  // From the depth: with weak hardening the pressure has too few digits.
   double plastic_part(double depth, double yield) const {
     if (!yields(depth, yield)) return 0;
     const double past = depth - depth_at_yield(yield);
@@ -47,7 +43,7 @@ struct ElementLaw {
   }
 };
 
-// A plane between two depths: pressures are those at `low`, and `share` of what they grow by up to `high`.
+// Pressures are those at `low` plus `share` of the increase up to `high`.
 struct RestingPlane {
   double low = 0, high = 0;  // m; the same, or neighbouring doubles
   double share = 1;
@@ -71,28 +67,28 @@ struct RestingPlane {
 
 class YieldingElements {
  public:
-  // One yield pressure for all; `sorted` drops stay with the caller for as long as this lives.
+  // `sorted` drops must outlive this object.
   YieldingElements(const ElementLaw& law, std::span<const double> sorted, double yield);
-  // Each with its own; copied. O(n log n).
+  // Copies drops and yields. O(n log n).
   YieldingElements(const ElementLaw& law, std::span<const double> drops, std::span<const double> yields);
   YieldingElements(const YieldingElements&) = delete;
   YieldingElements& operator=(const YieldingElements&) = delete;
-  // The same drops with another yield pressure, of elements that have one for all. O(n/256).
+  // The same drops, another common yield pressure. O(n/256).
   YieldingElements(const YieldingElements& others, double yield);
 
   const ElementLaw& law() const { return law_; }
   std::size_t size() const { return drops_.size(); }
-  double drop(std::size_t k) const { return drops_[k]; }  // in this order
+  double drop(std::size_t k) const { return drops_[k]; }
   double yield(std::size_t k) const { return yields_.empty() ? one_yield_ : yields_[k]; }
 
-  // Pa, at a depth. O(log n).
+  // Pa. O(log n).
   double mean_pressure(double depth) const;
-  // Pa; infinite where the elements harden. A mean pressure as great has no plane.
+  // Pa, not reached by any plane; infinite with hardening.
   double greatest_mean_pressure() const;
-  // The plane under a mean pressure above zero and below the greatest. O(log n).
+  // For a mean pressure above zero and below the greatest. O(log n).
   RestingPlane plane_under(double mean_pressure) const;
 
-  // Σ term(drop, yield), to about a rounding of the terms.
+  // To about a rounding of the terms.
   template <class Term>
   double sum(Term term) const {
     Accumulator total;
@@ -100,11 +96,11 @@ class YieldingElements {
     return total.value();
   }
 
-  // Bytes kept beside the sorted drops.
+  // Besides the sorted drops.
   static std::int64_t bytes(std::size_t elements);
 
  private:
-  // Sums of the first so many of a sequence.
+  // Prefix sums of a sequence.
   class FirstSums {
    public:
     void build(std::span<const double> values);
@@ -117,8 +113,8 @@ class YieldingElements {
 
   ElementLaw law_;
   double one_yield_ = 0;
-  double last_to_yield_ = 0;  // the depth at which all do
-  // In order of the drops; with yields of their own in order of the depth at which each begins to yield.
+  double last_to_yield_ = 0;  // depth at which all yield
+  // Sorted by drop; with individual yield pressures, by the depth at which each element begins to yield.
   std::span<const double> drops_;
   std::span<const double> yields_;
   Array<double> own_drops_, own_yields_, by_drop_;

@@ -15,10 +15,10 @@ namespace asperity {
 
 namespace {
 
-// From here on the share is 1 to the last bit: what it lacks is y² exp(−y).
+// From this y on the share is 1 to rounding: the difference is y² exp(−y).
 constexpr double deep = 60;
 
-// sinh y − y, of y up to 1: its power series, whose next term is below 1e-17 of the first.
+// sinh y − y for y <= 1 by its power series; the next term is below 1e-17 of the first.
 double sinh_less_argument(double y) {
   const double z = y * y;
   double sum = 1;
@@ -26,9 +26,9 @@ double sinh_less_argument(double y) {
   return y * z / 6 * sum;
 }
 
-// Numerator and denominator times 2 exp(−y), y = 2x: no term overflows. Terms of unlike sign meet in the
-// numerator alone, where a long wave on a nearly incompressible layer leaves little of them; (a − 1) sinh y +
-// (sinh y − y) has none.
+// Numerator and denominator times 2 exp(−y), y = 2x: no term overflows. Only the numerator has terms of
+// unlike sign, which cancel for long waves on a nearly incompressible layer; (a − 1) sinh y + (sinh y − y)
+// avoids this.
 double bonded_share(double y, double poisson) {
   const double more = 2 * (1 - 2 * poisson), a = 1 + more;
   const double fall = elementary::exp(-y), missing = -elementary::expm1(-2 * y);  // 1 − exp(−2y)
@@ -38,7 +38,7 @@ double bonded_share(double y, double poisson) {
   return numerator / denominator;
 }
 
-// 2 sinh² x/(sinh 2x + 2x), times 2 exp(−2x) above and below: all terms are positive.
+// 2 sinh² x/(sinh 2x + 2x), both parts times 2 exp(−2x): all terms are positive.
 double frictionless_share(double x) {
   const double missing = -elementary::expm1(-2 * x);
   return missing * (missing / (-elementary::expm1(-4 * x) + 4 * x * elementary::exp(-2 * x)));
@@ -73,8 +73,7 @@ std::string sinking_under_pressure(double metres_per_pascal) {
   return format_quantity(metres_per_pascal * 1e6, dimension::length) + " a MPa";
 }
 
-// Throws Error{bad_value} for a boundary that is not periodic, and for a lower body that is rigid or an upper
-// one that is not.
+// Throws Error{bad_value} unless the boundary is periodic, the lower body elastic, the upper body rigid.
 void check_layer(const std::any&, const Scene& scene) {
   if (scene.boundary != Boundary::periodic)
     throw Error(ErrorCode::bad_value,
@@ -93,7 +92,6 @@ void check_layer(const std::any&, const Scene& scene) {
         "press with lab.rigid, or give the upper surface material=lab.rigid");
 }
 
-// As plan_half_space, with the layer in the operator and in the sentence.
 void plan_layer(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const auto& options = std::any_cast<const LayerOptions&>(given);
   plan_half_space(geometry, plan);
@@ -108,7 +106,7 @@ void plan_layer(const std::any& given, const ContactGeometry& geometry, Plan& pl
       format_quantity(half_space.modulus, dimension::pressure) +
       ", Fourier multiplier: a share of 2/(E*|q|); a uniform pressure compresses it by " +
       (uniform > 0 ? sinking_under_pressure(uniform) : "nothing, for its volume stays");
-  // On a thin layer the preconditioner is a transform of the grid as it is, or of one not much coarser.
+  // A thin layer coarsens the grid of the preconditioner little or not at all.
   const Grid& grid = geometry.grid();
   const double aspect = grid.hy() / grid.hx();
   const auto preconditioner = [&](const ComplianceMultiplier& multiplier) {

@@ -15,14 +15,12 @@ namespace asperity {
 namespace {
 using namespace descent_rules;
 
-constexpr int steps_a_slab_pass =
-    2;  // applications of K, as of a dear pass in half_space/active_set_descent.cpp
+constexpr int steps_a_slab_pass = 2;  // applications of K
 
-// Spectral projected gradients, as in half_space/descent.hpp. From fields.pressure, feasible. Whether it
-// converged within the applications given.
+// From fields.pressure, feasible. Returns whether it converged.
 bool slab_gradient(SlabLevel& level, SlabFields& f, double tolerance, int most_applications) {
   constexpr std::size_t window = 8;
-  constexpr int renewals = 20;  // steps between applications that remove the drift of the gap
+  constexpr int renewals = 20;  // steps between recomputations of the gap (drift)
   const double upper = level.cap;
   const int last = level.applications + most_applications;
   double *const p = f.pressure.data(), *const g = f.gap.data();
@@ -105,13 +103,13 @@ class SlabDescent {
   double free_count_ = 0;
   bool changed_ = true;
   double mean_gap_ = 0;  // of the free nodes
-  double surplus_ = 0;   // of load in what the preconditioner gave, a free node
+  double surplus_ = 0;   // load of the preconditioned residual per free node
   bool have_direction_ = false;
   double direction_rz_ = 0;
 };
 
-// target = p clipped, the interior shifted to the load; where it cannot carry it all nodes move, in the order
-// of their gaps. Spoils the marks of the pass before.
+// target = p clipped and shifted to the load on the interior; if the interior cannot carry the load, all
+// nodes move in the order of their gaps. Overwrites old_free.
 void SlabDescent::project(const SlabQuality& at, Array<double>& target) {
   const double upper = level_.cap;
   level_.each([=, p = f_.pressure.data(), to = target.data(), marks = f_.old_free.data()](std::size_t k) {
@@ -124,7 +122,7 @@ void SlabDescent::project(const SlabQuality& at, Array<double>& target) {
   project_slabs_to_load(level_, target, nullptr, target);
 }
 
-// Two Newton steps of that shift from none; nothing where what it misses of the load is not small.
+// Interior shift to the load by two Newton steps; none if the first misses the load by over 1 %.
 std::optional<double> SlabDescent::shift_to_load(const SlabQuality& at) {
   const double load = level_.total_load(), upper = level_.cap;
   if (at.interior == 0) return {};
@@ -140,8 +138,7 @@ std::optional<double> SlabDescent::shift_to_load(const SlabQuality& at) {
   return first - (found[0] - load) / found[1];
 }
 
-// Those strictly between the bounds, and those at a bound whose gap says they should leave it; a node clipped
-// in this pass may not come back on its stale gap.
+// Nodes clipped in this pass may not leave the bound: their gaps are stale.
 void SlabDescent::mark_free(const SlabQuality& at) {
   const double upper = level_.cap, offset = at.interior_gap;
   const auto sums = level_.over<3>([=, p = f_.pressure.data(), g = f_.gap.data(), before = f_.old_free.data(),
@@ -163,7 +160,6 @@ void SlabDescent::mark_free(const SlabQuality& at) {
   if (changed_) preconditioner_.set_free(f_.free);
 }
 
-// The few nodes nearest to leaving their bound.
 void SlabDescent::free_the_nearest(double offset) {
   constexpr std::size_t few = 9;
   std::array<double, few> least;
@@ -195,7 +191,7 @@ void SlabDescent::balance() {
   mean_gap_ = sum[0] / free_count_;
 }
 
-// r·(M r), r what the gaps of the free nodes lack of their mean.
+// Returns r·(M r) for r = mean gap − gap.
 double SlabDescent::precondition() {
   preconditioner_.apply([g = f_.gap.data(), mean = mean_gap_](std::size_t k) { return mean - g[k]; });
   const auto sums = level_.over<2>([z = preconditioner_.values(), g = f_.gap.data(), free = f_.free.data(),
@@ -207,7 +203,7 @@ double SlabDescent::precondition() {
   return sums[1];
 }
 
-// What clipping changes and a fixed step of the preconditioner, at the cost of one application.
+// Applies clipping and a fixed preconditioned step for one application of K.
 void SlabDescent::settle_step(const SlabQuality& at) {
   const double upper = level_.cap;
   const std::optional<double> shift = shift_to_load(at);
@@ -225,14 +221,14 @@ void SlabDescent::settle_step(const SlabQuality& at) {
         }
         const double before = p[k];
         p[k] =
-            to + (free[k] != 0 ? richardson_step * (z[k] - surplus) : 0.0);  // if not free, to the last bit
+            to + (free[k] != 0 ? richardson_step * (z[k] - surplus) : 0.0);  // exactly the bound if not free
         return p[k] - before;
       },
       [g = f_.gap.data()](std::size_t k, double u) { g[k] += u; });
   balance();
 }
 
-// Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
+// Conjugate gradients after `steps` steps of this pass; false if no step was possible.
 bool SlabDescent::descend(int steps) {
   const int enough = steps == 0 ? 1 : steps_a_slab_pass;
   while (steps < enough) {
@@ -315,7 +311,7 @@ bool SlabDescent::run() {
     if (!at.within || changed_) have_direction_ = false;
     fresh = false;
     if (!at.within) settle_step(at);
-    if (!descend(at.within ? 0 : 1)) {  // the free nodes are in balance to the last bit
+    if (!descend(at.within ? 0 : 1)) {  // free nodes are balanced to rounding
       project(at, f_.pressure);
       return false;
     }

@@ -27,7 +27,7 @@ Array<double> restrict_slabs(Team& team, const Slab& fine, const CoarserGrid& co
   const int nx = coarse.shape.nx;
   const Slab to = team.slab(nx, coarse.shape.ny);
   struct Part {
-    int row;  // of this process on the coarse grid
+    int row;  // on the coarse grid
     double share;
   };
   std::vector<Part> parts;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact problem of a periodic half-space on one of the nested grids, in slabs of rows over a team of
-// processes: minimise ½ p·Kp − h·p over 0 <= p <= H with a given mean of p, K = 2/|q| and 0 for the mean. In
-// the cell units of half_space/contact_level.hpp: hx = 1, hy = aspect, E* = 1, heights over the rms. Every
-// member that is not const is work of all processes together. Also the way between nested grids, whose rows
-// change hands where the two are dealt out in other ways.
+// Contact of a periodic half-space on one of the nested grids, in slabs of rows over a team of processes:
+// minimise ½ p·Kp − h·p over 0 <= p <= H with a given mean of p, K = 2/|q| and 0 for the mean. Cell units of
+// half_space/contact_level.hpp: hx = 1, hy = aspect, E* = 1, heights over the rms. All processes call every
+// non-const member together.
 #pragma once
 
 #include <array>
@@ -25,10 +24,9 @@ namespace asperity {
 struct SlabShape {
   Slab slab;
   double aspect = 1;
-  double weight = 1;  // of one transform, in transforms of the finest grid
+  double weight = 1;  // cost of a transform, in transforms of the finest grid
 };
 
-// Over the nodes of this process, then over the processes, as over_nodes.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_slabs(Team& team, std::size_t nodes, Term term) {
   std::array<double, sums + minima> own{};
@@ -46,11 +44,11 @@ class SlabLevel {
   Team& team;
   const SlabShape shape;
   const double cap, mean_pressure;
-  double length = 1;     // what gaps are measured by
+  double length = 1;     // unit of gaps in the residual
   int applications = 0;  // of K
   // Pressure per gap of a short wave.
   const double short_wave_stiffness;
-  // Told the residual after each pass, in this process; may throw.
+  // Called after each pass in this process; may throw.
   std::function<void(double)> report;
 
   std::size_t nodes() const { return shape.slab.nodes(); }  // of this process
@@ -67,7 +65,7 @@ class SlabLevel {
     team.work([&] { for_nodes(nodes(), body); });
   }
 
-  // u = K p; `source` gives p of a node of this process, `sink` takes u there.
+  // u = K p: `source(k)` returns p, `sink(k, u)` receives u, at the nodes of this process.
   template <class Source, class Sink>
   void apply(Source source, Sink sink) {
     ++applications;
@@ -137,11 +135,11 @@ class SlabLevel {
   std::unique_ptr<SlabFourier> fourier_;
 };
 
-// `fine` and `coarse` in slabs of the same team. The values of this process on the coarse grid.
+// Both grids are in slabs of the same team.
 Array<double> restrict_slabs(Team& team, const Slab& fine, const CoarserGrid& coarse,
                              std::span<const double> field);
 
-// values on `coarse` -> `target` on `fine`, times `factor`.
+// target = factor · values, interpolated to the fine grid.
 void prolong_slabs(Team& team, const CoarserGrid& coarse, std::span<const double> values, double factor,
                    const Slab& fine, std::span<double> target);
 

@@ -17,10 +17,10 @@
 namespace asperity {
 
 namespace {
-constexpr double light = 0.01;  // an approach, of what gaps are measured by
-constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+constexpr double light = 0.01;  // greatest approach of a light contact, in units of length
+constexpr double soft = 1e-3;   // greatest sinking of a node at the cap, in units of length
 
-// Once more from the pressures there are; false, and they stay, where that does not converge.
+// A failed descent restores the pressures.
 bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length, DescentEnd& end) {
   level.length = length;
   Array<double> before;
@@ -34,9 +34,8 @@ bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length
   return finer.converged;
 }
 
-// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height: taken on
-// until they are right to a share of how far it moves, as in half_space/nested_descent.cpp. Returns whether
-// gaps and offset are counted from the highest node afterwards.
+// Repeats the descent for contacts so light or so soft that displacements are far below the rms height, as
+// half_space/nested_descent.cpp. Returns whether gaps and offset now count from the highest node.
 bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const SlabCellProblem& problem,
                                    DescentEnd& end) {
   const double length = level.length, cap = level.cap, tolerance = problem.tolerance;
@@ -58,7 +57,7 @@ bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const S
   }
   const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
   if (is_soft) {
-    // All is at the cap above some height and open below it; nodes there share the rest: the first of them.
+    // Nodes above some height are at the cap, nodes below are open. Nodes at this height share the rest.
     std::array<double, 1> own{std::numeric_limits<double>::quiet_NaN()};
     const Array<double>& p = fields.pressure;
     for (std::size_t k = 0; k < p.size() && std::isnan(own[0]); ++k)
@@ -78,8 +77,8 @@ bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const S
 
 constexpr double coarse_tolerance = 1e-3;
 
-struct Step {                       // one grid of the nest
-  std::optional<CoarserGrid> from;  // how it came from the finer one
+struct Step {
+  std::optional<CoarserGrid> from;  // transfer from the finer grid
   SlabShape shape;
   Array<double> heights;  // empty on the finest
   double pitch = 1;       // hx in cells of the finest grid
@@ -114,7 +113,7 @@ std::vector<Step> nest(Team& team, const SlabCellProblem& problem, bool alone) {
   return steps;
 }
 
-// In place of pressures at their bounds, how far their gaps are from leaving them.
+// Level-set field: at a bound, the distance of the gap from leaving the bound replaces the pressure.
 void to_level_set(SlabLevel& level, double offset, std::span<const double> gap, std::span<double> p) {
   level.each([=, g = gap.data(), to = p.data(), upper = level.cap,
               stiffness = level.short_wave_stiffness](std::size_t k) {
@@ -126,7 +125,7 @@ void to_level_set(SlabLevel& level, double offset, std::span<const double> gap, 
   });
 }
 
-// A pressure within rounding of a bound is at the bound.
+// Rounding of a bound counts as the bound.
 void snap_to_bounds(SlabLevel& level, std::span<double> p) {
   const double rounding =
       std::max(1e-14, level.shape.slab.all_nodes() * std::numeric_limits<double>::epsilon());
@@ -145,13 +144,13 @@ void snap_to_bounds(SlabLevel& level, std::span<double> p) {
 SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& problem,
                                        std::span<const double> start_pressure,
                                        std::span<const double> start_gap, Monitor& monitor) {
-  // A process may have no rows, so that an empty start says nothing there.
+  // A process without rows has an empty start.
   const bool warm = team.reduce<1>({static_cast<double>(start_pressure.size())})[0] > 0;
   std::vector<Step> steps = nest(team, problem, warm);
   DescentProgress progress(monitor, "contact in slabs");
   SlabCellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
-  Array<double> carried;  // the level-set field of the grid below
+  Array<double> carried;  // level-set field
   double all_work = 0, work_done = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
 
@@ -231,7 +230,7 @@ SlabCellAnswer full_contact_in_slabs(Team& team, const SlabCellProblem& problem,
   answer.applications = 1;
   team.work([&] { progress.report(0, 1, 1, 0.5); });
   if (!(found[0] == 0 && found[1] > 0)) return answer;
-  // Gaps from what pressures differ by: the mean, which moves nothing, may be so large as to hide it.
+  // From pressure differences: a large mean, which displaces nothing, would hide them in rounding.
   level.gap(answer.gap, answer.gap);
   answer.applications = 2;
   const SlabQuality at = slab_quality(level, answer.pressure, answer.gap);

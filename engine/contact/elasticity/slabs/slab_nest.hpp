@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact problem in slabs on nested grids, as half_space/nested_descent.hpp: solved roughly on the
-// coarsest, carried up as a level-set field, finished on the finest. Cell units of the finest grid. All
-// processes together.
+// Contact in slabs on nested grids, as half_space/nested_descent.hpp, in cell units of the finest grid. All
+// processes call together.
 #pragma once
 
 #include <limits>
@@ -34,13 +33,12 @@ struct SlabCellAnswer {
   std::string stage;
 };
 
-// `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested
-// grids.
+// Start: a nearby state in cell units, gaps without the offset; empty: nested grids.
 SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& problem,
                                        std::span<const double> start_pressure,
                                        std::span<const double> start_gap, Monitor& monitor);
 
-// p = p̄ + (|q|/2) h; converged is false where that leaves the bounds.
+// p = p̄ + (|q|/2) h; not converged if p leaves the bounds.
 SlabCellAnswer full_contact_in_slabs(Team& team, const SlabCellProblem& problem, Monitor& monitor);
 
 }  // namespace asperity

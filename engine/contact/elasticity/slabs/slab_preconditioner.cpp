@@ -7,7 +7,6 @@ namespace asperity {
 
 namespace {
 
-// Off the set the mean of the four neighbours; on it what was there.
 void extend(const double* below, const double* here, const double* above, const std::uint8_t* mask, int nx,
             double* to) {
   const auto at = [&](int i, int left, int right) {
@@ -19,7 +18,7 @@ void extend(const double* below, const double* here, const double* above, const 
   if (nx > 1) at(nx - 1, nx - 2, 0);
 }
 
-// The transpose: a quarter of what the neighbours off the set have; on the set what was there beside it.
+// Transpose of `extend`.
 struct RowOf {
   const double* value;
   const std::uint8_t* mask;
@@ -75,8 +74,8 @@ void SlabPreconditioner::exchange_rim() {
            });
 }
 
-// Sweep s takes row j = t − s at step t: the row above has been through sweep s − 1 by then, and what the row
-// below was before its own sweep s is kept.
+// Sweep s processes row j = t − s at step t: the row above has passed sweep s − 1, and `before_` has the row
+// below before sweep s.
 void SlabPreconditioner::sweep(bool adjoint) {
   const Slab& slab = level_.shape.slab;
   const int rows = slab.rows() + 2 * sweeps, nx = slab.nx;
@@ -87,7 +86,7 @@ void SlabPreconditioner::sweep(bool adjoint) {
   for (int t = 1; t < rows + sweeps; ++t) {
     for (int s = 1; s <= sweeps; ++s) {
       const int j = t - s;
-      // What lacks neighbours that have been through the sweeps before is never looked at again.
+      // Later sweeps do not read this row.
       if (j < s || j >= rows - s) {
         if (j == s - 1) std::copy_n(row(j), nx, before(s));
         continue;

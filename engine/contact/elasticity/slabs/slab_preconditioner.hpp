@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An approximate inverse of the compliance restricted to the free nodes of a contact in slabs: z = Extᵀ
-// (|q|/2) Ext r, as half_space/contact_preconditioner.hpp, but with |q|/2 exact, by a transform pair. Ext
-// carries r past the edge of the set by eight Jacobi sweeps, each node off the set becoming the mean of its
-// four neighbours; the sweeps follow each other row by row, so that the field passes through the cache once.
+// Approximate inverse of the compliance on the free nodes of a contact in slabs: z = Extᵀ (|q|/2) Ext r, as
+// half_space/contact_preconditioner.hpp, with exact |q|/2. Ext extends r past the edge of the set by eight
+// Jacobi sweeps (mean of four neighbours), row by row: the field passes through the cache once.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +15,9 @@ class SlabPreconditioner {
  public:
   explicit SlabPreconditioner(SlabLevel& level);
 
-  // The nodes where free[k] != 0.
   void set_free(std::span<const std::uint8_t> free);
 
-  // z = M r, r = read(k) on the free nodes. z is at values()[k]; it means nothing off them.
+  // z = M r on the free nodes; values()[k] is undefined elsewhere.
   template <class Read>
   void apply(Read read) {
     level_.each(
@@ -42,10 +40,10 @@ class SlabPreconditioner {
 
   SlabLevel& level_;
   RowExchange rim_;
-  // The rows of this process between those that come from others, as many as there are sweeps on each side.
+  // Rows of this process, with `sweeps` rows of the neighbours on each side.
   Array<double> field_;
   Array<std::uint8_t> mask_;
-  Array<double> before_, fresh_;  // a row before its sweep; what becomes of it
+  Array<double> before_, fresh_;  // a row before and after a sweep
 };
 
 }  // namespace asperity

@@ -10,10 +10,10 @@
 namespace asperity {
 
 namespace {
-// As in half_space/contact_quality.cpp: an open node counts for itself too, by this much.
+// Weight of open nodes, as in half_space/contact_quality.cpp.
 constexpr double open_weight = 0.125;
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-constexpr double noticed = 1e-13;  // of the load
+constexpr double noticed = 1e-13;  // relative load error
 
 double clipped(double x, double upper) { return std::min(std::max(x, 0.0), upper); }
 
@@ -124,7 +124,7 @@ bool project_slabs_to_load(SlabLevel& level, std::span<const double> y_values, c
     level.each([=](std::size_t k) { target[k] = shifted(k, best_shift); });
     return true;
   }
-  // Neighbouring shifts carry too little and too much: between the two.
+  // The load jumps between neighbouring shifts: interpolate.
   const double least = carried(low)[0], most = carried(high)[0];
   const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
   level.each([=](std::size_t k) {

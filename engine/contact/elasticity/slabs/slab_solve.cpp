@@ -41,7 +41,6 @@ void check(const SlabContactProblem& problem, double mean_pressure) {
                 "press with less than the hardness");
 }
 
-// As in half_space/half_space_solve.cpp.
 double punch_length(const SlabContactProblem& problem, double mean_pressure) {
   return mean_pressure / problem.modulus * std::sqrt(problem.surface.grid.area());
 }
@@ -52,7 +51,7 @@ bool rough(const SlabContactProblem& problem, double mean_pressure) {
          surface.rms > 1e-9 * punch_length(problem, mean_pressure);
 }
 
-// √mean(slope²) by differences, those from slab to slab left out.
+// Differences within each slab only.
 double rough_slope(Team& team, const SlabSurface& surface) {
   const Slab& slab = surface.slab;
   const std::size_t nx = slab.width(), nodes = slab.nodes();
@@ -71,7 +70,6 @@ double rough_slope(Team& team, const SlabSurface& surface) {
   return std::sqrt(along_x + along_y);
 }
 
-// Counts, sums and certificate of the pressures and gaps that the answer holds.
 void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& answer) {
   const double cap = problem.cap, peak = problem.surface.peak, mean_pressure = answer.mean_pressure;
   const double *const p = answer.pressure.data(), *const g = answer.gap.data();
@@ -86,7 +84,7 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
         v[3] = p[k] * g[k];
         v[4] = !capped ? 0.0 : g[k] > 0 ? p[k] * g[k] : (p[k] - cap) * g[k];
         v[5] = std::max(0.0, g[k]);
-        v[6] = (p[k] - mean_pressure) * displacement;  // a uniform pressure moves nothing
+        v[6] = (p[k] - mean_pressure) * displacement;  // a uniform pressure displaces nothing
         v[7] = p[k] >= cap ? std::max(0.0, -g[k]) : 0.0;
         v[8] = g[k];
         v[9] = p[k] < cap ? g[k] : infinity;
@@ -109,7 +107,7 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
-// The same pressure everywhere: none before the first touch, or on a flat.
+// Before first touch (0), or of a flat.
 SlabContactAnswer even(Team& team, const SlabContactProblem& problem, double pressure) {
   SlabContactAnswer answer;
   const double peak = problem.surface.peak;
@@ -148,7 +146,7 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   cell.cap = problem.cap / unit;
   cell.mean_pressure = mean_pressure / unit;
   if (flat) cell.length = std::sqrt(surface.slab.all_nodes() * cell.shape.aspect);
-  // A little less, so that what rounding adds on the way to pascals stays within it.
+  // Margin for rounding in the conversion to pascals.
   cell.tolerance = 0.99 * problem.tolerance;
 
   SlabCellAnswer found;
@@ -196,7 +194,7 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
 SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper, const Effects& effects) {
   SurfaceTraits traits;
   traits.material = lower;
-  // Of the bodies only what they are made of matters: a tile of one node stands for them.
+  // One node represents the bodies: only materials matter.
   Scene scene{Surface({1, 1, 1, 1}, Field(1, 1), std::move(traits)), upper, Boundary::periodic,
               HalfSpaceOptions{}};
   scene.effects = effects;
@@ -216,15 +214,14 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
   return terms;
 }
 
-// The load that brings two bodies in slabs together by so much: a bracketed secant over the logarithm of the
-// load, begun on a grid of a quarter of the nodes, where it costs little, and finished by a few solves on the
-// finest, each from the one before.
+// Load of a given approach: bracketed secant over ln(load), on the next coarser grid, then on the finest,
+// each solve started from the last.
 namespace {
 
 constexpr int most_solves = 60;
 constexpr double least_nodes = 64 * 64;
 
-// The same contact on the next coarser grid, heights counted as on the fine one.
+// Heights keep their origin.
 std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactProblem& problem) {
   const SlabSurface& fine = problem.surface;
   if (fine.slab.all_nodes() <= least_nodes) return {};
@@ -248,7 +245,7 @@ std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactP
 
 struct Root {
   double logarithm = 0;  // of the load
-  double slope = 0;      // d approach / d ln load; 0 where nothing is known
+  double slope = 0;      // d approach / d ln load; 0 if unknown
 };
 
 struct Found {
@@ -257,14 +254,14 @@ struct Found {
   bool reached = false;
 };
 
-// `target` is the approach of the planes, from the first touch of the finest grid's `peak`.
+// `target`: approach from first touch at `peak`, m.
 Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
              double accuracy, Monitor& monitor) {
   SlabContactProblem now = problem;
   now.best_effort = true;
   const double share = std::min(1.0, target / problem.surface.rms);
   now.tolerance = std::max(1e-13, 0.2 * std::min(problem.tolerance, accuracy) * share);
-  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without a cap
+  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without cap
   double low = -infinity, high = infinity, low_excess = 0, high_excess = 0;
   Found found;
   double x = std::min(root.logarithm, highest), last_x = x, last_excess = 0;
@@ -286,7 +283,6 @@ Found search(Team& team, const SlabContactProblem& problem, double target, doubl
     last_x = x;
     last_excess = excess;
     if (excess < 0 && x >= highest) break;
-    // What the slope says, within the bracket and not too far beyond it.
     constexpr double furthest = 3;
     double next =
         root.slope > 0 ? x - std::clamp(excess / root.slope, -furthest, furthest) : x + (excess < 0 ? 1 : -1);

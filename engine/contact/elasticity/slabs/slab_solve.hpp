@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact of a periodic elastic half-space with a rough one in slabs over a team of processes, none of
-// which holds the whole grid: the problem, the certificate and the units of half_space/half_space_solve.hpp,
-// with a cap on the pressure or none. Some 70 bytes a node over all processes, transforms included. All
-// processes together; all get the same numbers, the same bits for the same number of processes.
+// Contact of a periodic half-space in slabs over a team of processes: problem, certificate and units of
+// half_space/half_space_solve.hpp. About 70 bytes a node over all processes, transforms included. All
+// processes call together and get the same numbers; bits depend on the number of processes.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +25,8 @@ struct SlabContactProblem {
 };
 
 struct SlabContactAnswer {
-  Array<double> pressure;  // Pa, of this process; exactly 0 and exactly the cap at the bounds
-  Array<double> gap;  // m, of this process: 0 where 0 < p < cap, >= 0 where p = 0, −w where p is the cap
+  Array<double> pressure;     // Pa, of this process; exactly 0 and exactly the cap at the bounds
+  Array<double> gap;          // m, of this process; 0 where 0 < p < cap, >= 0 at p = 0, −w at the cap
   double mean_pressure = 0;   // Pa
   double approach = 0;        // m
   double offset = 0;          // m
@@ -43,25 +42,22 @@ struct SlabContactAnswer {
   std::string solver;
 };
 
-// Throws as solve_at_pressure; also what one of the processes met with.
+// Throws as solve_at_pressure, in all processes.
 SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& problem, double mean_pressure,
                                           const SlabContactAnswer* start, Monitor& monitor);
 
-// approach in m from first touch. The load that gives it, as a bracketed root, sought on a coarser grid
-// first; the certificate's load entry is the relative error of the approach. Throws Error{infeasible} where
-// no load does.
+// approach in m from first touch. certificate.load is the relative error of the approach. Throws
+// Error{infeasible} if no load gives the approach.
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor);
 
-// What materials and effects make of a contact in slabs under a flat, asked of the same code as for a contact
-// in one process.
+// From the same code as a contact in one process; the upper body is a flat.
 struct SlabTerms {
   double modulus = 0;  // E*, Pa
-  double cap = 0;      // Pa; infinite where nothing yields
+  double cap = 0;      // Pa; infinite without yielding
 };
 
-// Throws Error{bad_state} naming effect, body and property where a material lacks one; {bad_value} for
-// hardening, which is not computed in slabs.
+// Throws Error{bad_state} naming effect, body and missing property; {bad_value} for hardening.
 SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper, const Effects& effects);
 
 }  // namespace asperity
