@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spans, events and warnings from marks (recording_marks.hpp).
+// Spans, events and warnings from marks.
 #include "engine/recording/event_detection.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Titles and cells of press tables (log_table.hpp): foreign names and units without brackets.
+// Foreign names and units without brackets in press tables (log_table.hpp).
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -14,7 +14,6 @@ namespace asperity {
 
 namespace {
 
-// Foreign names of the columns.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 20> other_names{
     {{"force", "load"},         {"kraft", "load"},      {"last", "load"},         {"charge", "load"},
      {"druck", "pressure"},     {"stress", "pressure"}, {"spannung", "pressure"}, {"zeit", "time"},

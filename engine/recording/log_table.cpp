@@ -212,7 +212,6 @@ std::size_t LogTable::known_names(std::string_view titles) const {
   return names;
 }
 
-// Numbers or words above the titles.
 void LogTable::refuse_other_forms() const {
   const bool numbers = is_row_of_numbers(lines_.head_line());
   if (!numbers && std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; }))
@@ -311,7 +310,7 @@ void LogTable::learn_stamps(std::size_t k) {
   columns_[k].stamps = std::move(stamps);
 }
 
-// Suggested title: "load [kN]" for "Kraft / kN".
+// "load [kN]" for "Kraft / kN".
 std::optional<std::string> LogTable::meant(const Column& column) const {
   const LogTitle title = log_title(column.title);
   const auto found = std::find_if(known_.begin(), known_.end(),

@@ -91,7 +91,6 @@ class Gatherer {
     }
   }
 
-  // Whether the next row implies this release.
   bool reader_releases(std::size_t k) const {
     if (k + 1 >= events_.size()) return false;
     const Protocol::Event& next = events_[k + 1];

@@ -78,7 +78,6 @@ class RecordingReader {
     angle_ = table_.find(of_angle);
   }
 
-  // NaN if missing, or after a problem.
   double value(std::size_t k, const LogCell& cell) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     const TextCell number = table_.number(k, cell);

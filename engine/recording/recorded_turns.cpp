@@ -96,7 +96,6 @@ class TurnFinder {
     }
     return {first, last, count > 0 ? std::optional<double>(sum / static_cast<double>(count)) : std::nullopt};
   }
-  // Of a few rows at the start or end.
   std::optional<Heading> heading_at_rim(std::size_t from, std::size_t to) const {
     constexpr int enough = 5;
     double sum = 0;

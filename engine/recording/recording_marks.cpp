@@ -69,7 +69,7 @@ Bends bends_of(std::span<const double> time, std::span<const double> value,
   return {magnitudes.size(), deviation * deviation};
 }
 
-// None for white noise (r below 0.4) or too few readings in pieces. O(n).
+// None for white noise (r below 0.4) or too few readings. O(n).
 std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, std::span<const double> value,
                                                   std::span<const StraightPiece> pieces) {
   constexpr std::size_t enough = 400;
@@ -391,7 +391,6 @@ void RecordingMarks::look_between() {
   marks_ = std::move(all);
 }
 
-// The highest sample, if above both sides.
 void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, std::size_t end,
                                    const Mark* next) {
   if (first >= end) return;

@@ -51,14 +51,13 @@ class RecordingMarks {
   };
   const std::vector<Zero>& zeros() const { return zeros_; }
 
-  // Samples with a load: time, load above zero, row of the recording.
+  // Samples with a load: time, load above zero, row.
   std::span<const double> time() const { return t_; }
   std::span<const double> load() const { return y_; }
   std::span<const std::uint32_t> row() const { return row_; }
   std::size_t line(std::size_t sample) const { return recording_.line[row_[sample]]; }
 
-  // Standard deviations: of a reading, and per reading in means, which is larger if neighbours are
-  // correlated.
+  // Standard deviations: of a reading, and per reading in means (larger if neighbours are correlated).
   double noise() const { return noise_; }
   double independent_noise() const { return noise_ / std::sqrt(independent_); }
   double effective_noise() const { return effective_noise_; }

@@ -16,7 +16,7 @@ namespace {
 // around the best.
 struct RampInNoise {
   double begin = 0, end = 0;  // s
-  double misfit = 0;          // sum of squares
+  double misfit = 0;
 };
 
 double misfit(std::span<const double> time, std::span<const double> value, double from, double to,
@@ -58,7 +58,6 @@ RampInNoise fit_hidden_ramp(std::span<const double> time, std::span<const double
   return {best_centre - best_half, best_centre + best_half, least};
 }
 
-// For the best sudden step.
 double step_misfit(std::span<const double> value, double from, double to) {
   double now = 0;
   for (const double v : value) now += (v - to) * (v - to);
@@ -198,7 +197,7 @@ void RecordingMarks::time_each() {
     mark.begin_doubt = begin.doubt;
     mark.end_doubt = end.doubt;
   }
-  constexpr double plain = 30;  // times the noise; larger changes fit straight pieces well
+  constexpr double plain = 30;  // times the noise
   for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
     Mark &a = marks_[k], &b = marks_[k + 1];
     const double change = std::abs(a.line.y - b.line.y) / piece_noise();
