@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Carries out a protocol, one event per call. A failed event leaves the pair unchanged; the next call tries
-// it again.
+// Carries out a protocol, one event per call. A failed event leaves the pair unchanged and is tried again.
 #pragma once
 
 #include <chrono>

@@ -37,8 +37,7 @@ class SpecimenPair {
     std::optional<Measured> measured{};
   };
 
-  // The upper body is turned over, without turn or shift. Throws as check(Scene) and make_plan do. O(n), no
-  // solve.
+  // The upper body is turned over. Throws as check(Scene) and make_plan do. O(n), no solve.
   explicit SpecimenPair(const Scene& scene);
 
   // The state under this load; plastic deformation stays after release. Nothing yields again under loads that
@@ -58,7 +57,7 @@ class SpecimenPair {
   // Partial slip under the present load; changes nothing. Throws as shear() does, and Error{bad_state}
   // without load.
   PartialSlip shear(const ShearRequest& request, Monitor& monitor = Monitor::silent());
-  // The last press under load; null without load or tangential effect.
+  // Null without load or tangential effect.
   const State* pressed() const { return under_load_ && pressed_ ? &*pressed_ : nullptr; }
 
   // By draw_placement(seed), from any pose.
@@ -70,8 +69,8 @@ class SpecimenPair {
   // m, whole cells (to 1e-9 of a cell), periodic boundary only.
   void shift(double x, double y);
 
-  // Throws predictable errors: an impossible turn or shift, a mean pressure above the capacity of all nodes.
-  // Updates the pose `lying` by the step.
+  // Throws predictable errors: an impossible turn or shift, a mean pressure above the capacity of the nodes.
+  // Updates the pose `lying`.
   void check_ahead(const Protocol::Step& step, Pose& lying) const;
 
   // A copy begins with its original's events.
