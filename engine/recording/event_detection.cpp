@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spans, events and sentences out of what recording_marks.hpp marked.
+// Spans, events and warnings from marks.
 #include "engine/recording/event_detection.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ class EventMaker {
     found_.zero_drift = marks_.drift();
     found_.shortest_hold = marks_.shortest_hold();
     found_.evidence = marks_.evidence();
-    // What a cut must save, spread over the samples of the shortest hold and as many beside it.
+    // Evidence of a cut over the samples of the shortest hold and as many next to it.
     const double fewest = std::max(4.0, found_.shortest_hold / found_.interval);
     const double by_chance = marks_.independent_noise() * std::sqrt(2 * found_.evidence / fewest);
     found_.least_load = std::max(found_.zero_drift, by_chance);
@@ -87,14 +87,13 @@ class EventMaker {
     }
   }
 
-  // Where the load of a hole would stand: lines of empty cells, or lines between which rows are absent.
   std::string place(const RecordedHole& hole) const {
     const std::size_t before = marks_.row()[hole.sample], after = marks_.row()[hole.sample + 1];
     if (hole.absent == 0) return lines(recording_.line[before + 1], recording_.line[after - 1]);
     return "the time between " + lines(recording_.line[before], recording_.line[after], " and ");
   }
 
-  // A hole in the load may hide whatever does not go on at both its sides.
+  // A hole may hide any event, except inside one hold or rest.
   void look_at_missing() {
     const auto time = marks_.time();
     const RecordedHoles recorded = recorded_holes(recording_, marks_.row());
@@ -215,7 +214,7 @@ class EventMaker {
           if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore &&
               !is_pulse(span))
             break;
-          // Never so coarse that nothing is left of it.
+          // Never so coarse that the load rounds to zero.
           const double error = std::min(std::max(0.1 * span.load_error, 1e-9 * found_.highest), span.load);
           push(
               PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
@@ -245,7 +244,7 @@ class EventMaker {
     });
   }
 
-  // --- what an experimenter should know
+  // --- warnings
 
   void warn() {
     const std::vector<Mark>& marks = marks_.marks();
@@ -320,7 +319,7 @@ class EventMaker {
          (one ? "it lie on a line that it" : "them lie on lines that they") + (one ? " leaves" : " leave"));
   }
 
-  // A sensor at its limit gives one number where others scatter: how high the load was above it nobody knows.
+  // A sensor at its limit repeats one reading.
   void warn_of_limit() {
     if (!(marks_.noise() > 0)) return;
     const auto row = marks_.row();
@@ -347,7 +346,7 @@ class EventMaker {
            " elsewhere: so reads a sensor at its limit, and the load may have been higher");
   }
 
-  // Noise that is not white, or a load that wanders, scatters more than its steps say.
+  // Correlated noise or a wandering load.
   void warn_of_scatter() {
     for (const Mark& mark : marks_.marks()) {
       if (mark.kind != Mark::Kind::hold) continue;
@@ -360,7 +359,6 @@ class EventMaker {
     }
   }
 
-  // The least and the greatest reading of each of many stretches.
   void thin() {
     constexpr std::size_t stretches = 1500;
     const auto t = marks_.time();
@@ -395,7 +393,7 @@ Protocol detect_events(const PressRecording& recording, const DetectionOptions& 
   return EventMaker(recording, options, monitor).make();
 }
 
-// --- what was found, in words
+// --- text
 
 std::string_view name(RecordedSpan::Kind kind) {
   switch (kind) {

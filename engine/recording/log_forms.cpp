@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tables of a press (log_table.hpp) know of titles and cells beyond what any table does: what others
-// call its columns, and units that stand behind a stroke or an underscore.
+// Foreign names and units without brackets in press tables (log_table.hpp).
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -15,7 +14,6 @@ namespace asperity {
 
 namespace {
 
-// Words of other tables for the columns of log_table.hpp.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 20> other_names{
     {{"force", "load"},         {"kraft", "load"},      {"last", "load"},         {"charge", "load"},
      {"druck", "pressure"},     {"stress", "pressure"}, {"spannung", "pressure"}, {"zeit", "time"},
@@ -23,7 +21,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> other_na
      {"winkel", "angle"},       {"winkel", "rotation"}, {"hold", "dwell"},        {"haltezeit", "dwell"},
      {"standardkraft", "load"}, {"prüfkraft", "load"},  {"prüfzeit", "time"},     {"drehwinkel", "angle"}}};
 
-// The kind of a line, by which the heads of a table are found.
 struct LineKind {
   enum class Kind { words, units, row, other };
   Kind kind = Kind::other;

@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-// What is not text, or not read as such; UTF-16 is.
+// UTF-16 is text.
 const SourceFile& checked_text(const SourceFile& file) {
   if (utf8_of_utf16(file.bytes().substr(0, 64))) return file;
   if (const std::optional<ForeignFormat> foreign = foreign_format(file))
@@ -23,7 +23,7 @@ const SourceFile& checked_text(const SourceFile& file) {
   return file;
 }
 
-// Titles may be "[hh:mm:ss]", which says how times are written.
+// A title such as "[hh:mm:ss]".
 bool is_clock_pattern(std::string_view unit) {
   return unit.find(':') != std::string_view::npos &&
          unit.find_first_not_of("hHmMsSfFnidDyYaAJjTt:.,/- ") == std::string_view::npos;
@@ -70,8 +70,7 @@ void LogTable::read_titles() {
   if (below_are_units) lines_.skip_below();
 }
 
-// Lines above the heads, as loggers and testing machines write them, are left out; not where the first line
-// names columns itself.
+// Skips the lines of loggers above the heads.
 void LogTable::skip_preamble() {
   if (form_.skip > 0 || !form_.heads.empty()) return;
   TableLines ahead = lines_;
@@ -90,7 +89,6 @@ void LogTable::skip_preamble() {
                       std::to_string(heads->line) + "; the lines above are left out");
 }
 
-// Own names are those that are known here.
 void LogTable::refuse_unknown_names() const {
   std::vector<std::string> names;
   for (const LogColumn& column : known_) names.emplace_back(column.name);
@@ -108,7 +106,7 @@ void LogTable::split_unit(Column& column) const {
   column.name = lower_case(head.name);
   column.unit = head.unit;
   if (!column.unit.empty() || column.name.find_first_of("[(") != std::string::npos) {
-    // "load (kNewton)": what is in brackets is meant for a unit, even if it is none.
+    // "load (kNewton)": brackets hold a unit, even an unknown one.
     if (const std::size_t open = column.title.find_first_of("[("); column.unit.empty() && open > 0) {
       const std::size_t close = column.title.find_last_of("])");
       column.name = lower_case(trimmed(std::string_view(column.title).substr(0, open)));
@@ -117,7 +115,7 @@ void LogTable::split_unit(Column& column) const {
     }
     return;
   }
-  // "time_s", "load/kN" and "time min" are taken apart where what is in front is a column of a press.
+  // Split only if the front names a column: "time_s", "load/kN", "time min".
   for (const char mark : {'_', '/', ' ', ':'}) {
     const std::size_t at = column.name.rfind(mark);
     if (at == std::string::npos || at == 0) continue;
@@ -133,7 +131,7 @@ void LogTable::split_unit(Column& column) const {
   }
 }
 
-// columns={ load="Wert" }: these are what they are called, whatever else would be.
+// columns={ load="Wert" } overrides all other names.
 void LogTable::choose_columns() {
   for (const auto& [name, title] : form_.names) {
     const LogColumn& known = *std::ranges::find(known_, std::string_view(name), &LogColumn::name);
@@ -159,7 +157,7 @@ void LogTable::choose_columns() {
   }
 }
 
-// What others call a column is taken for it only where its unit says so too, or the cell below it.
+// A foreign name needs a matching unit, or a matching cell below.
 const LogColumn* LogTable::known_as(const Column& column, bool by_other_names,
                                     const std::string& below) const {
   const auto found = std::ranges::find_if(known_, [&](const LogColumn& known) {
@@ -178,7 +176,7 @@ const LogColumn* LogTable::known_as(const Column& column, bool by_other_names,
   return found == known_.end() ? nullptr : &*found;
 }
 
-// Names of their own first, then what others call them.
+// Own names before foreign names.
 void LogTable::match_titles() {
   const auto chosen = column_of_;
   for (const bool by_other_names : {false, true}) {
@@ -189,7 +187,7 @@ void LogTable::match_titles() {
       const LogColumn* known = known_as(column, by_other_names, below(k));
       if (known == nullptr) continue;
       const auto meaning = static_cast<std::size_t>(known->meaning);
-      if (chosen[meaning] != 0 || (by_other_names && before[meaning] != 0)) continue;  // left out
+      if (chosen[meaning] != 0 || (by_other_names && before[meaning] != 0)) continue;  // ignored
       std::size_t& seat = column_of_[meaning];
       if (seat != 0) {
         problem(here() + ", column " + std::to_string(k + 1) + " (" + std::string(known->name) + ")",
@@ -214,7 +212,6 @@ std::size_t LogTable::known_names(std::string_view titles) const {
   return names;
 }
 
-// Numbers, or words, above the titles.
 void LogTable::refuse_other_forms() const {
   const bool numbers = is_row_of_numbers(lines_.head_line());
   if (!numbers && std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; }))
@@ -241,7 +238,7 @@ void LogTable::refuse_other_forms() const {
                       std::to_string(ahead.line() - 1));
 }
 
-// The line below holds units, and one at least of a column that has none in its title.
+// Units below the titles, at least one missing in its title.
 bool LogTable::units_stand_below() const {
   bool needed = false;
   for (std::size_t k = 0; k < lines_.below().size(); ++k) {
@@ -280,7 +277,6 @@ void LogTable::read_unit(std::size_t k, bool below_are_units) {
   }
 }
 
-// Stamps need none, and cells may bring their own.
 void LogTable::read_without_unit(std::size_t k, const std::string& place) {
   Column& column = columns_[k];
   const LogColumn& known = *column.known;
@@ -314,7 +310,7 @@ void LogTable::learn_stamps(std::size_t k) {
   columns_[k].stamps = std::move(stamps);
 }
 
-// The title that a column should have, which is named or spelled otherwise: "load [kN]" for "Kraft / kN".
+// "load [kN]" for "Kraft / kN".
 std::optional<std::string> LogTable::meant(const Column& column) const {
   const LogTitle title = log_title(column.title);
   const auto found = std::find_if(known_.begin(), known_.end(),
@@ -395,7 +391,7 @@ std::string LogTable::text_of(const LogCell& cell) const {
   return std::string(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))));
 }
 
-// The cell with a decimal point and without what parts thousands; as it is where nothing is known of it.
+// With a decimal point, without thousands separators; unchanged if unclear.
 std::string LogTable::plain_text(const LogCell& cell) const {
   const std::string text = text_of(cell);
   if (form_.decimal != '\0' || form_.thousands != '\0') {
@@ -407,7 +403,7 @@ std::string LogTable::plain_text(const LogCell& cell) const {
   }
   if (lines_.separator() == Separator::comma && text.find(',') == std::string::npos) return text;
   if (lines_.separator() == Separator::comma) {
-    // Quoted: "0,5" has a decimal comma, and "1,500" may have a thousand.
+    // Quoted: "0,5" is decimal, "1,500" may be a thousand.
     NumberEvidence evidence('\0', '\0');
     evidence.add(text, "");
     return evidence.doubt() ? text : plain_number(text, evidence.form()).value_or(text);
@@ -507,7 +503,7 @@ std::optional<double> LogTable::quantity(std::size_t k, const LogCell& cell) {
     return problem(here(k), complaint(k, cell)), std::nullopt;
   if (column.kind != Column::Kind::plain || !of_plain_text || column.known->dimension == dimension::number)
     return found.value;
-  // To the last bit, as in a script.
+  // Same bits as in a script.
   std::string plain = plain_text(cell);
   if (plain.starts_with('+')) plain.erase(0, 1);
   try {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables that people and instruments keep of a press, read as any table is (statistics/table_lines.hpp): the
-// first line that is neither blank nor a comment (#) names the columns in any order and case, with the unit
-// of each quantity, which may also stand in the line below, in the cells, or be said beforehand; times may be
-// dates and times of day. What the columns mean is for its users: press_log.hpp (a row an event) and
-// press_recording.hpp (a row a sample). What others call the columns is in log_forms.cpp.
+// Tables of a press by people or instruments (statistics/table_lines.hpp). The first line that is neither
+// blank nor a comment (#) names the columns in any order and case. Units are in titles, in the next line, in
+// cells, or given. Times may be dates and times of day.
 #pragma once
 
 #include <array>
@@ -25,7 +23,7 @@
 
 namespace asperity {
 
-// A column that a reader knows. Two names with one meaning may not both be given.
+// Two names with one meaning exclude each other.
 struct LogColumn {
   std::string_view name;
   int meaning;  // 0 … LogTable::most_meanings - 1
@@ -35,49 +33,43 @@ struct LogColumn {
 
 using LogCell = TableCell;
 
-// One file being read. Problems are gathered, each by line and column, until fail_if_any().
+// Collects problems until fail_if_any().
 class LogTable {
  public:
   static constexpr std::size_t most_meanings = 8;
 
-  // All must outlive it. Throws Error{bad_file} for bytes that are no text.
+  // Arguments must outlive the table. Throws Error{bad_file} unless the bytes are text.
   LogTable(const SourceFile& file, std::span<const LogColumn> known, const TableForm& form);
 
-  // Reads the titles. Throws Error{bad_file} for a file without, a column without its unit or given twice.
+  // Throws Error{bad_file} if titles or a unit are missing, or a column appears twice.
   void read_titles();
-  // The next row as it stands, its cells as many as the columns; blank lines and comments are left out, and
-  // a row of another length is a problem. False at the end.
+  // Skips blank lines and comments; another length is a problem. False at the end.
   bool next_row(std::vector<LogCell>& cells);
-  // All rows, and then fail_if_any().
   void read_rows(Monitor& monitor, const std::function<void(const std::vector<LogCell>&)>& read);
 
   std::size_t columns() const { return columns_.size(); }
-  // What column k means; null for one that is left out.
+  // Null for an ignored column.
   const LogColumn* column(std::size_t k) const { return columns_[k].known; }
-  // The column of that meaning.
   std::optional<std::size_t> find(int meaning) const;
   bool has(int meaning) const { return find(meaning).has_value(); }
-  // Titles of the ignored columns, each with the known title nearest to it; "" if there are none. Columns
-  // with measured results, whose titles begin with "result ", do not count.
+  // Ignored columns with the nearest known title, except "result …".
   std::string others() const;
   void warn_of_others(Monitor& monitor) const;
-  // A problem unless one of both is given, and one alone; the meanings are those of `pressure` and `load`.
+  // A problem unless exactly one is given.
   void require_one_of(int pressure, int load);
 
-  // A number with its column's unit, in SI and exact; nothing for an empty cell, or after a problem.
+  // Exact, in SI; none for an empty cell or after a problem.
   std::optional<double> quantity(std::size_t k, const LogCell& cell);
-  // The same without a problem where it holds none: a number in SI, to a rounding or two, or what else it
-  // holds.
+  // The same without problems, in SI up to rounding; may be no number.
   TextCell number(std::size_t k, const LogCell& cell);
-  // The error of a cell without a number of column k, and its cure: for problem().
+  // Error and cure for problem().
   std::string complaint(std::size_t k, const LogCell& cell) const;
-  // Ambiguous readings: columns in which three digits follow every comma, as in numbers with separated
-  // thousands; days of a spreadsheet; lines below the table.
+  // Ambiguity: three digits after every comma of a column, days of a spreadsheet, lines below the table.
   std::vector<std::string> warnings() const;
 
   void problem(const std::string& place, const std::string& finding) { problems_.add(place, finding); }
   std::size_t problems() const { return problems_.count(); }
-  // Throws Error{bad_file} with all problems, the first dozen in words.
+  // With the first dozen problems in words.
   void fail_if_any() const { problems_.fail_if_any(); }
 
   std::size_t line() const { return lines_.line(); }
@@ -90,12 +82,12 @@ class LogTable {
     enum class Kind { plain, stamps, days, quantities };  // of its cells
     Kind kind = Kind::plain;
     const LogColumn* known = nullptr;
-    std::string title, name, unit;  // the title without its unit in lower case
+    std::string title, name, unit;  // lower-case title without unit
     double factor = 1;
     std::optional<StampColumn> stamps{};
     std::optional<double> first_day{};
-    std::string thousands{};  // the first number whose comma may part thousands, and its place
-    bool decimals = false;    // there is one whose comma cannot
+    std::string thousands{};  // first comma that may separate thousands, and its place
+    bool decimals = false;    // some comma is decimal
   };
   void skip_preamble();
   void choose_columns();
@@ -123,49 +115,47 @@ class LogTable {
   TableLines lines_;
   FileProblems problems_;
   std::vector<Column> columns_;
-  std::array<std::size_t, most_meanings> column_of_{};  // number from 1; 0: none
+  std::array<std::size_t, most_meanings> column_of_{};  // from 1; 0: none
   std::vector<std::string> warnings_;
 };
 
-// --- what these tables know of titles and cells beyond what any table does (log_forms.cpp)
+// --- titles and cells (log_forms.cpp)
 
 // A date or a time of day: "2026-11-23T10:00:00", "23.11.2026 10:00", "11/23/2026 10:00 AM", "10:00:03.2".
 bool is_time_stamp(std::string_view cell);
 
-// A day of this century counted from 1900, as spreadsheets keep dates: 36526 to 73415.
+// Since 1900, as in spreadsheets: 36526 to 73415.
 bool is_day_of_a_spreadsheet(const TextCell& cell);
 
-// A title taken apart, however its unit stands in it: "Kraft / kN", "time_s", "Force (N)", "load kN".
+// "Kraft / kN", "time_s", "Force (N)", "load kN".
 struct LogTitle {
-  std::string name;  // lower case, the first word
+  std::string name;  // first word in lower case
   std::string unit;  // "" where there is none
 };
 LogTitle log_title(std::string_view title);
 
-// Cells of a line at its semicolons, else its tabs, else its commas, as they stand and without their quotes.
+// Splits at semicolons, else tabs, else commas; removes quotes.
 std::vector<std::string> log_cells(std::string_view line);
 
-// The heads of a table below other lines.
 struct FoundHeads {
-  std::size_t line;  // of the file, from 1
+  std::size_t line;  // from 1
   std::string text;
 };
-// The first line of words above a table, among 300 lines; else nothing. A line of units may follow. The table
-// has three rows, or fewer at the end of the file; each row has as many cells as the line of words, and its
-// first cell and another are numbers or times.
+// The first line of words above a table, among 300 lines; a line of units may follow. The table has three
+// rows, or fewer at the end of the file, of as many cells, with numbers or times in the first cell and
+// another.
 std::optional<FoundHeads> find_heads(TableLines lines);
 
-// Whether a word may mean the column: its own name, or what others call it ("kraft" for load, "angle" for
-// rotation).
+// By its own or a foreign name: "kraft" for load, "angle" for rotation.
 bool means(std::string_view word, std::string_view column);
-// Whether it can mean nothing else: an angle may be that of the stage or a turn by so much.
+// False for ambiguous words: an angle may be the stage's or a rotation.
 bool surely_means(std::string_view word, std::string_view column);
 
-// What a time that runs backwards by so many seconds asks for where it may be a time of day: its date.
+// A hint if a time of day may lack its date.
 std::string past_midnight(double seconds_back);
 
-// The sign that may separate thousands ("1.234,5", "1'234", "1 234") and alone keeps the text from being a
-// number: a key `thousands` takes the sign. "" if there is no such sign.
+// The thousands separator that alone keeps the text from being a number ("1.234,5", "1'234", "1 234"), for
+// the key `thousands`; "" if none.
 std::string_view thousands_in(std::string_view text);
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading of press logs. Numbers are read together with the unit of their column, so that "152.78" under
-// "[MPa]" is the same double as "152.78 MPa" in a script.
+// Numbers are read with their unit: "152.78" under "[MPa]" has the bits of "152.78 MPa" in a script.
 #include "engine/recording/press_log.hpp"
 
 #include <array>
@@ -126,8 +125,7 @@ class LogReader {
                     table_.here());
   }
 
-  // A press that stays for longer than until the next row begins did not happen as it stands; a little longer
-  // it may, for times and dwells are rounded.
+  // With slack, because times and dwells are rounded.
   void check_dwell(const std::optional<double>& now) {
     constexpr double rounded_by = 0.01;
     if (now && held_.begun && held_.dwell && *held_.begun + (1 - rounded_by) * *held_.dwell > *now &&
@@ -177,7 +175,7 @@ class LogReader {
     std::optional<double> begun{}, dwell{};
     std::string line{};
   };
-  Held held_;  // the press of the row before
+  Held held_;  // previous press
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing of press logs: events gathered into rows, so that reading the rows gives the events again, and
-// numbers in the first unit in which each of a column's has a short text that reads back as itself.
+// Writing of press logs: rows that read back as the events, and numbers in the first unit with short exact
+// texts.
 #include <initializer_list>
 #include <span>
 #include <utility>
@@ -16,7 +16,7 @@ namespace {
 
 struct Row {
   std::optional<double> time, place, rotation, load, dwell;
-  std::optional<std::size_t> press{};  // the event whose results stand here
+  std::optional<std::size_t> press{};  // event of the results
   bool empty() const { return !place && !rotation && !load; }
 };
 
@@ -41,7 +41,6 @@ class Gatherer {
   std::optional<PressBy> by;
 
  private:
-  // Whether an event can join the row begun by an earlier one.
   bool same_time(const Protocol::Event& event) const { return !timed || row_.time == event.time; }
 
   void begin(const Protocol::Event& event) {
@@ -51,7 +50,7 @@ class Gatherer {
 
   void finish(double load) {
     row_.load = load;
-    // What the reader does of itself.
+    // As the reader does.
     under_load_ = load > 0;
     rows.push_back(std::exchange(row_, Row{}));
   }
@@ -92,7 +91,6 @@ class Gatherer {
     }
   }
 
-  // Whether reading the row of the next event gives this release.
   bool reader_releases(std::size_t k) const {
     if (k + 1 >= events_.size()) return false;
     const Protocol::Event& next = events_[k + 1];
@@ -106,7 +104,7 @@ class Gatherer {
   bool under_load_ = false;
 };
 
-// A text of a value in a unit that reads back as it, the shorter the better; "" if 17 digits are not enough.
+// The shortest text that reads back as the value; "" if 17 digits are too few.
 std::string exact_text(double value, const std::string& unit, Dimension dimension) {
   const double factor = parse_unit(unit).value;
   for (int digits = 10; digits <= 17; ++digits) {
@@ -139,7 +137,7 @@ TextColumn column_of(const std::vector<Row>& rows, Member member, const std::str
   throw Error(ErrorCode::internal, "a number of the column " + quoted(name) + " has no exact text");
 }
 
-// So many rows with times and without dwells look like a recording, which a column of no dwells cures.
+// So many rows look like a recording without a column of dwells.
 constexpr std::size_t rows_of_a_recording = 100;
 
 bool any(const std::vector<Row>& rows, Member member) {

@@ -16,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-// The last three are of a log of events alone.
+// The last three belong to press logs.
 enum RecordedMeaning { at_time, of_load, of_pressure, of_angle, of_dwell, of_place, of_turn };
 constexpr std::array<LogColumn, 9> recording_columns{
     {{"time", at_time, dimension::time, "time [s]"},
@@ -78,7 +78,6 @@ class RecordingReader {
     angle_ = table_.find(of_angle);
   }
 
-  // NaN for a cell that is missing, or after a problem.
   double value(std::size_t k, const LogCell& cell) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     const TextCell number = table_.number(k, cell);
@@ -117,7 +116,6 @@ class RecordingReader {
     recording_.line.push_back(static_cast<std::uint32_t>(table_.line()));
   }
 
-  // Rows that share a time begin at it and lie evenly until the next one.
   void spread_equal_times() {
     if (equal_rows_ == 0) return;
     Array<double>& time = recording_.time;
@@ -158,11 +156,10 @@ PressRecording read_press_recording(const SourceFile& file, Monitor& monitor, co
 bool looks_like_recording(const SourceFile& file, const TableForm& form) {
   constexpr std::size_t many = 100;
   try {
-    // A rotation other than zero may be a turn of an event or a reading of the stage: it is taken for the
-    // former.
+    // A rotation other than zero counts as a turn.
     LogTable table(file, recording_columns, form);
     table.read_titles();
-    // A unit that cannot be read makes no log of a recording: its reader says what is wrong.
+    // The reader reports an unreadable unit.
     if (!table.has(at_time) || tells_of_events(table)) return false;
     if (table.has(of_load) == table.has(of_pressure)) return false;
     const std::optional<std::size_t> angle = table.find(of_angle);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press: load and perhaps the angle of the turned body, sampled all the time, as a logger
-// writes them. What was done is for event_detection.hpp to find.
+// Recordings of a press: load, and perhaps the body's angle, as a logger samples them.
 //
 //   time [s], load [kN], angle [deg]
 //   0.00,     0.012,     0.1
 //   0.11,     0.009,     0.1
 //
-// Columns: time; load or pressure; angle (or rotation), which is a reading of the stage and not, as in a
-// log of events, a turn by so much. Titles, units and separators are those of log_table.hpp.
+// Columns: time; load or pressure; angle (or rotation), a reading of the stage and not a turn. Titles, units
+// and separators as in log_table.hpp.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +22,26 @@ namespace asperity {
 class SourceFile;
 
 struct PressRecording {
-  std::string name;            // of the file, without its folders
+  std::string name;            // of the file, without folders
   PressBy by = PressBy::load;  // or pressure
   Array<double> time;          // s, strictly increasing
-  Array<double> load;          // N or Pa, NaN where the cell is missing; below zero too
-  Array<double> angle;         // rad, NaN where missing; empty without such a column
-  Array<std::uint32_t> line;   // of the file, from 1
+  Array<double> load;          // N or Pa, NaN where missing; may be negative
+  Array<double> angle;         // rad, NaN where missing; empty without column
+  Array<std::uint32_t> line;   // from 1
 };
 
-// Rows with the same time, as a logger writes them that is faster than its clock tells.
+// From a logger faster than its clock.
 enum class EqualTimes {
   refuse,
-  spread,  // evenly until the next time; the last of them at the mean spacing of those before
+  spread,  // evenly until the next time; the last group at the mean spacing
 };
 
-// Throws Error{bad_file} with every problem of the file by line and column: what log_table.hpp refuses, no
-// time, neither or both of load and pressure, a row without a time or with one that does not lie after the
-// one before, a cell that is neither number nor missing, no row. Warns of columns that are left out.
+// Throws Error{bad_file} with every problem by line and column: as log_table.hpp, no time, neither or both of
+// load and pressure, a row without increasing time, an unreadable cell, no row. Warns of ignored columns.
 PressRecording read_press_recording(const SourceFile& file, Monitor& monitor = Monitor::silent(),
                                     const TableForm& form = {}, EqualTimes equal_times = EqualTimes::refuse);
 
-// Whether a table looks like a recording rather than a log of events: a hundred rows or more with times, no
-// column for a dwell, a place or a seed, and no turn in any row. A file that cannot be read does not.
+// A hundred rows or more with times, and no dwell, place, seed or turn. False for an unreadable file.
 bool looks_like_recording(const SourceFile& file, const TableForm& form = {});
 
 }  // namespace asperity

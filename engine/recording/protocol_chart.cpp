@@ -29,7 +29,7 @@ std::string minutes(double seconds) {
                         : format_quantity(seconds, dimension::time, 3);
 }
 
-// What a protocol without a recording looks like on a clock.
+// A protocol without a recording.
 class Clock {
  public:
   explicit Clock(const Protocol& protocol) : events_(protocol.events()) {
@@ -114,7 +114,7 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   double end = 0;
   for (const RecordedSpan& span : played.spans) end = std::max(end, span.end);
   if (found != nullptr && !found->time.empty()) end = std::max(end, found->time.back());
-  // Readings of a clock, not "ks".
+  // No "ks".
   const double clock = !played.in_seconds ? 1 : end > 4 * 3600 ? 3600 : end > 600 ? 60 : 1;
   LineChart chart;
   chart.title = title;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A loading protocol as a chart: load over time, with its rises, holds, peaks, releases and turns marked and
-// labelled. One that was detected in a recording is drawn over what was recorded; any other over its recorded
-// times, or over the time its dwells add up to, or, without these, event by event.
+// A chart of load over time with labelled events. A detected protocol is drawn over its recording; others
+// over their times, the sum of dwells, or event by event.
 #pragma once
 
 #include <string>
@@ -11,8 +10,7 @@
 
 namespace asperity {
 
-// Labels are left out past 24 of them; the key tells the marks. Throws Error{bad_value} for a protocol whose
-// presses are not all by pressure or all by load.
+// No labels if more than 24. Throws Error{bad_value} for presses by both pressure and load.
 LineChart protocol_chart(const Protocol& protocol, const std::string& title);
 
 }  // namespace asperity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The body's heading while each load is on, and what it changes by from one to the next.
+// The heading of the body under each load, and its changes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -76,7 +76,7 @@ class TurnFinder {
     return upper_median(steps) / (0.6745 * std::sqrt(2.0));
   }
 
-  // The mean angle of these rows, which must not change.
+  // The mean angle, which must be constant.
   Heading heading(std::size_t first, std::size_t last) const {
     double sum = 0, start = NAN;
     std::size_t count = 0;
@@ -96,7 +96,6 @@ class TurnFinder {
     }
     return {first, last, count > 0 ? std::optional<double>(sum / static_cast<double>(count)) : std::nullopt};
   }
-  // Of some rows at the start or end of the recording.
   std::optional<Heading> heading_at_rim(std::size_t from, std::size_t to) const {
     constexpr int enough = 5;
     double sum = 0;
@@ -127,7 +126,6 @@ class TurnFinder {
                         std::to_string(recording_.line[before.last]) + " and line " +
                         std::to_string(recording_.line[now.first]) + ": before or after it is not recorded",
                     "fill the angle in by hand");
-    // Without load, as far as samples near it tell.
     const auto row = marks_.row();
     auto sample = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), k) - row.begin());
     sample = std::min(sample, row.size() - 1);

@@ -22,7 +22,6 @@ class Steps {
   double median() const { return median_; }
   double long_step() const { return std::max(median_, long_); }
 
-  // Rows that are absent between this row and the next.
   std::size_t absent_after(std::size_t row) const {
     constexpr double least = 2.5, most = 1e9;
     if (!(step(row) >= least * long_step())) return 0;
@@ -41,7 +40,6 @@ class Steps {
     const double a = step(row), b = step(row + 1), c = step(row + 2);
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
   }
-  // The step than which so many are shorter.
   static double least_but(Array<double>& steps, std::size_t shorter) {
     const auto at = steps.begin() + static_cast<std::ptrdiff_t>(shorter);
     std::nth_element(steps.begin(), at, steps.end());

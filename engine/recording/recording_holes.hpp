@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inner working of event_detection.hpp: where a recording holds no load, because cells are empty or
-// because rows are absent. O(rows).
+// Holes in a recording: empty load cells and absent rows. O(rows).
 //
-// Rows are absent where time goes on by two and a half usual steps or more. Usual is the longest of what half
-// of all steps stay within, what all but one in twenty do, and what two of the three before it or after it
-// do: a logger that writes in bursts, at random, or seldom while nothing happens loses no rows by that.
+// Rows are absent in a step of at least 2.5 usual steps: the longest of the median step, the step that one in
+// twenty exceeds, and the median of the three steps before or after. Logging in bursts, at random, or rarely
+// loses no rows.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +15,19 @@
 
 namespace asperity {
 
-// Between a sample of the load and the next.
 struct RecordedHole {
-  std::size_t sample;      // the one before it
+  std::size_t sample;      // before the hole
   std::size_t cells = 0;   // rows without a load
-  std::size_t absent = 0;  // rows, as many as usual steps would have made
+  std::size_t absent = 0;  // estimated
   std::size_t missing() const { return cells + absent; }
 };
 
 struct RecordedHoles {
   std::vector<RecordedHole> holes;        // in order
-  double median_step = 0, long_step = 0;  // s, between rows; one in twenty is longer than the latter
+  double median_step = 0, long_step = 0;  // s; one step in twenty exceeds long_step
 };
 
-// `row` holds the rows that have a load, in order; three or more.
+// `row`: rows with a load, in order; at least three.
 RecordedHoles recorded_holes(const PressRecording& recording, std::span<const std::uint32_t> row);
 
 }  // namespace asperity

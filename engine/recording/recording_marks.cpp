@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marks rests, holds and peaks on a recording; recording_times.cpp says when they begin and end.
+// Levels and peaks; recording_times.cpp computes times.
 #include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
@@ -24,20 +24,18 @@ constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
 
 double median_of(Array<double>& values) { return values.empty() ? 0 : upper_median(values); }
 
-// How alike neighbouring readings of a recording scatter, as they
-// do after a filter. Noise is taken for a first-order autoregression with the coefficient r, whose means over
-// n readings are known as those of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences
+// Correlated noise, as after a filter: a first-order autoregression with coefficient r. The mean of n
+// readings is as accurate as that of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences
 // over L readings have the variance s² (1.5 - 2 r^L + 0.5 r^2L); the medians of their magnitudes at L = 1 and
-// at a greater one give r and s. They are taken of what the lines of the pieces leave, so that ramps do not
-// move them, nor a clock that jitters on a ramp.
+// at a greater L give r and s. Residuals of the pieces are used, so ramps and clock jitter have no effect.
 struct NoiseCorrelation {
   double deviation = 0;    // of a reading
-  double independent = 1;  // the share of independent readings among n
+  double independent = 1;  // share of independent readings
 };
 
 constexpr double greatest_correlation = 0.98, least_correlation = 0.4;
 
-// The variance of a second difference over so many readings, of noise of variance 1.
+// For noise of variance 1.
 double bend_variance(double r, int stride) {
   const double far = elementary::pow(r, stride);
   return 1.5 - 2 * far + 0.5 * far * far;
@@ -45,14 +43,14 @@ double bend_variance(double r, int stride) {
 
 struct Bends {
   std::size_t count = 0;
-  double square = 0;  // of the deviation that their median tells
+  double square = 0;  // of the deviation, from the median
 };
 
-// Within pieces, their ends left out: a corner may lie there.
+// Without the ends of pieces, where a corner may be.
 Bends bends_of(std::span<const double> time, std::span<const double> value,
                std::span<const StraightPiece> pieces, int stride) {
   Array<double> magnitudes;
-  // A sensor at its limit has no noise.
+  // At its limit a sensor has no noise.
   const double top = *std::max_element(value.begin(), value.end());
   const auto lag = static_cast<std::size_t>(stride);
   constexpr std::size_t rim = 1;
@@ -70,8 +68,7 @@ Bends bends_of(std::span<const double> time, std::span<const double> value,
   return {magnitudes.size(), deviation * deviation};
 }
 
-// Looked for within the pieces. Nothing for noise that is white as far as can be told (r below 0.4), or where
-// too few readings lie within pieces. `time` and `value` are as long as the pieces tell. O(n).
+// None for white noise (r below 0.4) or too few readings. O(n).
 std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, std::span<const double> value,
                                                   std::span<const StraightPiece> pieces) {
   constexpr std::size_t enough = 400;
@@ -80,7 +77,7 @@ std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, 
   for (const int stride : {16, 8, 4}) {
     const Bends far = bends_of(time, value, pieces, stride);
     if (far.count < enough) continue;
-    // The ratio grows with r, from 1 on.
+    // Increases with r, from 1 on.
     const double ratio = far.square / near.square;
     const auto ratio_of = [stride](double r) { return bend_variance(r, stride) / bend_variance(r, 1); };
     double low = 0, high = greatest_correlation;
@@ -94,7 +91,7 @@ std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, 
   return {};
 }
 
-// The most that three neighbours in a row reach: one sample out of line does not count.
+// Medians of three neighbours, against single outliers.
 double highest_of_three(std::span<const double> y, double sign) {
   double highest = -INFINITY;
   for (std::size_t k = 0; k + 2 < y.size(); ++k) {
@@ -137,7 +134,7 @@ void RecordingMarks::take_samples() {
   if (t_.size() < fewest)
     refuse("holds " + std::to_string(t_.size()) + " samples of the load, too few to find events in",
            "read it with events=\"rows\" if each of its rows is an event");
-  // Squares of times and loads are summed.
+  // Squares of times and loads must not overflow.
   constexpr double least = 1e-100, most = 1e100;
   const auto [low, high] = std::minmax_element(y_.begin(), y_.end());
   const double span = t_.back() - t_.front(), greatest = std::max(std::abs(*low), std::abs(*high));
@@ -157,7 +154,6 @@ void RecordingMarks::take_samples() {
   range_ = top_ - bottom_;
 }
 
-// Loads that go down from rest, and hardly up, are those of a sensor that counts pulls.
 void RecordingMarks::refuse_negative_compression() const {
   constexpr std::size_t some = 5;
   Array<double> begin(y_.begin(), y_.begin() + std::min<std::ptrdiff_t>(some, std::ssize(y_)));
@@ -169,12 +165,12 @@ void RecordingMarks::refuse_negative_compression() const {
 }
 
 void RecordingMarks::measure_noise() {
-  double resolution = INFINITY;  // of the readings as they stand, for a mended one has more digits
+  double resolution = INFINITY;  // of raw readings: mended ones have more digits
   for (std::size_t k = 1; k + 1 < t_.size(); ++k)
     if (const double step = std::abs(recording_.load[row_[k]] - recording_.load[row_[k - 1]]); step > 0)
       resolution = std::min(resolution, step);
   noise_ = options_.noise.value_or(noise_of_bends(t_, y_, bottom_ + 0.5 * range_));
-  // A reading in coarse steps is off by up to half of one, and no ramp is straight to the last digit.
+  // Rounding of readings and curvature of ramps count as noise.
   constexpr double of_a_step = 0.3, of_the_range = 1e-4;
   effective_noise_ =
       std::max({noise_, std::isinf(resolution) ? 0 : of_a_step * std::min(resolution, 0.02 * range_),
@@ -185,8 +181,8 @@ void RecordingMarks::measure_noise() {
            "give the noise as `noise` if it is less");
 }
 
-// A filter makes neighbouring readings alike: they scatter more than second differences tell, and so many of
-// them say less. Cuts are then made anew, for they followed the noise.
+// Correlated readings scatter more than second differences show, and carry less information; pieces are cut
+// again.
 void RecordingMarks::follow_correlation() {
   if (options_.noise || effective_noise_ > noise_) return;
   constexpr int rounds = 2;
@@ -225,8 +221,7 @@ void RecordingMarks::find_zero() {
       least = std::min(least, piece.line.y);
     }
   if (std::isinf(least)) least = bottom_;
-  // A recording is begun before the press as a rule: then its first level is that without load, if it is the
-  // lowest.
+  // Recordings usually begin before the press: the first level is zero if lowest.
   constexpr double near_zero = 0.05, doubtful = 0.25;
   const bool begins_low = first != nullptr && first->line.y <= least + near_zero * scale;
   const std::string give = "give the sensor's reading without load as `zero` if that is wrong";
@@ -248,11 +243,11 @@ void RecordingMarks::find_zero() {
   if (!first_zero_) zeros_.push_back({t_.front(), 0});
 }
 
-// Rests, one after another: the zero follows them, and is taken off all readings.
+// The zero follows the rests.
 std::vector<bool> RecordingMarks::find_rests() {
   constexpr double near_zero = 0.05;
   double zero = first_zero_.value_or(zeros_.empty() ? 0 : zeros_.front().level);
-  double zero_doubt = 0;  // 1/n of the rest before; white noise leaves it too small to count beside `drift_`
+  double zero_doubt = 0;  // 1/n of the previous rest; negligible for white noise
   std::vector<bool> is_rest;
   std::vector<Mark> rests;
   for (const StraightPiece& piece : pieces_) {
@@ -301,7 +296,7 @@ bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
   if (std::abs(b.line.y - level) > tolerance) return false;
   const double band = std::max(tolerance, certain * effective_noise_);
   constexpr std::size_t glitch = 3;
-  constexpr double of_the_range = 0.05;  // greater ones were looked at before
+  constexpr double of_the_range = 0.05;  // larger ones were examined before
   Array<std::uint32_t> out;
   for (std::size_t k = a.last + 1; k < b.first; ++k)
     if (const double off = std::abs(y_[k] - level); off > band) {
@@ -330,7 +325,7 @@ void RecordingMarks::join_levels() {
   for (Mark& mark : marks_) trim(mark);
 }
 
-// Leaves the samples at both ends out of the level: a corner may lie within the piece.
+// Without the ends, where a corner may be.
 void RecordingMarks::trim(Mark& mark) const {
   const std::size_t count = mark.last - mark.first + 1, off = std::min<std::size_t>(2, count / 8);
   const double level = mark.line.y, band = certain * effective_noise_ + options_.same_load * range_;
@@ -359,7 +354,7 @@ void RecordingMarks::look_between() {
   for (std::size_t k = 0; k <= levels.size(); ++k) {
     const std::size_t first = k == 0 ? 0 : levels[k - 1].last + 1;
     const std::size_t end = k == levels.size() ? n : levels[k].first;
-    // Runs without load, which a short rest leaves that has no level of its own.
+    // Short rests without a level.
     std::size_t begun = first;
     constexpr std::size_t shortest = 3;
     for (std::size_t i = first; i < end;) {
@@ -393,7 +388,6 @@ void RecordingMarks::look_between() {
   marks_ = std::move(all);
 }
 
-// The highest of the samples from `first` until `end`, if it stands out above what is at both sides.
 void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, std::size_t end,
                                    const Mark* next) {
   if (first >= end) return;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inner working of event_detection.hpp: rests, holds and peaks marked on the samples of a recording, in
-// the order of time, with the levels and times that were made out. O(n log n) in the samples.
+// Rests, holds and peaks of a recording in order of time, for event_detection.hpp. O(n log n) in the samples.
 #pragma once
 
 #include <cmath>
@@ -17,49 +16,48 @@
 
 namespace asperity {
 
-// A value without the digits that its error makes meaningless.
+// Without digits below the error.
 double rounded(double value, double error);
 
 class RecordingMarks {
  public:
-  // A sample counts as noise within so many standard deviations: a million Gaussian ones stay within 4.9.
+  // In standard deviations: a million Gaussian samples stay within 4.9.
   static constexpr double certain = 6;
 
   struct Mark {
     enum class Kind { rest, hold, peak };
     Kind kind = Kind::rest;
     std::size_t first = 0, last = 0;  // samples
-    LineMoments line{};               // its mean is the level, the zero taken off
+    LineMoments line{};               // level above zero
     double begin = 0, end = 0, dwell_error = 0;
     double begin_error = 0, end_error = 0;
-    double begin_doubt = 0, end_doubt = 0;  // s, of the errors, by which it may have been shorter
+    double begin_doubt = 0, end_doubt = 0;  // s, parts of the errors by which it may be shorter
     bool pulse = false;                     // a peak between rests
 
     bool loaded() const { return kind != Kind::rest; }
   };
 
-  // Throws what detect_events does for the loads; warns of doubtful zeros.
+  // Throws as detect_events does for loads.
   RecordingMarks(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor);
 
   const std::vector<Mark>& marks() const { return marks_; }
-  // Perhaps holds, but too short for the noise.
+  // Too short for the noise.
   const std::vector<Mark>& doubtful() const { return doubtful_; }
-  // Samples whose readings were left out, in order.
+  // Mended samples, in order.
   std::span<const std::uint32_t> stray() const { return stray_; }
-  // What is read without load, in the order of time; one value if it was given, or none was found.
+  // Readings without load in order of time; one value if given or not found.
   struct Zero {
     double time, level;
   };
   const std::vector<Zero>& zeros() const { return zeros_; }
 
-  // Samples with a load: their times, loads with the zero taken off, and rows of the recording.
+  // Samples with a load: time, load above zero, row.
   std::span<const double> time() const { return t_; }
   std::span<const double> load() const { return y_; }
   std::span<const std::uint32_t> row() const { return row_; }
   std::size_t line(std::size_t sample) const { return recording_.line[row_[sample]]; }
 
-  // Of a reading, and of each of as many independent readings as there are: greater where neighbours are
-  // alike.
+  // Standard deviations: of a reading, and per reading in means (larger if neighbours are correlated).
   double noise() const { return noise_; }
   double independent_noise() const { return noise_ / std::sqrt(independent_); }
   double effective_noise() const { return effective_noise_; }
@@ -75,14 +73,13 @@ class RecordingMarks {
  private:
   double zero_at(double time) const;
   struct Corner {
-    double time, error, doubt;  // doubt: of the error, what lies within the level
+    double time, error, doubt;  // doubt: the part of the error inside the level
     std::size_t sample;
   };
   void take_samples();
   void refuse_negative_compression() const;
   void measure_noise();
   void follow_correlation();
-  // What tells in means and fits over many readings.
   double piece_noise() const { return effective_noise_ / std::sqrt(independent_); }
   void find_zero();
   std::vector<bool> find_rests();
@@ -108,25 +105,24 @@ class RecordingMarks {
   Array<double> t_, y_;
   Array<std::uint32_t> row_;
   double interval_ = 0, shortest_hold_ = 0, evidence_ = 0, noise_ = 0, effective_noise_ = 0;
-  double independent_ = 1;  // the share of independent readings among all
+  double independent_ = 1;  // share of independent readings
   double top_ = 0, bottom_ = 0, range_ = 0;
-  double drift_ = 0;                  // how far a rest may lie from the one before
-  std::optional<double> first_zero_;  // none: there is no rest, or it was given
+  double drift_ = 0;                  // greatest distance of successive rests
+  std::optional<double> first_zero_;  // none: no rest, or given
   std::vector<Zero> zeros_;
   Array<StraightPiece> pieces_;
   std::vector<Mark> levels_, marks_, doubtful_;
   Array<std::uint32_t> stray_;
 };
 
-// Turns of the body between the loads of a recording (recorded_turns.cpp). O(rows).
+// Turns between loads (recorded_turns.cpp). O(rows).
 struct RecordedTurn {
   double time;   // s
   double angle;  // rad
   std::size_t line;
 };
 
-// In the order of time; none where no angle was recorded. `highest` is the highest load, N or Pa. Throws what
-// detect_events does for turns.
+// In order of time. `highest`: N or Pa. Throws as detect_events does.
 std::vector<RecordedTurn> recorded_turns(const PressRecording& recording, const DetectionOptions& options,
                                          const RecordingMarks& marks, double highest);
 

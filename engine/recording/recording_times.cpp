@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When the marks on a recording begin and end: where the straight pieces beside them meet their levels, or a
-// ramp that the noise hides fits best; and which marks are none, seen so.
+// Begin and end of marks: where adjacent straight pieces, or the best ramp hidden in noise, meet the levels.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,11 +12,11 @@ namespace asperity {
 
 namespace {
 
-// A ramp between two known levels that its noise hides: where it begins and ends, by least squares of level,
-// ramp and level over a grid of centres and lengths, refined around the best. Some ten thousand additions.
+// A ramp between two known levels, hidden by noise: least squares over a grid of centres and lengths, refined
+// around the best.
 struct RampInNoise {
   double begin = 0, end = 0;  // s
-  double misfit = 0;          // squares, summed over the samples given
+  double misfit = 0;
 };
 
 double misfit(std::span<const double> time, std::span<const double> value, double from, double to,
@@ -32,7 +31,6 @@ double misfit(std::span<const double> time, std::span<const double> value, doubl
   return sum;
 }
 
-// Of the samples given, in time; three or more.
 RampInNoise fit_hidden_ramp(std::span<const double> time, std::span<const double> value, double from,
                             double to) {
   const double first = time.front(), last = time.back(), whole = last - first;
@@ -60,7 +58,6 @@ RampInNoise fit_hidden_ramp(std::span<const double> time, std::span<const double
   return {best_centre - best_half, best_centre + best_half, least};
 }
 
-// Least squared misfit of the two levels that pass into each other at once, where that fits best.
 double step_misfit(std::span<const double> value, double from, double to) {
   double now = 0;
   for (const double v : value) now += (v - to) * (v - to);
@@ -79,12 +76,12 @@ const StraightPiece& RecordingMarks::piece_at(std::size_t sample) const {
                                [sample](const StraightPiece& piece) { return piece.last < sample; });
 }
 
-// Where the level of a mark begins (step -1) or ends (step 1): where the straight piece beside it meets it.
+// Begin (step -1) or end (step 1) of a level.
 RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const {
   const std::size_t rim = step < 0 ? mark.first : mark.last;
   if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, 0, rim};
   const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
-  // A hold that drifts for certain has another level here than in its middle.
+  // The level of a drifting hold differs at its ends.
   const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * piece_noise();
   const double level = mark.line.y + (slopes ? mark.line.slope() * (t_[rim] - mark.line.t) : 0);
   const StraightPiece& piece = piece_at(beside(rim));
@@ -107,12 +104,12 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
   const auto has_more = [&] { return step < 0 ? k > 0 : k + 1 < t_.size(); };
   while (has_more() && std::abs(y_[beside(k)] - level) <= band) k = beside(k);
   const double gap = has_more() ? std::abs(t_[beside(k)] - t_[k]) : 0;
-  // However long the step is: the load stayed as far as it was recorded.
+  // A long gap adds no doubt: the load stayed as far as it was recorded.
   return {t_[k], gap / std::sqrt(12.0), std::min(gap, interval_) / std::sqrt(12.0), k};
 }
 
-// The samples in which a change between neighbouring holds may lie that the noise hides: a ramp of m samples
-// taken for a step costs m/12 of the squared change.
+// Samples that may hide a change between neighbouring holds: a ramp of m samples fitted as a step costs m/12
+// of the squared change.
 std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const Mark& b) const {
   const double change = std::abs(a.line.y - b.line.y) / piece_noise();
   const double hidden = change > 0 ? 12 * evidence_ / (change * change) : 1e9;
@@ -126,7 +123,7 @@ std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const 
   return {first, last};
 }
 
-// A slow ramp may look like a flight of stairs: a hold between two others that a ramp fits as well is none.
+// A slow ramp may look like stairs: a hold is dropped if a ramp fits as well.
 void RecordingMarks::drop_stairs() {
   constexpr std::size_t next_to = 4;
   for (std::size_t k = 1; k + 1 < marks_.size();) {
@@ -164,7 +161,7 @@ void RecordingMarks::time_marks() {
   }
 }
 
-// A short hold on the way to another that is as long as its ends are uncertain is a bend of the ramp.
+// A short hold within the uncertainty of its ends is a bend.
 bool RecordingMarks::drop_doubtful() {
   const std::size_t before = marks_.size();
   for (std::size_t k = 0; k < marks_.size(); ++k) {
@@ -200,7 +197,7 @@ void RecordingMarks::time_each() {
     mark.begin_doubt = begin.doubt;
     mark.end_doubt = end.doubt;
   }
-  constexpr double plain = 30;  // times the noise: such a change is well met by the straight pieces
+  constexpr double plain = 30;  // times the noise
   for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
     Mark &a = marks_[k], &b = marks_[k + 1];
     const double change = std::abs(a.line.y - b.line.y) / piece_noise();
@@ -223,7 +220,7 @@ void RecordingMarks::time_each() {
   double last = t_.front();
   for (Mark& mark : marks_) {
     if (mark.kind != Mark::Kind::peak) mark.dwell_error = elementary::hypot(mark.begin_error, mark.end_error);
-    // In order, whatever the noise made of corners that nearly meet.
+    // In order, even if noise moves corners.
     mark.begin = std::max(mark.begin, last);
     mark.end = std::max(mark.end, mark.begin);
     last = mark.end;

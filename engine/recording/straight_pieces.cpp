@@ -24,7 +24,7 @@ double LineMoments::misfit() const { return std::max(0.0, tt > 0 ? yy - ty * (ty
 
 namespace {
 
-// A join that may still be made; out of date once either piece has changed.
+// Outdated once a piece has changed.
 struct Join {
   double cost;
   std::uint32_t left, right, left_last, right_last;
@@ -47,7 +47,7 @@ class Joiner {
     previous_.resize(pieces_.size());
     for (std::uint32_t k = 0; k < pieces_.size(); ++k) {
       next_[k] = k + 1;
-      previous_[k] = k - 1;  // of the first: none
+      previous_[k] = k - 1;  // wraps for the first
     }
   }
 
@@ -104,7 +104,7 @@ class Joiner {
   Array<std::uint32_t> next_, previous_;
 };
 
-// Moves the cut between two neighbours to where both lines together misfit least.
+// To the least total misfit.
 void move_cut(std::span<const double> time, std::span<const double> value, StraightPiece& left,
               StraightPiece& right, Array<double>& after) {
   const std::size_t first = left.first, last = right.last, count = last - first + 1;

@@ -13,9 +13,9 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t median_reach = 4;     // of the running median, to each side
+constexpr std::size_t median_reach = 4;     // to each side
 constexpr std::size_t longest_run = 3;      // stray readings in a row
-constexpr std::size_t nearby_samples = 12;  // among which the neighbours are looked for
+constexpr std::size_t nearby_samples = 12;  // search range
 
 class StraySearch {
  public:
@@ -31,7 +31,7 @@ class StraySearch {
     for (std::size_t k = 0; k < y_.size(); ++k) suspect_[k] = std::abs(y_[k] - medians[k]) > tolerance_;
   }
 
-  // If hardly any load lasts longer than a short press, presses and stray readings look alike.
+  // If all loads are as short as stray readings, both look alike.
   bool tells() const { return range_ > tolerance_; }
 
   Array<std::uint32_t> mend() {
@@ -61,8 +61,7 @@ class StraySearch {
     return *middle;
   }
 
-  // A line through the nearest four unsuspected samples on one side; through two, if a corner is among the
-  // four.
+  // Through the nearest four unsuspected samples on one side, or two if a corner is among the four.
   struct Side {
     double nearest = 0, time = 0;
     LineMoments line{};
@@ -88,8 +87,8 @@ class StraySearch {
     return side;
   }
 
-  // Clears suspects between their neighbours, or on the line of the samples before them: a rising load may
-  // overshoot. The last round allows an overshoot as large as the step off that line.
+  // Clears suspects between neighbours or on the line before (overshoot). The last round allows overshoots as
+  // large as the step.
   void acquit(bool last) {
     std::vector<bool> still = suspect_;
     for (std::size_t k = 0; k < y_.size(); ++k) {
@@ -113,7 +112,7 @@ class StraySearch {
       }
   }
 
-  // A short press, or a short rest between two loads, where the load changes as fast elsewhere.
+  // Whether the load changes as fast elsewhere.
   bool may_be_real(std::size_t first, std::size_t end) const {
     constexpr double steep = 0.3, margin = 1.5, same_load = 0.02;
     if (end - first < 2 || std::min(rise_, fall_) < steep * range_) return false;
@@ -140,7 +139,7 @@ class StraySearch {
   std::span<double> y_;
   std::vector<bool> suspect_;
   double range_ = 0, tolerance_ = 0;
-  double rise_ = 0, fall_ = 0;  // greatest changes from one reading to the next
+  double rise_ = 0, fall_ = 0;  // greatest changes between readings
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ class CaseScheduler {
   std::vector<Finished> run() {
     const int threads = thread_count();
     const std::size_t wanted = std::min(wanted_, static_cast<std::size_t>(threads));
-    // A case that works alone may use all threads, unless it is itself inside a case.
+    // A single case may use all threads, unless inside another case.
     const bool single = wanted > 1 || threads == 1;
     {
       std::vector<std::jthread> workers;
@@ -75,7 +75,7 @@ class CaseScheduler {
   }
 
  private:
-  // No case is begun after this, whatever the way out; then the threads are joined.
+  // On every exit path: no further case begins, then the threads are joined.
   struct Ending {
     explicit Ending(CaseScheduler& s) : scheduler(s) {}
     ~Ending() {
@@ -132,7 +132,7 @@ class CaseScheduler {
     return k;
   }
 
-  // Null where the process is being stopped: a stop makes cases fail, or take another way past the error.
+  // Null during a stop, which can make a case fail or change its result.
   Finished result_of(std::size_t k) {
     const auto stopped = [] { return stop_flag().reason() != StopReason::none; };
     try {
@@ -143,7 +143,7 @@ class CaseScheduler {
       try {
         cases_.keep(k, *result, static_cast<bool>(schedule_.own));
       } catch (const Error& error) {
-        // Other processes would not find the result that this shard is here to compute.
+        // Other processes need a record: store a failure.
         cases_.fail(*result, error.what());
         cases_.keep(k, *result, true);
       }
@@ -153,7 +153,7 @@ class CaseScheduler {
     }
   }
 
-  // A row that other processes cannot be given is a failure in every one of them.
+  // A row without serial form fails in every process.
   void require_bytes(std::size_t k, FinishedCase& result) {
     try {
       (void)cases_.bytes(k, result);
@@ -163,7 +163,7 @@ class CaseScheduler {
     }
   }
 
-  // With the mutex held.
+  // Requires the mutex.
   void finish(std::size_t k, Finished result) {
     if (follows()) {
       outbox_.emplace_back(k, std::move(result));
@@ -195,7 +195,6 @@ class CaseScheduler {
   // Whether to report on the shared store before the first case.
   bool looks_first() const { return schedule_.report && !schedule_.own && !follows(); }
 
-  // Looks up all cases before any is computed or handed out.
   void find_kept() {
     const std::lock_guard lock(mutex_);
     std::deque<std::size_t> missing;
@@ -207,7 +206,7 @@ class CaseScheduler {
     waiting_ = std::move(missing);
   }
 
-  // Gives a rank up to so many cases; those there are not, once there are.
+  // Gives a rank up to `wanted` cases, some of them later if too few are waiting.
   void hand_out(int to, std::size_t wanted) {
     ByteWriter out;
     out.text(name_);
@@ -240,7 +239,7 @@ class CaseScheduler {
                       " when rank 0 came to an ensemble: the script does not do the same in every process");
         ranks_->send(from, Ranks::Kind::end, "");
       } else if (name != name_) {
-        // Of an ensemble that was over before that rank came to it; or else the two do not do the same.
+        // Ignores a late message from a finished ensemble; a later ensemble means that the scripts differ.
         if (std::stoll(name) < std::stoll(name_)) continue;
         take_back(from,
                   "came to another ensemble than rank 0: the script does not do the same in every process");
@@ -261,7 +260,6 @@ class CaseScheduler {
     }
   }
 
-  // What a rank that is lost had been given is done by the others.
   void take_back(int from, const std::string& why) {
     ranks_->lose(from, why);
     const std::lock_guard lock(mutex_);
@@ -316,11 +314,10 @@ class CaseScheduler {
         open_ = false;
       }
       more_.notify_all();
-      if (!open_) return;  // what follows is for what comes after
+      if (!open_) return;  // later messages belong to later calls
     }
   }
 
-  // Takes the results of other processes from the store, and reports: the script needs every row.
   void find_others() {
     StoreReport report;
     for (std::size_t k = 0; k < results_.size(); ++k) {
@@ -343,7 +340,7 @@ class CaseScheduler {
     show();
   }
 
-  // Waits a little, then shows what is new. True when all is done.
+  // True if all is done.
   bool look() {
     bool over = false, open = false;
     {
@@ -354,7 +351,7 @@ class CaseScheduler {
       open = open_;
     }
     if (leads()) lead();
-    if (follows() && open) follow();  // once all rows are there, what comes is for later
+    if (follows() && open) follow();
     if (stop_flag().reason() != StopReason::none) cases_.interrupt();
     const auto [done, failed] = show();
     if (!over) {
@@ -367,7 +364,7 @@ class CaseScheduler {
     return over;
   }
 
-  // What finished cases printed and warned of, in order. How many are done, and failed.
+  // Returns the numbers of done and failed cases.
   std::pair<std::size_t, std::size_t> show() {
     std::string output;
     std::vector<std::string> warnings, failures;
@@ -395,16 +392,16 @@ class CaseScheduler {
   EnsembleCases& cases_;
   const CaseSchedule& schedule_;
   Ranks* const ranks_;
-  std::string name_;                          // of this ensemble among those of the run, for other ranks
-  std::vector<std::set<std::size_t>> given_;  // of rank 0: to each of the others
-  std::vector<std::size_t> idle_;             // of rank 0: threads of each that wait for cases
-  std::size_t wanted_ = 0;                    // of this process
+  std::string name_;                          // of this ensemble in messages
+  std::vector<std::set<std::size_t>> given_;  // rank 0: cases in progress by rank
+  std::vector<std::size_t> idle_;             // rank 0: idle threads by rank
+  std::size_t wanted_ = 0;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members up to working_
   std::condition_variable changed_, more_;
-  bool open_ = false;                                     // cases may come yet
-  std::vector<std::pair<std::size_t, Finished>> outbox_;  // of the other ranks
-  std::deque<std::size_t> waiting_;                       // cases that nobody has begun
+  bool open_ = false;                                     // more cases may come
+  std::vector<std::pair<std::size_t, Finished>> outbox_;  // other ranks: finished cases
+  std::deque<std::size_t> waiting_;                       // not yet begun
   std::vector<Finished> results_;
   std::vector<bool> finished_;
   std::size_t done_ = 0, failed_ = 0;

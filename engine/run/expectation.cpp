@@ -25,7 +25,6 @@ struct Level {
   double mean;  // of the rows that share it
 };
 
-// Why a thing cannot be judged, if so, and otherwise the clauses that tell how it is violated.
 struct Finding {
   std::string obstacle;
   std::vector<std::string> violations;
@@ -33,7 +32,7 @@ struct Finding {
 
 std::string row_name(std::size_t row) { return "row " + std::to_string(row + 1); }
 
-// Six digits, or all of them where six would hide the difference.
+// All digits if six would hide the difference.
 std::string telling(double value, double beside) {
   const std::string text = format_short(value);
   return value != beside && text == format_short(beside) ? format_exact(value) : text;
@@ -136,7 +135,6 @@ bool is_near(const Expectation& e, double value) {
   return std::abs(value - near) <= allowed + (std::isfinite(rounding) ? rounding : 0.0);
 }
 
-// The rows to judge; sets the obstacle when there is none or one of them holds no number.
 std::vector<Value> values_of(const Expectation& e, const Table& table, Finding& finding) {
   std::vector<std::size_t> rows;
   try {
@@ -251,7 +249,7 @@ void check(const Expectation& e) {
   if (e.relative) require_number(ExpectedValue(*e.relative), "rel", true, true);
   require_number(e.at_least, "at_least", false, false);
   require_number(e.at_most, "at_most", false, false);
-  // A quantity and a plain number can be compared once the column's unit is known.
+  // Comparable only in the column's unit.
   const bool of_one_kind =
       e.at_least && e.at_most && e.at_least->quantity.empty() == e.at_most->quantity.empty();
   if (of_one_kind) require_order(e);

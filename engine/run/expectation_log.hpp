@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verdicts of a run, in the order in which they were asked for: for the summary at the end, the
-// manifest and the exit status. Thread-safe.
+// The verdicts of a run in order. Thread-safe.
 #pragma once
 
 #include <mutex>
@@ -17,12 +16,11 @@ Json to_json(const Verdict& verdict);
 class ExpectationLog {
  public:
   void add(Verdict verdict);
-  // Takes what is there away, and puts that in its place.
   std::vector<Verdict> exchange(std::vector<Verdict> verdicts);
   std::vector<Verdict> verdicts() const;
   std::size_t failed() const;
-  // "12 expectations hold (2 negative controls fail, as they should)", "3 of 12 expectations fail"
-  // and the like; "" when there were none.
+  // "12 expectations hold (2 negative controls fail, as they should)", "3 of 12 expectations fail"; may be
+  // "".
   std::string summary() const;
 
  private:

@@ -25,14 +25,14 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
-  // Before it is read: what a link leads to is not of this run.
+  // O_NOFOLLOW refuses a link before the first read.
   auto journal = std::make_unique<Journal>();
   journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (journal->descriptor_ < 0 && errno == ELOOP)
     throw Error(ErrorCode::bad_file, quoted(path.string()) + " is a link",
                 "a run writes its own files where they are; take the link away");
   if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
-  // A copy of the directory by hard links (cp -al) keeps the bytes that it was made with.
+  // A copy by hard links (cp -al) must keep its bytes.
   part_from_other_names(path);
   ::close(std::exchange(journal->descriptor_, -1));
   journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -79,7 +79,7 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
   return count_;
 }
 
-// Whether the line stands there already. What is the same step with another value ends the repetition.
+// A different value in the same step ends the repetition.
 bool Journal::repeats(const Json& line) {
   const auto at = static_cast<std::size_t>(count_);
   if (at >= recorded_.size()) return false;
@@ -136,7 +136,6 @@ bool Journal::is_lost() const {
 }
 
 std::optional<JournalFacts> Journal::facts() const {
-  // A writer that is stuck in the disk is not waited for.
   const std::unique_lock lock = lock_within(mutex_, std::chrono::milliseconds(100));
   if (!lock.owns_lock() || !closed_ || descriptor_ < 0) return {};
   return JournalFacts{count_, digester_.hex()};
@@ -166,7 +165,7 @@ Json without_unhashed(const Json& record) {
 
 namespace {
 
-// What serves where a journal does not: the results of heavy calls carry digests of their own.
+// Results of heavy calls carry their own digests.
 std::string results_remain(const std::filesystem::path& journal) {
   const std::string run = journal.parent_path().string();
   return "its results are taken by `asperity run " + (journal.parent_path() / "script.lua").string() +
@@ -183,7 +182,7 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
     end = std::min(text.find('\n', begin), text.size());
     const std::string line = text.substr(begin, end - begin);
     const std::string name = "line " + std::to_string(read.lines.size() + 1) + " of " + quoted(path.string());
-    // No newline after it; or a hole that a power cut left in the file, which reads as zeros.
+    // No newline, or a hole from a power cut.
     if (may_be_torn && (end == text.size() || line.find('\0') != std::string::npos)) break;
     bytes += static_cast<std::int64_t>(line.size()) + 1;
     if (line.find('\0') != std::string::npos)
@@ -221,7 +220,7 @@ std::vector<DifferingMember> differing_members(const Json* one, const Json* othe
   }
   for (const auto& [name, value] : other->members())
     if (one->find(name) == nullptr) all.push_back({under(name), nullptr, &value});
-  if (all.empty()) all.push_back({path, one, other});  // but for their order
+  if (all.empty()) all.push_back({path, one, other});  // only the order differs
   return all;
 }
 

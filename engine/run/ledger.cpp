@@ -20,7 +20,6 @@ Json to_json(const Cost& cost) {
 
 std::string seconds_text(double seconds) { return format_quantity(seconds, dimension::time, 3); }
 
-// Columns padded to the widest of each; the first to the left, the others to the right.
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows)
@@ -159,11 +158,11 @@ LedgerScope::~LedgerScope() {
     ledger_.add(owner_.empty() ? std::string(call_) : std::string(owner_) + "." + std::string(call_),
                 in_case_, own);
   } catch (const std::bad_alloc&) {
-    return;  // without memory for a line its time counts as the script's
+    return;  // its time then counts as the script's
   }
   if (outer_ == nullptr) return;
   outer_->inner_.transforms += all.transforms;
-  // An ensemble's time is that in which it waits for its cases, whichever thread runs them.
+  // The time of an ensemble is its waiting time for cases, on any thread.
   if (outer_->in_case_ == in_case_) outer_->inner_.seconds += all.seconds;
 }
 

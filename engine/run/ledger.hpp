@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run has done and what it cost: call by call, and for contacts effect by effect. A call's seconds and
-// transforms are its own, without those of recorded calls it made, so that the lines add up; what is left of
-// the run's time is the script itself and calls too short to matter. Cases of an ensemble run beside
-// each other: their lines are kept apart, in seconds of all threads together, and are not added.
+// Work and cost of a run by call and contact effect, without recorded inner calls, so lines add up. Cases of
+// an ensemble run in parallel: their lines sum seconds over threads and are not added.
 #pragma once
 
 #include <chrono>
@@ -20,30 +18,29 @@
 namespace asperity {
 
 struct LedgerLine {
-  std::string call;      // "contact:press"
-  bool in_case = false;  // made by a case of an ensemble
+  std::string call;  // "contact:press"
+  bool in_case = false;
   std::int64_t calls = 0;
-  Cost cost;  // its own; bytes is the greatest of one call
+  Cost cost;  // without inner calls; bytes: maximum of a call
 };
 
 struct LedgerReport {
-  std::vector<LedgerLine> lines;                        // dearest first, those of cases last
-  std::vector<std::pair<std::string, Cost>> by_effect;  // of all contacts pressed, dearest first
-  std::vector<std::string> effects_off;                 // that no contact named
+  std::vector<LedgerLine> lines;                        // dearest first, cases last
+  std::vector<std::pair<std::string, Cost>> by_effect;  // dearest first
+  std::vector<std::string> effects_off;                 // not named by any contact
   double seconds = 0;                                   // of the run so far
   double transforms = 0;                                // of all lines
-  std::int64_t bytes = 0;                               // greatest of the lines
+  std::int64_t bytes = 0;                               // maximum of the lines
 
-  // Seconds of the run that are in no line: the script itself, and calls too short for one.
+  // The script itself, and unrecorded short calls.
   double unaccounted() const;
-  std::string text() const;  // several lines, each ended
+  std::string text() const;
   Json json() const;
 };
 
 class Ledger {
  public:
   void add(std::string_view call, bool in_case, const Cost& own);
-  // What a contact's state cost, by effect.
   void add_effects(std::span<const std::pair<std::string, Cost>> by_effect);
   LedgerReport report() const;
 
@@ -54,16 +51,15 @@ class Ledger {
   std::vector<std::pair<std::string, Cost>> by_effect_;
 };
 
-// One call, from construction to destruction, on one thread.
 class LedgerScope {
  public:
-  // A call that is not `lasting` gets a line only if it takes longer than this.
+  // Shorter calls get a line only if `lasting`.
   static constexpr double shortest = 50e-6;  // s
 
-  // `owner` may be empty: the line is then that of `call`, otherwise "owner.call". Both outlive the scope.
+  // The line is "owner.call", or `call` without owner. Both outlive the scope.
   LedgerScope(Ledger& ledger, std::string_view owner, std::string_view call, bool in_case, bool lasting);
   ~LedgerScope();
-  // Gives it a line however short it is; or none, however long.
+  // keep() always records a line, forget() never.
   void keep() { lasting_ = true; }
   void forget() { forgotten_ = true; }
   LedgerScope(const LedgerScope&) = delete;
@@ -75,7 +71,7 @@ class LedgerScope {
   bool in_case_, lasting_, forgotten_ = false;
   LedgerScope* outer_;
   CostScope cost_;
-  Cost inner_;  // of recorded calls made from here
+  Cost inner_;  // of recorded inner calls
 };
 
 }  // namespace asperity

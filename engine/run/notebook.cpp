@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 Json to_json(const Cell& cell) {
-  if (is_number(cell)) return *number_in(cell);  // whole or not: a journal tells no difference
+  if (is_number(cell)) return *number_in(cell);  // journals do not distinguish integers
   if (const bool* truth = std::get_if<bool>(&cell)) return *truth;
   if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
   return {};
@@ -62,7 +62,7 @@ void Notebook::write(std::span<const Entry> given) {
   table_.check(row);
   Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});
   if (!units.is_null()) fields.set("units", std::move(units));
-  // Whoever follows the rows cannot see where a declared column stands that the first of them lacks.
+  // The first row may lack a declared column.
   if (table_.rows() == 0 && !order_.empty()) {
     std::vector<std::string> columns;
     for (const TableColumn& column : table_.columns()) columns.push_back(column.name);
@@ -71,7 +71,7 @@ void Notebook::write(std::span<const Entry> given) {
   journal_.write("row", fields);
   const bool new_header = table_.append(row);
   if (csv_.empty()) return;
-  // The file of a run that is resumed has these rows, and more.
+  // A resumed run's file has these rows already.
   if (journal_.repeating()) {
     stale_ = true;
     return;
@@ -103,7 +103,7 @@ void Notebook::rewrite() {
 
 void Notebook::append_last_row() {
   stale_ = true;
-  // Somebody may have taken the file away; then it is written anew.
+  // Another program may have removed the file.
   if (!append_to_existing(csv_, table_.csv_row(table_.rows() - 1))) return rewrite();
   stale_ = false;
 }

@@ -22,16 +22,15 @@ struct Sample {
 };
 
 struct Line {
-  Cell value;  // of `one_line_per`
+  Cell value;
   std::vector<Sample> samples;
 };
 
-// The columns a chart reads, found once.
 struct Columns {
   std::size_t x;
   std::vector<std::size_t> y;
   std::optional<std::size_t> line, error, low, high;
-  std::vector<std::string> names = {};  // of an axis of names
+  std::vector<std::string> names = {};
 };
 
 Columns find_columns(const Table& table, const NotebookChart& options) {
@@ -58,7 +57,7 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
   return columns;
 }
 
-// The names that a column of texts holds, in the order of their first rows; none where it holds a number.
+// In order of their first rows; empty if the column has a number.
 std::vector<std::string> names_along(const Table& table, const std::vector<std::size_t>& rows,
                                      std::size_t column) {
   constexpr std::size_t most = 60;
@@ -84,7 +83,7 @@ std::optional<double> place_of_name(const std::vector<std::string>& names, const
   return static_cast<double>(place - names.begin());
 }
 
-// Rows that hold text where a number should be, and the first of it.
+// Rows with text instead of a number, and the first text.
 struct Unreadable {
   std::size_t rows = 0;
   std::string column, text;
@@ -208,7 +207,6 @@ ChartSeries curve_series(std::string name, std::vector<double> x, std::vector<do
   return series;
 }
 
-// The range of what is drawn along x so far.
 Range range_along(const LineChart& chart) {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto take = [&](double value) {
@@ -267,7 +265,6 @@ void add_functions(LineChart& chart, const NotebookChart& options) {
   }
 }
 
-// Where there is nothing to draw: why.
 [[noreturn]] void refuse_empty(const Table& table, const std::vector<std::size_t>& rows,
                                const NotebookChart& options, const Unreadable& unreadable,
                                const std::string& y, const std::string& x) {

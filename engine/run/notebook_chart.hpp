@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chart of a notebook or of a table: columns against a column, one line for each value of another. Rows
-// that share line and x are averaged, and drawn as means; with `spread` the means carry error bars (the
-// standard deviation of those rows, n-1, or the mean of a column that holds errors), without it the
-// single rows stand as faint points behind. `in_order` joins the rows as they were written instead, for
-// loops that come back (load and unload). A column of texts along x gives an axis of names, in the order of
-// their first rows. Fits of the same columns are drawn with their bands, functions as lines over the range of
-// x, and lines across at one x or y; a second chart stands below.
+// The chart of a notebook or table: columns against a column, one line per value of another column. Rows with
+// equal line and x are averaged. With `spread`, means carry error bars (standard deviation with n-1, or mean
+// errors); otherwise rows are faint points. `in_order` joins the rows as written. A column of texts gives an
+// axis of names.
 #pragma once
 
 #include <filesystem>
@@ -25,12 +22,12 @@
 
 namespace asperity {
 
-// The curve at one x with the interval of the curve (not of a further measurement) there.
+// The confidence interval of the curve, not of a new measurement.
 struct CurvePoint {
   double x = 0, y = 0, low = 0, high = 0;
 };
 
-// A fitted curve as it is drawn. Its columns must be those of the chart.
+// Its columns must be those of the chart.
 struct FittedCurve {
   std::string name;
   std::string x, y;
@@ -38,13 +35,12 @@ struct FittedCurve {
   std::vector<CurvePoint> curve;
 };
 
-// A function of x, in the units of the columns.
 struct FunctionLine {
   std::string name;
   std::function<double(double x)> value;
 };
 
-// A line across at one x or one y: a number in the column's unit, or a quantity, which is converted to it.
+// In the column's unit; quantities are converted.
 struct ReferenceLine {
   std::optional<ExpectedValue> x, y;
   std::string name;
@@ -52,31 +48,30 @@ struct ReferenceLine {
 
 struct NotebookChart {
   std::string x;
-  std::vector<std::string> y;                // one or more columns of one unit
-  std::optional<std::string> one_line_per;   // a column; its values in ascending order
-  bool spread = false;                       // error bars from the scatter of rows
-  std::optional<std::string> spread_column;  // error bars from this column
+  std::vector<std::string> y;               // of one unit
+  std::optional<std::string> one_line_per;  // a column, in ascending order of values
+  bool spread = false;                      // standard deviation of the rows
+  std::optional<std::string> spread_column;
   TableFilter where;
   bool log_x = false, log_y = false;
   bool in_order = false;
-  std::optional<bool> lines;  // default: where no fit is drawn and x is no axis of names
+  std::optional<bool> lines;  // default: without fits and axis of names
   bool points = true;
   std::string title;
-  std::optional<std::string> x_label, y_label;  // instead of the columns' names; units are added
-  std::optional<std::string> file;              // default <notebook>-<y>-<x>.svg
-  std::optional<std::string> low, high;         // columns that hold the ends of error bars
+  std::optional<std::string> x_label, y_label;  // units are added
+  std::optional<std::string> file;              // default_chart_file()
+  std::optional<std::string> low, high;         // columns with the ends of error bars
   std::vector<ReferenceLine> references;
   std::vector<FittedCurve> fits;
   std::vector<FunctionLine> functions;
-  std::shared_ptr<NotebookChart> below;  // a second panel
+  std::shared_ptr<NotebookChart> below;  // second panel
 };
 
-// The lines of the chart; `warnings` gets sentences about cells that are not numbers. Throws
-// Error{unknown_name} for a missing column, naming the key and the nearest one; Error{bad_unit} for y
-// columns of different units; Error{bad_value} when no row has x and y.
+// `warnings`: cells without numbers. Throws Error{unknown_name} for a missing column, Error{bad_unit} for y
+// columns of different units, Error{bad_value} if no row has x and y.
 LineChart chart_of(const Table& table, const NotebookChart& options, std::vector<std::string>& warnings);
 
-// "<notebook>-<y>-<x>.svg", safe as a file name.
+// "<notebook>-<y>-<x>.svg"
 std::string default_chart_file(std::string_view notebook, const NotebookChart& options);
 
 struct DrawnChart {
@@ -84,11 +79,9 @@ struct DrawnChart {
   std::vector<std::string> warnings;
 };
 
-// Draws the chart of what the notebook holds now under the run's directory; journal event "chart".
-// A dry run checks everything and draws nothing. Throws as chart_of, RunDirectory::path_for and
-// draw do.
+// Journal event "chart". A dry run only checks. Throws as chart_of, RunDirectory::path_for and draw do.
 DrawnChart draw_chart(RunDirectory& run, const Notebook& notebook, const NotebookChart& options);
-// The same of a table, which the journal and the default file call `name`.
+// `name`: for the journal and the default file.
 DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& table,
                       const NotebookChart& options);
 

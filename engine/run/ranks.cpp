@@ -82,7 +82,7 @@ void Ranks::call_together(const std::string& what, int ensembles) {
     } else if (message.kind == Kind::hello && std::stoll(name) > ensembles) {
       lose(message.from, "came to an ensemble when rank 0 came to " + what +
                              ": the script does not do the same in every process");
-    }  // else of an ensemble that is over
+    }  // else a late message of a finished ensemble
   }
   ByteWriter out;
   out.number(meetings_);
@@ -132,7 +132,6 @@ std::optional<FoundResult> RankStore::find(const std::string& key) {
       ByteReader in(message->bytes);
       if (in.text() == key) return result_from(in);
     }
-    // Rank 0 is past this call, or had no result of it.
     ranks_.put_back(*std::move(message));
     return {};
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processes of one run, which run the same script side by side. Rank 0 owns the run: it hands out the
-// cases of ensembles, collects what they find and gives all rows to all; and it alone computes heavy calls
-// outside ensembles, whose results the others wait for. Whatever happens to another rank, rank 0 can finish
-// what is missing itself. All calls are made from the thread that runs the script.
+// The processes of one run of one script. Rank 0 distributes cases, broadcasts rows, and alone computes heavy
+// calls outside ensembles. Rank 0 can replace a failed rank. Call from the script's thread.
 #pragma once
 
 #include <cstdint>
@@ -33,24 +31,22 @@ class Ranks {
 
   void send(int to, Kind kind, const std::string& bytes);
   void send_to_others(Kind kind, const std::string& bytes);
-  // The next message of the others; none where none waits. Messages of lost ranks are dropped.
+  // None if no message waits. Messages of lost ranks are dropped.
   std::optional<Message> receive();
-  // To be received again, before all others.
+  // Returned by the next receive().
   void put_back(Message message) { put_back_.push_front(std::move(message)); }
 
-  // For rank 0: another one is not counted on any more, and why, which makes the run fail at its end.
+  // The run then fails at its end.
   void lose(int other, const std::string& why);
   bool lost(int other) const { return lost_.contains(other); }
   const std::vector<std::string>& losses() const { return losses_; }
 
-  // Before work that all processes do together (Team): waits until each has come to it. `what` names it, the
-  // same in all; `ensembles` is how many the script has begun. Throws Error{bad_state} in every process that
-  // comes where one does not, or comes to something else.
+  // Barrier before collective work (Team), with the same `what` on all ranks; `ensembles` counts those begun.
+  // Throws Error{bad_state} on every waiting rank if one is missing or comes to other work.
   void meet(const std::string& what, int ensembles);
-  // For that work.
   virtual Team& team() = 0;
 
-  // The run's own store, for cases; null where there is none. On ranks other than 0 that of `--store`.
+  // For cases; null: none. On ranks other than 0 the store of `--store`.
   ResultStore* own_store = nullptr;
 
  protected:
@@ -69,8 +65,8 @@ class Ranks {
   std::vector<std::string> losses_;
 };
 
-// The results of heavy calls outside ensembles: rank 0 takes them from its store or computes them, and sends
-// them to the others, which wait. One that rank 0 could not compute is tried by all.
+// Heavy calls outside ensembles: rank 0 loads or computes each result and sends it to the others. If rank 0
+// fails, every rank tries.
 class RankStore final : public ResultStore {
  public:
   explicit RankStore(Ranks& ranks) : ranks_(ranks) {}

@@ -36,7 +36,7 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
   std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
   if (!recorded.ended()) {
     compared = recorded.journal.size();
-    // What ended it is not what it found.
+    // The end of an unfinished run is no result.
     if (compared > 0 && described(recorded.journal.back()) == "end") --compared;
   }
   for (std::size_t k = 0; k < compared; ++k) {
@@ -54,7 +54,7 @@ std::optional<std::string> named(const Json& entry) {
   return file != nullptr ? std::optional(file->string()) : std::nullopt;
 }
 
-// A record may come from elsewhere, so it may name only files in its folder of copies.
+// A record from elsewhere may name only files in its folder of copies.
 void read_loaded(RecordedRun& run) {
   for (const Json& entry : run.inputs.list()) {
     const Json *copy = entry.find("copy"), *digest = entry.find("digest");
@@ -75,7 +75,6 @@ void read_loaded(RecordedRun& run) {
   }
 }
 
-// Lists of files, each with its digest.
 void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::string_view list,
                    std::vector<Difference>& found) {
   const auto digest_in = [&](const RecordedRun& run, const std::string& file) -> const Json* {
@@ -198,7 +197,7 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
     const Json* digest = entry.find("digest");
     if (!file || digest == nullptr || entry.find("copy") != nullptr) continue;
     bool found = false, same = false;
-    // A file that the run wrote itself is named by its place in the run.
+    // The run's own files have names inside the run.
     for (const fs::path& place : {fs::path(*file), run.root / *file}) {
       std::error_code missing;
       if (same || !fs::is_regular_file(place, missing)) continue;
@@ -227,7 +226,6 @@ std::vector<std::string> altered_originals(const RecordedRun& run) {
 
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again) {
   std::vector<Difference> found;
-  // What a run has read comes before what followed from it.
   if (recorded.ended()) compare_files(recorded, again, "inputs", found);
   compare_lines(recorded, again, found);
   if (!recorded.ended()) return found;

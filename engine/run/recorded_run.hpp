@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run read back from its directory: its script and inputs, its results, and where another run of
-// the same script found something else. Members named "unhashed" (dates, seconds, machine, threads) are left
-// out: all the rest of two equal runs is equal to the byte. Reads JSON and digests files; runs nothing.
+// A run loaded from its directory, and its differences from another run, except for members "unhashed"
+// (dates, seconds, machine, threads).
 #pragma once
 
 #include <cstdint>
@@ -18,58 +17,54 @@ namespace asperity {
 
 struct DifferingMember;
 
-// The recorded copy of a script file loaded by `require`, `dofile` or `loadfile`.
+// Copy of a file loaded by `require`, `dofile` or `loadfile`.
 struct LoadedFile {
   std::string text, digest;
 };
-using LoadedFiles = std::map<std::string, LoadedFile, std::less<>>;  // by the name it was loaded under
+using LoadedFiles = std::map<std::string, LoadedFile, std::less<>>;  // by name in the script
 
 struct RecordedRun {
   std::filesystem::path root;
-  // "done", "failed", "shard" (it ended at an ensemble for lack of the cases of others), "interrupted",
-  // "killed", or "running" where it was cut off.
+  // "done", "failed", "shard" (ended for lack of other cases), "interrupted", "killed", "running" (crashed).
   std::string status;
-  std::string shard, store;  // "1/3", of a run that computed a share; and the folder that it shared; else ""
-  std::string script_path;   // as it was given
+  std::string shard, store;  // "1/3" and the shared folder, of a shard; else ""
+  std::string script_path;   // as given
   std::string script_text;
   std::vector<std::string> arguments;
   std::int64_t seed = 1;
-  GivenKnobs knobs;  // the values it was made with
+  GivenKnobs knobs;  // the values given
   bool trusted = false;
   Json versions;
-  Json machine = Json::object();  // machine_facts() of where it ran; empty where they were not noted
-  std::vector<Json> journal;      // a line each
-  std::string journal_fault;      // a sentence with its fault and its replacement; else ""
+  Json machine = Json::object();  // machine_facts(); may be empty
+  std::vector<Json> journal;
+  std::string journal_fault;  // a sentence; its replacement
   std::string journal_hint;
   Json manifest;
-  Json inputs = Json::List();             // as far as the run had come
-  LoadedFiles loaded;                     // whose copies are as the run made them
-  std::vector<std::string> loaded_fault;  // a sentence for each other copy
+  Json inputs = Json::List();             // so far
+  LoadedFiles loaded;                     // with unaltered copies
+  std::vector<std::string> loaded_fault;  // a sentence for each altered copy
 
-  // Whether it came to its own end, so that its journal is whole and its files are listed.
+  // Journal and list of files are complete.
   bool ended() const { return status == "done" || status == "failed"; }
 };
 
-// The version of the program that recorded it, "0.1.0"; "" where the record does not say.
+// "0.1.0"; "" if not recorded.
 std::string program_version(const RecordedRun& run);
 
-// The manifest alone. Throws Error{bad_file} where there is none or it is no JSON.
+// Throws Error{bad_file} if it is missing or no JSON.
 Json read_manifest(const std::filesystem::path& root);
 
-// Throws Error{bad_file} where there is no run, where its script is no longer the one that ran, or, unless
-// `journal_may_be_damaged`, where a line of the journal is no JSON or is missing. The last line of a run that
-// was cut off may be torn; it is left out.
+// Throws Error{bad_file} if there is no run, its script was altered, or, unless `journal_may_be_damaged`, a
+// journal line is missing or no JSON. Skips a torn last line of an unfinished run.
 RecordedRun read_run(const std::filesystem::path& root, bool journal_may_be_damaged = false);
 
-// A sentence for each output, or copy of a loaded file, that is missing or differs from the manifest.
+// A sentence per missing or altered output or copy.
 std::vector<std::string> altered_outputs(const RecordedRun& run);
 
-// The same of the files that it read, as they are found from the working folder; none of a run that did not
-// come to its end. O(their bytes).
+// The same for input files, from the working folder; empty for an unfinished run.
 std::vector<std::string> altered_inputs(const RecordedRun& run);
 
-// A sentence for each loaded file with other content now, as seen from the working folder. Replay and resume
-// load the copies.
+// A sentence per loaded file that changed since, from the working folder.
 std::vector<std::string> altered_originals(const RecordedRun& run);
 
 struct Difference {
@@ -77,11 +72,9 @@ struct Difference {
   std::string recorded, again;
 };
 
-// Of members that differ: one by its value, several by their names and values.
 Difference difference_of(std::string where, const std::vector<DifferingMember>& members);
 
-// In the order of the journal, then inputs, outputs and expectations. Of a run that did not come to its end
-// only the lines it wrote are compared.
+// Inputs, journal, outputs, expectations. An unfinished run is compared as far as it came.
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again);
 
 }  // namespace asperity

@@ -60,7 +60,7 @@ ResultFiles::ResultFiles(ResultFilesSetup setup)
         const std::lock_guard lock(mutex_);
         note(file, std::move(sentence));
       }) {
-  // Others may be writing in a folder that is shared.
+  // Another run may be writing.
   sweep_parts(setup_.folder, Parts::abandoned);
   for (const fs::path& folder : setup_.also)
     other_logs_.emplace_back(folder / ResultLog::folder_name,
@@ -74,7 +74,7 @@ std::string ResultFiles::name_of(const std::string& key) const {
   return Digester().add(form).add(setup_.build).add(key).hex();
 }
 
-// A log is gone through without the lock, for it may have something to tell.
+// Called without the lock, which notices of a log take.
 std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, const std::string& name) {
   std::optional<ResultLog::Found> record = log_.find(name);
   const bool own = record.has_value();
@@ -87,7 +87,7 @@ std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, con
     found = result_from(in);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
-    return {};  // sound, and not of this form: of another key, if anything
+    return {};  // intact, but of another key
   }
   if (!own) keep_in_log(name, record->bytes);
   const std::lock_guard lock(mutex_);
@@ -168,13 +168,13 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   if (fs::exists(to, problem)) return;
   const auto bytes = fs::file_size(from, problem);
   if (problem || !make_room(static_cast<std::int64_t>(bytes))) return;
-  fs::create_hard_link(from, to, problem);  // one file of both folders, where they are on one disk
+  fs::create_hard_link(from, to, problem);  // fails on another disk
   if (!problem) return;
   try {
-    AtomicFile copy(to);  // other runs may bring it over at the same time
+    AtomicFile copy(to);  // other runs may copy it, too
     if (fs::copy_file(from, copy.temporary(), problem)) copy.commit();
   } catch (const Error&) {
-    // it stays where it is
+    // the original remains
   }
 }
 
@@ -225,10 +225,10 @@ void ResultFiles::keep_in_log(const std::string& name, const std::string& bytes)
     {
       const std::lock_guard lock(mutex_);
       if (!ready_for_log_) ready_folder();
-      ready_for_log_ = true;  // the log makes its folders again where they are gone
+      ready_for_log_ = true;  // the log restores missing folders
       if (!has_room(static_cast<std::int64_t>(bytes.size()) + ResultLog::bytes_beside)) return;
     }
-    const fs::path file = log_.keep(name, bytes);  // which waits for the disk at times: not under the lock
+    const fs::path file = log_.keep(name, bytes);  // may wait for the disk: no lock
     const std::lock_guard lock(mutex_);
     if (file != log_file_) used_.insert(file.lexically_relative(setup_.folder).string());
     log_file_ = file;
@@ -275,8 +275,8 @@ bool ResultFiles::has_room(std::int64_t bytes) {
   return false;
 }
 
-// The folder is gone through again once a quarter of its room was used, for others may write there too; where
-// it is full, a sixteenth is freed at once. A walk for each of n results would take the time of n² of them.
+// Scans the folder after a quarter of its free room was used, because others write there. A full folder loses
+// a sixteenth of its limit at once: a scan for each of n results would cost n².
 bool ResultFiles::make_room(std::int64_t bytes) {
   if (bytes > setup_.most_bytes || bytes > setup_.most_added - added_) return false;
   if (setup_.most_bytes == unlimited || added_since_ + bytes <= room_ / 4) {
@@ -295,12 +295,12 @@ bool ResultFiles::make_room(std::int64_t bytes) {
     std::error_code problem;
     for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
          entry.increment(problem)) {
-      std::error_code gone;  // another run may take it away meanwhile
+      std::error_code gone;  // another run may remove it
       if (entry->path().extension() != extension) continue;
       const auto size = static_cast<std::int64_t>(entry->file_size(gone));
       if (gone) continue;
       held += size;
-      if (is_part(entry->path())) continue;  // of one who writes now
+      if (is_part(entry->path())) continue;  // being written
       if (!used_.contains(entry->path().lexically_relative(setup_.folder).string()))
         old.push_back({entry->last_write_time(gone), entry->path(), size});
     }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The results of heavy calls in a folder, one HDF5 file a result, named by its key, and those that are one of
-// many in logs (core/files/result_log.hpp): what a run that was cut off has finished, and what an edited
-// script shares with the last one. A file is written under a temporary name and renamed and carries a digest
-// of what it holds; a torn or altered one is noticed, computed anew and replaced. Keys hold the identity of
-// this build, for another build may round otherwise. Folders may be shared by runs and machines at the same
-// time. Parts that killed writers left there are removed when it is opened.
+// Results of heavy calls in a folder: one HDF5 file per result, and logs (core/files/result_log.hpp). Files
+// are written atomically with a digest; a damaged file is reported, recomputed and replaced. Keys include the
+// build, whose rounding may differ. Runs and machines may share folders.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +21,18 @@
 namespace asperity {
 
 struct ResultFilesSetup {
-  std::filesystem::path folder;                     // made when the first result is kept
-  std::vector<std::filesystem::path> also;          // looked in as well; what is found there is brought over
-  std::int64_t most_bytes = std::int64_t{8} << 30;  // of the folder; what was used longest ago goes first
-  // Of what this one adds: for a folder that others share, by a script of somebody else's.
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> also;          // searched too; results found here are copied to `folder`
+  std::int64_t most_bytes = std::int64_t{8} << 30;  // the least recently used files are removed
+  // Bytes that this run may add to a shared folder.
   std::int64_t most_added = std::numeric_limits<std::int64_t>::max();
-  double least_seconds = 0.01;                // results that cost less are not worth a file
-  double least_seconds_of_many = 0.002;       // nor, of those that share one, a record
+  double least_seconds = 0.01;                // cheaper results get no file
+  double least_seconds_of_many = 0.002;       // nor a record in a log
   std::string build;                          // identity of the program
-  std::vector<std::filesystem::path> needed;  // without which results are of no use: on the disk before them
+  std::vector<std::filesystem::path> needed;  // on the disk before the first result
 };
 
-// No limit: for a folder that several runs share, which must not take away what another one needs.
+// For a shared folder, whose files other runs may need.
 inline constexpr std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
 
 class ResultFiles final : public ResultStore {
@@ -48,14 +45,14 @@ class ResultFiles final : public ResultStore {
 
   struct Counts {
     std::int64_t found = 0, kept = 0;
-    double seconds_saved = 0;  // what the found ones had cost
+    double seconds_saved = 0;  // cost of the found results
   };
   Counts counts() const;
-  // Whether another file of so many bytes may be added to the folder. They are then counted.
+  // Reserves bytes for another file; false if it does not fit.
   bool takes(std::int64_t bytes);
-  // Until the disk has everything that was kept. What cannot be brought there is noticed.
+  // Failures become notices.
   void bring_to_disk();
-  // What went wrong, a sentence each: results that were damaged, or could not be kept.
+  // Results that were damaged or not stored.
   std::vector<std::string> notices() const;
   const std::filesystem::path& folder() const { return setup_.folder; }
 
@@ -66,24 +63,24 @@ class ResultFiles final : public ResultStore {
   void bring_over(const std::filesystem::path& from, const std::string& name);
   void keep_in_log(const std::string& name, const std::string& bytes);
   void ready_folder();
-  // Whether there is room for `bytes` more, which are then counted; noted where there is not.
+  // Adds a notice if the bytes do not fit.
   bool has_room(std::int64_t bytes);
-  // Removes files until `bytes` more fit, and counts them as added; false where they never would.
+  // Removes files if needed; counts the bytes.
   bool make_room(std::int64_t bytes);
   void note(std::string_view about, std::string sentence);
 
   const ResultFilesSetup setup_;
   bool needed_on_disk_ = false;
-  mutable std::mutex mutex_;        // of what follows but logs, and of the folder as far as this process goes
-  std::set<std::string> used_;      // by this run, as named in the folder: never removed to make room
-  std::filesystem::path log_file_;  // into which the last record went
+  mutable std::mutex mutex_;        // guards all below except logs, and the folder
+  std::set<std::string> used_;      // by this run; never removed
+  std::filesystem::path log_file_;  // of the last record
   bool ready_for_log_ = false;
   std::int64_t added_ = 0;
-  std::int64_t room_ = 0, added_since_ = 0;  // when the folder was last gone through, and since
+  std::int64_t room_ = 0, added_since_ = 0;  // free room at the last scan; added since
   std::vector<std::pair<std::string, std::string>> notices_;
   Counts counts_;
   ResultLog log_;
-  std::deque<ResultLog> other_logs_;  // of the folders that are looked in as well
+  std::deque<ResultLog> other_logs_;  // of `also`
 };
 
 }  // namespace asperity

@@ -12,7 +12,7 @@ namespace asperity {
 namespace {
 
 std::int64_t bytes_of_result(const std::string& key, const FoundResult& result) {
-  constexpr std::size_t each = 64;  // of what holds an item, about
+  constexpr std::size_t each = 64;  // approximate overhead of an item
   std::size_t bytes = 4 * each + 2 * key.size();
   for (const auto& [name, value] : result.numbers) bytes += each + name.size();
   for (const auto& [name, text] : result.texts) bytes += each + name.size() + text.size();
@@ -20,7 +20,7 @@ std::int64_t bytes_of_result(const std::string& key, const FoundResult& result) 
   return static_cast<std::int64_t>(bytes);
 }
 
-// Asked for before a copy is made: one that is refused would count against the run.
+// Checked before a copy, because a refused copy counts against the run.
 bool has_room(std::int64_t bytes) {
   const std::int64_t limit = memory::limit();
   return limit == 0 || memory::held() + bytes <= limit;
@@ -39,7 +39,7 @@ std::optional<FoundResult> ResultMemory::find(const std::string& key) {
     }
   }
   if (known != nullptr) {
-    // Where memory is short, what can be computed again makes way for the copy.
+    // Results can be recomputed: free their memory for the copy.
     if (!has_room(bytes_of_result(key, *known))) clear();
     return *known;
   }
@@ -63,7 +63,7 @@ void ResultMemory::keep(const std::string& key, std::string_view call, const Res
     for (const auto& [name, field] : fields) result.fields.emplace_back(name, *field);
     put(key, std::make_shared<const FoundResult>(std::move(result)));
   } else if (bytes <= most_bytes_) {
-    clear();  // where memory is short, what can be computed again goes first
+    clear();  // as in find()
   }
   if (behind_ != nullptr) behind_->keep(key, call, facts, fields);
 }

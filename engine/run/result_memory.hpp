@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of heavy calls in memory, under the keys of result_store.hpp: what a script that is run again with
-// another knob, in one process, shares with its last run. However cheap a result was, it is kept; of what no
-// longer fits, what was used longest ago goes first. May stand in front of a store on the disk.
+// Results of heavy calls of any cost, for repeated runs in one process. Drops the least recently used. May
+// precede a store on the disk.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +18,8 @@ namespace asperity {
 // Thread-safe.
 class ResultMemory final : public ResultStore {
  public:
-  // At most so many bytes of results; 0 keeps none. `behind` is asked for what is not here, and given all
-  // that is kept; it outlives the memory, and may be null.
+  // `most_bytes` 0 stores nothing. `behind` is searched on a miss and gets every result; it outlives the
+  // memory; may be null.
   explicit ResultMemory(std::int64_t most_bytes, ResultStore* behind = nullptr)
       : most_bytes_(most_bytes), behind_(behind) {}
 
@@ -33,7 +32,7 @@ class ResultMemory final : public ResultStore {
     std::int64_t found = 0;    // here
     std::int64_t missed = 0;   // neither here nor behind
     std::int64_t dropped = 0;  // to make room
-    std::int64_t bytes = 0;    // held now
+    std::int64_t bytes = 0;
   };
   Counts counts() const;
 
@@ -48,8 +47,8 @@ class ResultMemory final : public ResultStore {
 
   const std::int64_t most_bytes_;
   ResultStore* const behind_;
-  mutable std::mutex mutex_;  // of what follows
-  std::list<Entry> entries_;  // what was used last stands first
+  mutable std::mutex mutex_;  // guards all below
+  std::list<Entry> entries_;  // most recently used first
   std::unordered_map<std::string, std::list<Entry>::iterator> places_;
   Counts counts_;
 };

@@ -80,7 +80,7 @@ RunDirectory::Prepared RunDirectory::prepared_for(const RunSetup& setup) {
     prepared.path = numbered_directory(setup.runs, setup.script_name, holding);
     prepared.lock = RunLock::take(prepared.path);
   }
-  // The other process may be shut off from the folders above.
+  // The other process may have no access to these folders.
   for (const fs::path& folder : holding) wait_for_names_in(folder);
   return prepared;
 }
@@ -99,7 +99,7 @@ void RunDirectory::Prepared::leave() {
 void RunDirectory::make(const RunSetup& setup) {
   lock_ = setup.lock;
   scratch_ = setup.scratch;
-  // Absolute, so that a script which changes the working directory moves nothing.
+  // Independent of the working directory.
   root_ = fs::absolute(setup.resume ? *setup.resume
                        : setup.out  ? given_directory(*setup.out, lock_, !scratch_, holding_)
                                     : numbered_directory(setup.runs, setup.script_name, holding_))
@@ -107,7 +107,7 @@ void RunDirectory::make(const RunSetup& setup) {
   if (lock_ == nullptr && !scratch_) lock_ = RunLock::take(root_);
   if (setup.resume) {
     refuse_links(root_);
-    // Of writers that were killed: nobody else writes here now.
+    // Parts of killed writers: no other process writes here.
     sweep_parts(root_, Parts::all, true);
   }
   if (setup.resume && setup.anew) move_aside(root_);
@@ -160,14 +160,14 @@ void RunDirectory::begin(const RunSetup& setup) {
   if (!setup.shard.empty()) unhashed_.set("shard", setup.shard);
   if (again) take_up();
   journal_->write("begin", Json::object({{"script", script}, {"digest", digest}, {"seed", setup.seed}}));
-  // What it takes to go on after a power cut, whatever becomes of the rest.
+  // Sufficient for a resume after a power cut.
   write_manifest(durable);
   if (scratch_) return;
   wait_for_disk(root_);
   for (const fs::path& folder : holding_) wait_for_names_in(folder);
 }
 
-// Dates of the run so far come along.
+// Keeps earlier dates.
 void RunDirectory::take_up() {
   const Json earlier = read_manifest(root_);
   const Json* kept = earlier.find("unhashed");
@@ -178,7 +178,7 @@ void RunDirectory::take_up() {
   }
   dates.push_back(utc_now());
   unhashed_.set("resumed", std::move(dates));
-  // What a finished run is to be again is kept until it is, though the mending itself be cut off.
+  // Expected outputs stay recorded until the mending succeeds.
   const Json* status = earlier.find("status");
   if (status != nullptr && *status == Json(name(RunStatus::done))) {
     if (const Json* outputs = earlier.find("outputs")) recorded_outputs_ = *outputs;
@@ -229,7 +229,7 @@ std::string RunDirectory::own_name(const fs::path& place) const {
 
 void RunDirectory::note_loaded(std::string_view file, const std::string& text) {
   const std::string digest = content_digest(text);
-  // By its content: names may lead out of any folder, and a file may change while the run goes on.
+  // Named by content: names may lead out, and files may change.
   const std::string copy = std::string(run_names::loaded) + "/" +
                            safe_file_name(fs::path(std::string(file)).stem().string()) + "-" +
                            digest.substr(0, 12) + ".lua";
@@ -246,13 +246,13 @@ bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::st
                               const std::string& copy) {
   const std::lock_guard lock(mutex_);
   const bool is_new = inputs_.insert({std::string(file), bytes, std::string(digest), copy}).second;
-  // Thousands of files are told of in eighths of what there are, or each would write all of them again.
+  // A rewrite for every input would cost n².
   const bool due = (is_new && !copy.empty()) || inputs_.size() > inputs_on_disk_ + inputs_on_disk_ / 8;
   if (due && kind_ == Kind::directory && !later_ && !scratch_ && !finished_) {
     try {
       inputs_on_disk_ = inputs_.size();
       write_manifest(Durable::no);
-    } catch (const Error&) {  // that the manifest cannot be written is told when the run ends
+    } catch (const Error&) {  // finish() reports an unwritable manifest
     }
   }
   return std::ranges::any_of(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a run ends: what it wrote is listed and compared with what is to be made again, brought to the disk,
-// and only then does the manifest say so.
+// The end of a run: outputs are listed, compared and synced before the final manifest.
 #include <algorithm>
 #include <exception>
 #include <functional>
@@ -19,7 +18,7 @@ namespace asperity {
 
 namespace fs = std::filesystem;
 
-// Their content, that of loaded files, and their names in every folder up to the run's own.
+// Content, and names in every folder up to the run's.
 void RunDirectory::wait_for_outputs(const Json& outputs) const {
   std::set<fs::path> folders = {root_};
   std::set<std::string> files;
@@ -40,7 +39,7 @@ void RunDirectory::wait_for_outputs(const Json& outputs) const {
   for (const fs::path& folder : holding_) wait_for_names_in(folder);
 }
 
-// Which outputs are not what was recorded of a run that is mended, as a sentence; "" where all are.
+// Differing outputs of a mended run; "" if none.
 std::string RunDirectory::unlike_recorded(const Json& outputs) const {
   if (recorded_outputs_.is_null()) return {};
   std::vector<std::string> unlike;
@@ -55,7 +54,7 @@ std::string RunDirectory::unlike_recorded(const Json& outputs) const {
   return joined(unlike, " and ") + " could not be made again as recorded";
 }
 
-// The script is put back, for without it the run could not be resumed.
+// Restores the script: a resume needs it.
 void RunDirectory::require_own_files() const {
   const fs::path script = root_ / run_names::script;
   std::error_code missing;
@@ -72,7 +71,7 @@ void RunDirectory::require_own_files() const {
                 "its results are kept: take the run up with --resume");
 }
 
-// As a sentence; "" where every file is there. A script that was trusted may remove files by itself.
+// "" if none. A trusted script may remove files itself.
 std::string RunDirectory::removed_by_others() const {
   std::vector<std::string> gone;
   std::error_code missing;
@@ -121,7 +120,7 @@ void RunDirectory::note_end(RunStatus status, std::string_view reason, Json file
   manifest_.set("expectations", std::move(verdicts));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started_;
   unhashed_.set("finished", utc_now()).set("seconds", seconds.count());
-  // A confined run may start no program.
+  // A confined run cannot start programs.
   const bool draws = std::ranges::any_of(
       outputs_, [](const std::string& file) { return file.ends_with(".png") || file.ends_with(".pdf"); });
   if (draws && status == RunStatus::done && unhashed_.find("barriers") == nullptr)
@@ -139,7 +138,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   std::exception_ptr first;
   std::string reason(given_reason);
   const auto ends_well = [&] { return status == RunStatus::done || status == RunStatus::shard; };
-  // What goes wrong now is the end of a run that would be done; the first failure is told.
+  // A failure turns done into failed; the first one is thrown.
   const auto attempt = [&](const std::function<void()>& step) {
     try {
       step();
@@ -153,14 +152,13 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   const std::unique_lock lock = lock_within(mutex_, patience);
   attempt([&] { require_place(); });
   const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock() && !first;
-  // Without the lock the list of notebooks and the manifest may be half changed: what is on disk
-  // already then stays as it is.
+  // Without the lock, notebooks and manifest may be half changed.
   if (lock.owns_lock())
     for (const auto& notebook : notebooks_) attempt([&] { notebook->save(patience); });
   Json files = Json::List();
   if (records)
     attempt([&] {
-      // A run that must die now does not read its large files once more.
+      // A killed run does not read large files again.
       files = outputs(status != RunStatus::killed);
       if (!ends_well()) return;
       if (const std::string unlike = unlike_recorded(files); !unlike.empty())
@@ -180,7 +178,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   });
   if (records) {
     if (status == RunStatus::done && !scratch_) attempt([&] { require_own_files(); });
-    // What comes to its own end is compared later by what the manifest says, and so is on the disk before it.
+    // Later comparisons trust the manifest: files first.
     const auto durable = [&] {
       return !scratch_ && (ends_well() || status == RunStatus::failed) ? Durable::yes : Durable::no;
     };

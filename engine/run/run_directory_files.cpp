@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run that its script writes: under which names it may, those of its notebooks, and where it
-// finds what it reads.
+// The files of a script: permitted names, notebooks and inputs.
 #include <algorithm>
 #include <system_error>
 
@@ -16,10 +15,10 @@ void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) 
   const fs::path base = root_.empty() ? fs::current_path() : root_;
   bool outside = relative.is_absolute() || *relative.begin() == "..";
   if (!outside && !root_.empty()) {
-    // A link that stands inside may still lead out.
+    // A link inside may lead out.
     const fs::path real = fs::weakly_canonical(base / relative);
     const fs::path real_base = fs::weakly_canonical(base);
-    // One that leads to nothing yet is not resolved above, and would be followed by whoever creates it.
+    // weakly_canonical does not resolve a dangling link.
     const bool dangling = fs::is_symlink(base / relative) && !fs::exists(base / relative);
     outside = dangling || std::ranges::mismatch(real_base, real).in1 != real_base.end();
   }
@@ -36,7 +35,7 @@ fs::path RunDirectory::path_for(std::string_view file) {
     later_.reset();
   }
   fs::path given = fs::path(std::string(file)).lexically_normal();
-  // What a method returned as the place of a file may be given back: it is inside, though absolute.
+  // Methods return absolute paths inside.
   if (given.is_absolute() && !root_.empty())
     if (const fs::path inside = given.lexically_relative(root_); !inside.empty() && *inside.begin() != "..")
       given = inside;
@@ -44,7 +43,7 @@ fs::path RunDirectory::path_for(std::string_view file) {
       given.filename() == "." || given.filename() == "..")
     throw Error(ErrorCode::bad_value, quoted(file) + " is not the name of a file",
                 "give a name such as \"heights.npy\"");
-  constexpr std::size_t longest = 255;  // bytes of one name on the file systems of Linux
+  constexpr std::size_t longest = 255;  // bytes of a name on Linux file systems
   for (const fs::path& part : given)
     if (part.native().size() > longest)
       throw Error(ErrorCode::bad_value,
@@ -147,7 +146,7 @@ std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {
   {
     const std::lock_guard lock(mutex_);
     if (auto known = find()) return known;
-    // Two names may become one file name; the later one gets a number.
+    // Two names may give one file name.
     const std::string stem = file;
     const auto taken = [&] {
       return std::ranges::any_of(notebooks_, [&](const auto& n) { return n->csv().stem() == file; });

@@ -34,7 +34,6 @@ std::string utc_now() {
 
 namespace {
 
-// Of what /proc/cpuinfo names, what decides how libraries round.
 std::string vector_instructions(const std::string& flags) {
   const std::string all = " " + flags + " ";
   std::vector<std::string> found;

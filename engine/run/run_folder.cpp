@@ -28,7 +28,6 @@ bool is_earlier_folder(const fs::path& file) {
          name.find_first_not_of("0123456789", earlier_folder.size()) == std::string::npos;
 }
 
-// Stays where it is when a run is moved aside.
 bool is_no_part_of_the_record(const fs::path& file) {
   return file.filename() == run_names::store || file.filename() == RunLock::file_name ||
          is_earlier_folder(file);
@@ -40,7 +39,7 @@ void move_into(const fs::path& file, const fs::path& folder) {
   if (reason) throw_file_error("move aside", file, reason.value());
 }
 
-// No manifest, or one of which a power cut left nothing.
+// None, or an empty one after a power cut.
 bool has_no_manifest(const fs::path& folder) {
   std::error_code missing;
   const fs::path manifest = folder / run_names::manifest;
@@ -63,7 +62,7 @@ std::vector<fs::path> make_folders(const fs::path& folder) {
   return holding;
 }
 
-// mkdir decides.
+// mkdir is atomic.
 fs::path numbered_directory(const fs::path& runs, const std::string& script_name,
                             std::vector<fs::path>& holding) {
   holding = make_folders(runs);
@@ -76,7 +75,7 @@ fs::path numbered_directory(const fs::path& runs, const std::string& script_name
   }
 }
 
-// Looked at again when it is locked, for another run may have come and gone.
+// Checked again under the lock: another run may have ended.
 fs::path given_directory(const fs::path& out, std::shared_ptr<RunLock>& lock, bool locked,
                          std::vector<fs::path>& holding) {
   std::error_code reason;
@@ -95,7 +94,7 @@ fs::path given_directory(const fs::path& out, std::shared_ptr<RunLock>& lock, bo
     require_new();
     return out;
   }
-  if (lock == nullptr && !is_not_begun(out)) lock = RunLock::take_if_known(out);  // who is there is named
+  if (lock == nullptr && !is_not_begun(out)) lock = RunLock::take_if_known(out);  // names the holder
   require_new();
   if (lock == nullptr) lock = RunLock::take(out);
   require_new();
@@ -168,7 +167,7 @@ void finish_moving_aside(const fs::path& folder) {
   if (latest.empty() || !fs::is_directory(fs::symlink_status(latest, missing)) ||
       !fs::exists(latest / run_names::manifest, missing))
     return;
-  // A file that is there already is of the run that was to begin then.
+  // If the name exists there, the file here belongs to the run about to begin.
   for (const fs::path& file : entries)
     if (!is_no_part_of_the_record(file) && !fs::exists(fs::symlink_status(latest / file.filename(), missing)))
       move_into(file, latest);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder of a run before and after the run: names of its files, the search for a new folder, the test
-// whether a run may begin there, and the moving aside of an earlier run.
+// The folder of a run: names, new folders, whether a run may begin, earlier runs moved aside.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 
 namespace asperity {
 
-// Files written by the run itself, at the top of its directory.
+// At the top of the directory.
 namespace run_names {
 inline constexpr std::string_view script = "script.lua";
 inline constexpr std::string_view manifest = "manifest.json";
@@ -22,50 +21,44 @@ inline constexpr std::string_view journal = "journal.jsonl";
 inline constexpr std::string_view store = "store";  // a folder: results of heavy calls (result_files.hpp)
 inline constexpr std::string_view views =
     ".views";  // a folder: drawings of the page (bindings/web/api/views.hpp)
-// A folder: copies of the files that `require`, `dofile` and `loadfile` read.
+// Copies of the files loaded by `require`, `dofile` and `loadfile`.
 inline constexpr std::string_view loaded = "script_files";
-// A member of the manifest during the run: its inputs so far.
+// In the manifest during the run.
 inline constexpr std::string_view inputs_so_far = "inputs_so_far";
 inline constexpr std::array<std::string_view, 4> files = {script, manifest, journal, RunLock::file_name};
 }  // namespace run_names
 
-// Makes the missing folders of a path. Returns the folders that got a new name in them. Throws
-// Error{bad_file}.
+// Returns the parents of new folders. Throws Error{bad_file}.
 std::vector<std::filesystem::path> make_folders(const std::filesystem::path& folder);
 
-// Makes the first free runs/<script>-<n>; two runs at once never share one. `holding` becomes the folders in
-// which one was made.
+// Makes the first free runs/<script>-<n>, never shared by two runs. `holding`: as make_folders().
 std::filesystem::path numbered_directory(const std::filesystem::path& runs, const std::string& script_name,
                                          std::vector<std::filesystem::path>& holding);
 
-// Makes the folder named by `--out`, or uses an existing folder if a run may begin there. With `locked`, it
-// locks the folder and removes the files of a run killed before its first manifest. Throws Error{bad_value}
-// if the folder holds more, Error{bad_state} if another process has its lock.
+// Makes the folder of `--out`, or accepts one where a run may begin. `locked`: locks it and removes a run
+// killed before its first manifest. Throws Error{bad_value} if it holds more, Error{bad_state} if it is
+// locked.
 std::filesystem::path given_directory(const std::filesystem::path& out, std::shared_ptr<RunLock>& lock,
                                       bool locked, std::vector<std::filesystem::path>& holding);
 
-// Waits until the disk has the names in a folder; does not wait for a folder without permission to read.
+// Syncs the names in a readable folder to the disk.
 void wait_for_names_in(const std::filesystem::path& folder);
 
-// The content of one of the run's own files. Throws Error{bad_file} if the file is missing or cannot be read
-// to its end.
+// Throws Error{bad_file}.
 std::string text_of_run_file(const std::filesystem::path& path);
 
-// Sorted paths of the entries of a folder. Throws Error{bad_file}.
+// Sorted paths. Throws Error{bad_file}.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
-// Moves the files of an earlier run, except its store, into the first free before-<n>. The manifest is moved
-// first: if it is missing, the moving was interrupted (finish_moving_aside).
+// Moves an earlier run, except its store, into the first free before-<n>, the manifest first, so an
+// interrupted move is recognised (finish_moving_aside).
 void move_aside(const std::filesystem::path& root);
 
-// Whether a run may begin in a directory: it is missing, empty, or holds only files written before the first
-// manifest of a run.
+// Whether the folder is missing, empty, or has only files from before a first manifest.
 bool is_not_begun(const std::filesystem::path& folder);
-// Finishes an interrupted moving aside of an earlier run (RunSetup::anew): its remaining files follow the
-// manifest into before-<n>. Otherwise it does nothing.
+// Finishes an interrupted move_aside(), if any.
 void finish_moving_aside(const std::filesystem::path& folder);
-// Throws Error{bad_file} if script, manifest, journal or store of a run, or its folder of script files, is a
-// link.
+// Throws Error{bad_file} if an own file or folder of a run is a link.
 void refuse_links(const std::filesystem::path& folder);
 
 }  // namespace asperity

@@ -107,7 +107,7 @@ double RunKnobs::value_for(const RunKnob& knob, const Given& given) const {
 }
 
 double RunKnobs::make(const RunKnob& knob) {
-  met(knob.name);  // also where it is refused: that it was not made then is no mistake of its own
+  met(knob.name);  // even if refused: check_all_made() then passes
   require_knob(knob);
   const std::lock_guard lock(mutex_);
   for (const Made& made : made_) {
@@ -182,7 +182,7 @@ std::string RunKnobs::given_text() const {
 
 Json RunKnobs::json() const {
   const std::lock_guard lock(mutex_);
-  // By name: the cases of an ensemble make theirs in no order.
+  // Cases make knobs in any order.
   std::map<std::string, Json> sorted;
   for (const auto& [name, given] : given_) sorted[name] = Json::object({{"value", given.quantity.value}});
   for (const Made& made : made_) {

@@ -28,9 +28,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a lock's file says of its holder. The start of the process (in ticks since the machine was started)
-// and the machine's start tell a process from a later one of the same number; the name space of processes,
-// from one of another container.
+// Start times (ticks since boot) and the boot tell reused process numbers apart; the process name space tells
+// containers apart.
 struct LockHolder {
   std::int64_t process = 0;
   std::string host, machine_start, process_space, process_start;
@@ -43,10 +42,10 @@ std::string first_line_of(const fs::path& file) {
   return line;
 }
 
-// Field 22 of /proc/PID/stat; "" where there is no such process.
+// Field 22 of /proc/PID/stat; "" without such a process.
 std::string start_of(std::int64_t process) {
   const std::string line = first_line_of("/proc/" + std::to_string(process) + "/stat");
-  // The name of the program, in brackets, may hold anything.
+  // The program name may hold anything.
   std::size_t at = line.rfind(')');
   for (int field = 2; at != std::string::npos && field < 22; ++field) at = line.find(' ', at + 1);
   if (at == std::string::npos) return {};
@@ -76,7 +75,7 @@ std::string lock_text(const LockHolder& holder) {
          "\n";
 }
 
-// None where nobody is named, or the name is not whole.
+// None if missing or torn.
 std::optional<LockHolder> holder_in(const fs::path& file) {
   std::ifstream text(file, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(text), {}};
@@ -100,11 +99,10 @@ std::optional<LockHolder> holder_in(const fs::path& file) {
   }
 }
 
-// Whether it has surely ended.
 bool has_ended(const LockHolder& holder) {
   const LockHolder own = this_process();
   if (holder.host != own.host) return false;
-  // Behind barriers nothing of this can be read, and a signal to another process is not permitted.
+  // A confined process can neither read these facts nor send signals.
   const bool knows_start = !own.machine_start.empty() && !holder.machine_start.empty();
   if (knows_start && holder.machine_start != own.machine_start) return true;
   if (own.process_space.empty() || holder.process_space != own.process_space) return false;
@@ -187,28 +185,27 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
               "see which other program writes there");
 }
 
-// 0 where the lock is held now; a reason where the file system gives none. Throws where another process has
-// it.
+// 0 if locked; an error number without locks. Throws if another process has the lock.
 int RunLock::ask_patiently(const Ask& ask) {
   const fs::path file = folder_ / file_name;
   const int reason = ask(descriptor_);
   if (reason != EAGAIN && reason != EACCES) return reason;
-  // Whoever has the lock writes the name next: until then the file may name one that has ended. And a child
-  // that inherited it from a holder that was killed dies a moment after that one.
+  // Retries: the file may name an ended owner until the new owner writes, and a child of a killed holder ends
+  // soon.
   std::optional<LockHolder> holder;
-  for (int tries = 0; tries < 300; ++tries) {  // 3 s: on a busy machine a child takes a while to die
+  for (int tries = 0; tries < 300; ++tries) {  // 3 s: children end slowly on a busy machine
     holder = holder_in(file);
     if (holder && !has_ended(*holder)) break;
     holder.reset();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (ask(descriptor_) == 0) return 0;
   }
-  ::close(std::exchange(descriptor_, -1));  // its name is another's: release() would take it away
+  ::close(std::exchange(descriptor_, -1));  // not release(), which would erase the owner's name
   throw_held(folder_, holder, true);
 }
 
-// A file with another name, as in a copy of the folder by hard links, makes room for one of its own; what was
-// replaced before it was locked locks nothing. False for both, and nothing is held then.
+// Replaces a file with a second name (copy by hard links). A file replaced before it was locked locks
+// nothing. False for both, without a lock.
 bool RunLock::is_of_this_folder_alone() {
   const fs::path file = folder_ / file_name;
   struct ::stat held {
@@ -217,12 +214,11 @@ bool RunLock::is_of_this_folder_alone() {
                     held.st_ino == named.st_ino && held.st_dev == named.st_dev;
   if (same && held.st_nlink < 2) return true;
   if (same) write_atomically(file, "");
-  ::close(std::exchange(descriptor_, -1));  // without release(), which would empty it under its other name
+  ::close(std::exchange(descriptor_, -1));  // not release(), which would empty the other name
   return false;
 }
 
-// Two that come at the same moment both put their names there: the later name stands, and a moment later both
-// know whose it is.
+// If two processes write their names at once, the later name remains; both read it after a pause.
 void RunLock::hold_by_name() {
   const fs::path file = folder_ / file_name;
   ::close(std::exchange(descriptor_, -1));
@@ -238,7 +234,7 @@ void RunLock::hold_by_name() {
 
 void RunLock::write_name() {
   const std::string own = lock_text(this_process());
-  // A name that cannot be written (a full disk) is told as "another process"; the lock holds.
+  // Without a name (full disk) messages say "another process"; the lock holds.
   if (::ftruncate(descriptor_, 0) != 0) return;
   if (::pwrite(descriptor_, own.data(), own.size(), 0) < 0) return;
 }
@@ -246,7 +242,7 @@ void RunLock::write_name() {
 void RunLock::release() {
   if (descriptor_ < 0) return;
   const int descriptor = std::exchange(descriptor_, -1);
-  // The name goes first: where there are no locks it is what holds.
+  // Without locks on the file system, the name is the lock: erase it first.
   if (!inherited_ && ::ftruncate(descriptor, 0) != 0) errno = 0;
   ::close(descriptor);
 }

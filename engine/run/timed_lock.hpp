@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lock that is waited for so long and no longer.
+// A mutex lock with a time limit.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,8 @@
 
 namespace asperity {
 
-// The mutex, locked if that could be done within `patience` (owns_lock() tells). It asks every
-// millisecond: the timed wait of std::timed_mutex is a call that the thread sanitizer of g++ 12 does not
-// see, so that it takes every unlocking after it for a fault.
+// Polls every millisecond: the thread sanitizer of g++ 12 does not see the timed wait of std::timed_mutex and
+// reports each later unlock.
 inline std::unique_lock<std::mutex> lock_within(std::mutex& mutex, std::chrono::milliseconds patience) {
   const auto end = std::chrono::steady_clock::now() + patience;
   std::unique_lock lock(mutex, std::try_to_lock);

@@ -19,7 +19,7 @@ constexpr std::size_t most_events = 10'000'000;
 
 std::string number_of(std::size_t n) { return std::to_string(n); }
 
-// format_quantity knows no minutes.
+// format_quantity has no minutes.
 std::string duration(double seconds) {
   const double minutes = seconds / 60;
   return minutes >= 1 && minutes == std::round(minutes) ? format_short(minutes) + " min"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A loading protocol: the events of a specimen pair in order. An event is a press, a release, a fresh
-// placement, a turn or a shift of the upper body; it may have the time of a log. A protocol is an immutable
-// value, cheap to copy, and knows no contact: protocol_run.hpp carries it out, and SpecimenPair::check_ahead
-// checks its turns and loads.
+// A loading protocol: the events of a specimen pair. Immutable, cheap to copy. protocol_run.hpp carries it
+// out.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +25,7 @@ class Protocol {
     std::uint64_t seed = 1;
   };
   struct Rotate {
-    double angle = 0;  // rad, counter-clockwise seen from above the lower body; from where it lies
+    double angle = 0;  // rad, from the present angle, counter-clockwise seen from above the lower body
   };
   struct Shift {
     double x = 0, y = 0;  // m
@@ -36,34 +34,29 @@ class Protocol {
 
   struct Event {
     Step step;
-    std::optional<double> time{};  // s, as recorded; nothing waits for it
-    std::string origin{};          // where it was read: "press_log.csv line 7"; no part of the value
+    std::optional<double> time{};  // s, stored only
+    std::string origin{};          // source, not part of the value: "press_log.csv line 7"
   };
 
-  // Throws Error{bad_value} when there is no event, or for one whose numbers no contact could take,
-  // naming the event by its number from 1.
+  // Throws Error{bad_value} without events and for impossible numbers, naming the event from 1.
   explicit Protocol(std::vector<Event> events);
 
   std::span<const Event> events() const { return *events_; }
   std::size_t count() const { return events_->size(); }
   std::size_t presses() const;
 
-  // The events of this protocol and then those of another, and this protocol several times over. Recorded
-  // times are dropped, because they would run backwards. Throws Error{bad_value} for less than one time or
+  // Both drop recorded times, which would run backwards, and throw Error{bad_value} for less than one time or
   // more than ten million events.
   Protocol plus(const Protocol& next) const;
   Protocol repeated(std::int64_t times) const;
 
-  // The same events, and beside them what was found in the recording that they come from; it is no part of
-  // the value and of its digest.
+  // `recording` is not part of value and digest.
   Protocol detected_in(std::shared_ptr<const Detection> recording) const;
-  // Null where the events are not exactly those found in a recording.
+  // Null unless all events are those of a recording.
   const std::shared_ptr<const Detection>& recording() const { return recording_; }
 
-  // A line with the count and one an event, with the time and the lines that it was read from; the middle
-  // of a long one is left out.
+  // Long protocols are abbreviated in the middle.
   std::string text() const;
-  // Of steps and times.
   std::string digest() const;
 
  private:
@@ -71,7 +64,7 @@ class Protocol {
   std::shared_ptr<const Detection> recording_;
 };
 
-// The script key: "press", "release", "place", "rotate", "shift".
+// "press", "release", "place", "rotate", "shift".
 std::string_view kind(const Protocol::Step& step);
 // "press 152.78 MPa for 10 min", "rotate 90 deg".
 std::string text(const Protocol::Step& step);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A protocol under way on a specimen pair, one event a call. An event that fails leaves the pair as it was
-// before that event, and the next call tries the same event again. Events that no call asks for are not done.
+// Carries out a protocol, one event per call. A failed event leaves the pair unchanged and is tried again.
 #pragma once
 
 #include <chrono>
@@ -15,28 +14,24 @@
 
 namespace asperity {
 
-// Several runs may share a protocol, and take turns on one pair.
 class ProtocolRun {
  public:
-  // Throws for the first event with an error that is known in advance (SpecimenPair::check_ahead) and names
-  // the event.
+  // Throws the first predictable error (SpecimenPair::check_ahead).
   ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair);
 
   const Protocol& protocol() const { return protocol_; }
   SpecimenPair& pair() const { return *pair_; }
   bool finished() const { return next_ >= protocol_.count(); }
-  // The number of the next event, from 0.
+  // From 0.
   std::size_t next() const { return next_; }
 
-  // Does the next event: the state of a press, nothing for any other kind. Tells the monitor how much of
-  // the whole protocol is done, where presses count alike and all else counts nothing. Throws what the pair
-  // throws, and Error{interrupted | time_limit | ...} before an event when a stop was asked for; the
-  // sentence names event and step. Precondition: not finished().
+  // Does the next event; returns the state of a press. Progress counts presses only. Throws as the pair does,
+  // and Error{interrupted | time_limit | ...} before an event on a stop. Precondition: not finished().
   std::optional<State> step(Monitor& monitor = Monitor::silent());
 
  private:
   std::string title(std::size_t k) const;
-  // Calls `step`; an error gets the title of event k.
+  // Errors get the title of event k.
   template <class Work>
   void with_title(std::size_t k, const Work& work) const;
 

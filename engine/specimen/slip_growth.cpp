@@ -9,12 +9,11 @@ namespace asperity {
 
 namespace {
 
-// The share at one angle on a contact that carries `state` and slides at `friction` times its load.
 SlipShare share_at(const Solver& contact, const State& state, double friction, double angle,
                    Monitor& monitor) {
   SlipShare share{angle, 1, 1, {}};
   if (!(friction > 0)) return share;
-  // The slip angle itself is known to rounding only.
+  // The slip angle is accurate to rounding only.
   constexpr double rounding = 1e-9;
   const double ratio = elementary::tan(angle) / friction;
   share.ratio = ratio < 1 - rounding ? ratio : 1;
@@ -46,7 +45,7 @@ std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& 
   if (!raised.probes.empty()) {
     probe = contact->press({PressBy::pressure, raised.probes.front().pressure, {}}, monitor);
     for (const TiltProbe& at : raised.probes) friction += at.mu / static_cast<double>(raised.probes.size());
-    // A weight that was solved itself slides at its own friction.
+    // A solved weight has its own friction.
     if (!raised.at_weight.empty() && raised.slipped) friction = elementary::tan(raised.angle);
   }
 

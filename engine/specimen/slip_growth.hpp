@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How slip grows inside the contact while a tilt stage is raised, long before the specimen slides: at the
-// angle θ the weight W presses by W cos θ and pulls by W sin θ, which is tan θ/μ of what slides, and partial
-// slip (friction/partial_slip.hpp) tells which part of the contact slips there. Slip takes Coulomb's law: a
-// junction law with an adhesive part stands for its mean coefficient on the contact, μ. On a half-space the
-// share is found at the first probe pressure and, as the stage does, taken to hold down to the weight.
+// Growth of slip while a tilt stage is raised. At the angle θ the weight W presses by W cos θ and pulls by W
+// sin θ, tan θ/μ of the sliding force; partial slip (friction/partial_slip.hpp) gives the slipping share of
+// the contact. The law is Coulomb's, with the mean μ of the junction law. On a half-space the share at the
+// first probe pressure is assumed down to the weight.
 #pragma once
 
 #include "engine/specimen/tilt_trials.hpp"
@@ -12,14 +11,14 @@ namespace asperity {
 
 struct SlipShare {
   double angle = 0;          // rad
-  double ratio = 0;          // of the pull over the one that slides, 0 … 1
+  double ratio = 0;          // pull over sliding force, 0 … 1
   double slip_fraction = 0;  // of the contact area
-  // m, of the bodies over each other; none on a half-space, where it is not that of the weight.
+  // m, between the bodies; none on a half-space.
   std::optional<double> displacement{};
 };
 
-// At `steps` (1 … 10000) equal steps of the angle up to the one at which the first trial slips, or the limit.
-// Scatter and repeats are not read. Works on a copy. Throws what raise() and shear() throw.
+// At `steps` (1 … 10000) equal steps up to slip, or the limit. Ignores scatter and repeats. Works on a copy.
+// Throws as raise() and shear() do.
 std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
                                    const TiltTrialOptions& options, int steps,
                                    Monitor& monitor = Monitor::silent());

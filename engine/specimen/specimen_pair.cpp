@@ -35,16 +35,15 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
-// A press and those on companion grids that its estimate compares it with; these cost what is counted as
-// `estimate`. On cells that were chosen for an error the coarser grids come first and the press begins from
-// them, as in the choice.
+// Also solves companion grids, with the cost `estimate`. With chosen accuracy the coarser grids come first
+// and the press starts from them.
 State pressed_with_estimate(const Solver& solver, const Scene& scene, const ContactGeometry& geometry,
                             const Plan& plan, const PressRequest& request, const ChosenAccuracy* chosen,
                             Monitor& monitor) {
   const bool finer = scene.accuracy.estimate == Accuracy::Estimate::finer;
   const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
   const bool coarser_first = chosen != nullptr && !finer && by_load;
-  // A quarter of the cells and a sixteenth, or four times the cells, with all that goes with them.
+  // A quarter plus a sixteenth of the cells, or four times the cells.
   const double share_of_press = finer ? 0.2 : 0.75;
   const double from = coarser_first ? 1 - share_of_press : 0;
   const auto begun = PartMonitor::Clock::now();
@@ -71,14 +70,14 @@ State pressed_with_estimate(const Solver& solver, const Scene& scene, const Cont
   return state->costing_also({cost, {{"estimate", cost}}});
 }
 
-// An attraction of no work is part of no solve; the ledger shows it all the same.
+// An attraction without work appears in the ledger only.
 State showing_what_costs_nothing(const Plan& plan, State state) {
   for (const GapTerm& term : plan.attraction)
     if (!(term.work > 0)) state = state.costing_also({{}, {{term.effect, {}}}});
   return state;
 }
 
-// The mean square of the differences of neighbours along one way, inside the tile and across its rim.
+// Mean squares along one direction.
 struct Differences {
   double inside = 0, across = 0;
 };
@@ -96,9 +95,7 @@ Differences differences(int along, int lines, const At& at) {
   return found;
 }
 
-// Whether heights that are not periodic by construction make a step at the rim: neighbours across it differ,
-// in the mean square, by over twice as much as neighbours inside. A periodic function on nodes, or a map that
-// happens to continue, makes none.
+// Whether the root mean square step across the rim exceeds twice the one inside.
 bool steps_at_the_rim(const Surface& surface) {
   if (surface.traits().periodic) return false;
   const Field& z = surface.heights();
@@ -233,7 +230,7 @@ StateCost SpecimenPair::leave_on_bodies(const State& state, Monitor& monitor) {
     monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
                  " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
                  "finer cells would tell more");
-  // Nothing throws from here on.
+  // Nothing throws below.
   std::swap(scene_, scene);
   std::swap(plan_, plan);
   geometry_ = std::move(geometry);
@@ -271,7 +268,7 @@ void SpecimenPair::carry(const State& state, const PressRequest& request) {
                       {},
                       Done::Measured{state.load(), state.pressure(), state.approach(), state.area_fraction(),
                                      state.peak_pressure()}});
-  // Now and then those that are gone are left out.
+  // Removes expired watches.
   if (states_.size() == states_.capacity())
     std::erase_if(states_, [](const State::Watch& watch) { return watch.expired(); });
   states_.push_back(state.watch());
@@ -310,7 +307,7 @@ void SpecimenPair::lay(const Pose& pose) {
   auto geometry = std::make_shared<ContactGeometry>(scene_, pose, geometry_->memory());
   geometry->keep_first_touch(*geometry_);
   Plan plan = planned(scene_, *geometry);
-  // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
+  // Under a rigid flat all placements are one contact.
   const Material* flat = std::get_if<Material>(&scene_.upper);
   if (flat == nullptr || !flat->rigid) solver_.reset();
   geometry_ = std::move(geometry);

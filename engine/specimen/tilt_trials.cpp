@@ -20,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-// With fewer nodes in contact, area and friction change with the grid.
+// Below, area and friction depend on the grid.
 constexpr std::int64_t enough_contacts = 50;
 
 void check_trials(const TiltTrialOptions& options) {
@@ -52,7 +52,7 @@ TiltProbe probe_of(const State& state, const JunctionLaw& law, const TiltTrialOp
       state_limits(state)};
 }
 
-// A half-space contact at a pressure that the grid resolves.
+// At a pressure that the grid resolves.
 TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
                 const TiltTrialOptions& options, Monitor& monitor) {
   const std::int64_t nodes = contact.geometry().facing();
@@ -70,12 +70,11 @@ std::vector<TiltProbe> probe_all(const Solver& contact, const JunctionLaw& law,
   return probes;
 }
 
-// Friction over load of a half-space contact under a weight that the grid resolves, as its stage is raised
-// and less and less of the weight presses: solved under the weight and at steps of a sixth below, between
-// which it is taken to be straight, and wherever else it is asked to be exact.
+// Friction over load of a half-space contact under a resolved weight: solved under the weight, at steps of a
+// sixth below, and on request; linear between.
 class UnderTheWeight {
  public:
-  // Pressures of the tile from `least` up to that of the weight.
+  // Pressures on the tile.
   UnderTheWeight(const Solver& contact, const JunctionLaw& law, const TiltTrialOptions& options, double least,
                  double weight, Monitor& monitor)
       : contact_(contact), law_(law), options_(options), monitor_(monitor), least_(least), lowest_(weight) {
@@ -123,7 +122,6 @@ double least_pressure(std::span<const TiltProbe> probes) {
   return least;
 }
 
-// Of a quantity of each trial's probes from its mean, relative, at most.
 double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial,
                           double TiltProbe::*quantity) {
   double greatest = 0;
@@ -138,8 +136,7 @@ double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial
 
 constexpr double noticeable_departure = 0.025;  // of area per load: two probes differ by 5 %
 
-// Whether the probes of a trial rest on one spot whose area is in no proportion to the load. Between probes
-// on many spots chance makes as much of a difference on usual grids, either way.
+// One spot whose area is not proportional to load. Many spots differ as much by chance.
 bool grows_alone(std::span<const TiltProbe> probes) {
   return std::ranges::all_of(probes, &TiltProbe::lone_spot) &&
          (probes.size() == 1 ||
@@ -254,14 +251,14 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     const auto k = static_cast<std::uint64_t>(trial);
     if (!flat) bench.place(tilt_placement(options, trial));
     const std::shared_ptr<const Solver> solver = bench.solver();
-    // A draw far out in the tail must not turn friction into a push.
+    // A draw in the far tail must not make friction negative.
     const double factor = std::max(0.0, 1 + options.scatter * scatter.normal(k));
     if (half_space && (probes.empty() || !flat)) {
       probes = probe_all(*solver, law, options, monitor);
       result.probes.insert(result.probes.end(), probes.begin(), probes.end());
     }
     const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
-    // What the probes resolve is solved; what is lighter follows from them.
+    // Lighter loads follow from the probes.
     double resolved = half_space ? least_pressure(probes) : 0;
     if (half_space && tile_share == 1 && grows_alone(probes))
       resolved = 0.01 * std::min(resolved, weight_pressure);
@@ -281,8 +278,8 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     };
     SlipAngle slip = slip_angle(friction, options.stage);
     if (weight) {
-      // Again, with what presses when it slips solved for itself, until it slips there. Area is counted in
-      // nodes: if a node lets go between two pressures, the rounds may end with a solve on each side.
+      // Repeats with a solve at the load of slip until the slip angle agrees. Area counts nodes: if a node
+      // detaches between two loads, both may be solved.
       constexpr int most_rounds = 12;
       double before = weight_pressure;
       for (int round = 0; round < most_rounds; ++round) {
@@ -301,7 +298,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
 
   std::vector<double> coefficients;
   result.slipped = true;
-  // Taken about the first trial, so that equal trials have exactly their own mean.
+  // Relative to the first trial: equal trials have exactly their own mean.
   const SlipAngle first = result.trials.front();
   result.angle = first.angle;
   result.held = first.held;
