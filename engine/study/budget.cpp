@@ -291,7 +291,7 @@ void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>
         "the two finest grids give the same answer, to the last digit: does `ask` use its `cells`?");
   if (last > 1) {
     const double before = average_of(answers[last - 1]) - average_of(answers[last - 2]);
-    // Exact for equal ratios; otherwise by the mean ratio.
+    // The observed order is exact for equal ratios; otherwise the mean ratio is used.
     if (change / before > 0)
       budget.order_observed =
           elementary::log(before / change) /

@@ -349,8 +349,8 @@ std::optional<CalibrationPlace> CalibrationProblem::better(const CalibrationPlac
   return {};
 }
 
-// Its start; for 0 a quarter of its bounds, or the largest power of ten that changes the model by at most the
-// size of the data.
+// Scale of a parameter: its start; for 0 a quarter of its bounds, or the largest power of ten that changes
+// the model by at most the size of the data.
 std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& at) {
   std::vector<double> scales;
   for (std::size_t p = 0; p < parameters(); ++p) {

@@ -26,12 +26,12 @@ std::string seconds_text(double seconds);
 // No final line end.
 std::string study_text(const StudyResult& result);
 
-// Way, knobs, value, error and so on, seconds in s.
+// Columns: way, knobs, value, error and so on, seconds in s.
 Table study_table(const StudyResult& result);
 
 Json to_json(const Knobs& knobs);
 Json to_json(const StudyRequest& request);
-// Without times.
+// The result without times.
 Json answers_json(const StudyResult& result);
 
 }  // namespace asperity
