@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Three functions and a loop: try a grid, judge it, find the next. The constants are those of
-// bench/requested_error.lua, seeds 1 to 10 of each kind; docs/accuracy.md has the shares on other seeds.
+// Solve, judge, find the next grid. Constants come from bench/requested_error.lua, seeds 1 to 10;
+// docs/accuracy.md lists other seeds.
 #include "engine/accuracy/accuracy_choice.hpp"
 
 #include <algorithm>
@@ -29,10 +29,10 @@ namespace asperity {
 namespace {
 
 constexpr int fewest_cells_to_begin = 16;
-// An area is judged by one coarser grid at least, other quantities by two.
+// An area needs a coarser grid, other quantities two.
 constexpr int fewest_of_an_area = 32, fewest_of_others = 64;
 constexpr double tightest = 1e-10, tighter = 30;
-constexpr double with_coarser = 4.0 / 3;  // the work of a grid and all coarser ones
+constexpr double with_coarser = 4.0 / 3;  // work including all coarser grids
 
 bool is_area(std::string_view quantity) {
   return quantity == "corrected_area_fraction" || quantity == "area_fraction" || quantity == "area";
@@ -56,7 +56,7 @@ Grid doubled(Grid grid) {
 
 struct GridsToTry {
   Grid first, finest;
-  std::string limit;  // why none is finer: "4096 x 4096 cells are the most within 4 GiB of memory"
+  std::string limit;  // "4096 x 4096 cells are the most within 4 GiB of memory"
 };
 
 bool can_be_made_again(const Scene& scene) {
@@ -64,7 +64,7 @@ bool can_be_made_again(const Scene& scene) {
   return scene.lower.recipe() && (upper == nullptr || upper->recipe());
 }
 
-// Seconds of all grids up to this one and bytes of a press on it, by the plan of the cells given.
+// Scaled from the plan of the given cells.
 double seconds_up_to(const Grid& grid, const Grid& given, const Plan& plan) {
   return with_coarser * plan.seconds * transform_work(grid) / transform_work(given);
 }
@@ -125,7 +125,7 @@ std::string_view word(AtCells::How how) {
   }
 }
 
-// The upper body of two, node over node as it lies on the cells given, in its own frame of `lattice`.
+// The upper body node over node as on the given cells, in its own frame.
 AtCells upper_on(const Surface& upper, const Grid& grid, const LatticeIsometry& given, Boundary boundary,
                  const LatticeIsometry& lattice, Monitor& monitor) {
   Field seen(grid.nx, grid.ny);
@@ -168,10 +168,9 @@ Placed placed_on(const Scene& scene, const Pose& pose, const Grid& grid, Monitor
 
 // --- the error of a state
 
-// Whether the combined heights have waves of fewer than four cells: of their slopes in the mean, or of their
-// bends, on which peaks between the nodes depend. Over two cells a wave of m cells differs by
-// c = 2(1 + cos(2 pi/m)) times as much as over one, in the mean square, and bends by c² as much. Smooth
-// heights have c = 4, white noise has c = 1, and a kink bends by 6.
+// Whether the combined heights have waves shorter than four cells, by mean square slopes or bends (which
+// decide peaks between nodes). Over two cells, a wave of m cells has c = 2(1 + cos(2 pi/m)) times the square
+// slope and c² times the square bend. Smooth heights have c = 4, white noise c = 1; a kink bends by 6.
 bool waves_are_missed(const State& state, bool bends) {
   constexpr double smooth_slopes = 2.8, smooth_bends = 5;
   const Field& h = state.geometry().combined();
@@ -197,9 +196,8 @@ bool waves_are_missed(const State& state, bool bends) {
   return mean_square(2) < (bends ? smooth_bends : smooth_slopes) * mean_square(1);
 }
 
-// The chance error of a corrected area, relative, covering 19 scenes in 20. It follows from the outline
-// between the nodes or, without one, from the number N of edges and the correction c = A - A_c: a tenth of c
-// is wrong on every grid.
+// Relative random error of a corrected area, for 19 scenes in 20. A tenth of the correction is wrong on every
+// grid.
 double chance_of_corrected_area(const State& state) {
   constexpr double margin_of_doubt = 1.2;
   if (state.outline()) return margin_of_doubt * state.outline()->doubt;
@@ -210,8 +208,7 @@ double chance_of_corrected_area(const State& state) {
   return edges > 0 ? correction / area * (on_every_grid + by_chance / std::sqrt(edges)) : 0.0;
 }
 
-// The largest of chance and shares of the steps between the grids. One small step may be luck, so the step
-// before counts as well.
+// A small step between grids may be chance, so the previous step counts too.
 double corrected_area_error(const State& state) {
   constexpr double of_a_step = 0.7, of_the_step_before = 0.15;
   double finer = state.corrected_area_fraction();
@@ -228,12 +225,11 @@ double corrected_area_error(const State& state) {
 }
 
 struct Judged {
-  double error = 0, algebraic = 0;  // relative; the first holds the second
+  double error = 0, algebraic = 0;  // relative; `error` includes `algebraic`
   std::string of;
 };
 
-// The counted part of the bound against the exact solution on the same grid. A tenth or fewer of the nodes
-// that might change sides do change; an outline between the nodes moves by less than its doubt.
+// At most a tenth of the doubtful nodes change sides.
 double algebraic_share(const State& state, std::string_view name) {
   constexpr double of_areas = 0.1;
   const StateQuantity* const quantity = find_quantity(name);
@@ -241,8 +237,7 @@ double algebraic_share(const State& state, std::string_view name) {
   return (is_area(name) ? of_areas : 1) * quantity->bound(state).value_or(0);
 }
 
-// Bounds cost a little, so they are computed only where the estimates alone are good enough. `values` are
-// those that a choice began with, or empty.
+// Computes bounds only if the estimates suffice. `values`: from the first press, or empty.
 Judged judged(const State& state, const AskedError& asked, const std::vector<double>& values = {}) {
   constexpr double no_value = 1e-9;
   std::vector<double> estimates, scales;
@@ -273,8 +268,7 @@ Judged judged(const State& state, const AskedError& asked, const std::vector<dou
   return result;
 }
 
-// With outlines between the nodes, on the coarser grids as well, where a corrected area is requested and the
-// elasticity gives such an outline.
+// Adds outlines between nodes on every grid, if requested and possible.
 State outlined(State state, const Plan& plan, const AskedError& asked) {
   const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
   if ((half_spaces != nullptr && half_spaces->share) || plan.attracts() ||
@@ -313,7 +307,7 @@ struct Trial {
   Plan plan;
   std::shared_ptr<const Solver> solver;
   std::optional<State> state;
-  Cost press{};  // without the grids before
+  Cost press{};  // without other grids
 };
 
 class Choice {
@@ -356,7 +350,7 @@ class Choice {
   std::optional<Step> next(const Step& step) const;
   AccuracyChoice result();
   std::string why_it_does_not_count(const Grid& grid) const;
-  // A generator that failed on these cells, such as a function with random heights.
+  // True if a generator failed on these cells, for example with random heights.
   bool is_interpolated(const Grid& grid) const {
     return grid.nx > geometry_.grid().nx && chosen_.source.find("interpolated") != std::string::npos;
   }
@@ -371,11 +365,11 @@ class Choice {
   const PartMonitor::Clock::time_point begun_ = PartMonitor::Clock::now();
   ChosenAccuracy chosen_;
   std::optional<Trial> trial_;
-  std::optional<State> coarser_;  // on the grid before
+  std::optional<State> coarser_;  // previous grid
   double algebraic_ = 0;
 };
 
-// The press on this grid and, the first time, the coarser grids that its estimate needs.
+// The first time, also solves the coarser grids of the estimate.
 void Choice::try_grid(const Step& step) {
   const double parts = elementary::log2(static_cast<double>(grids_.finest.nx) / grids_.first.nx) + 1;
   const double part_now = elementary::log2(static_cast<double>(step.grid.nx) / grids_.first.nx);
@@ -394,7 +388,6 @@ void Choice::try_grid(const Step& step) {
   accuracy.chosen = true;
   trial_->geometry = std::make_shared<const ContactGeometry>(trial_->scene, placed.pose);
   trial_->plan = plan_with_estimate(trial_->scene, *trial_->geometry);
-  // A coarse grid that misses its tolerance is not the last word.
   Plan lenient = trial_->plan;
   lenient.accuracy.on_failure = Accuracy::OnFailure::best;
   trial_->solver = make_solver(lenient, trial_->geometry);
@@ -413,7 +406,7 @@ void Choice::try_grid(const Step& step) {
   chosen_.tried.push_back({step.grid.nx, step.grid.ny, step.tolerance, 0, {}, {}, here.so_far()});
 }
 
-// Why a finer grid has to be tried, whatever the estimate says; empty where nothing speaks against it.
+// Reason to reject the estimate on this grid; empty if none.
 std::string Choice::why_it_does_not_count(const Grid& grid) const {
   constexpr double alike = 0.1;
   const State& state = *trial_->state;
@@ -447,18 +440,18 @@ void Choice::judge(const Step& step) {
 std::optional<Choice::Step> Choice::next(const Step& step) const {
   if (chosen_.met()) return {};
   const TriedGrid& last = chosen_.tried.back();
-  // More cells do not help where the bound of the solve is what is missing.
+  // More cells do not reduce the algebraic error.
   if (last.note.empty() && last.error - algebraic_ <= chosen_.asked.error && step.tolerance > tightest)
     return Step{step.grid, std::max(step.tolerance / tighter, tightest)};
   if (step.grid.nx >= grids_.finest.nx || is_interpolated(step.grid)) return {};
-  // All grids of a map are tried: they cost little beside another measurement.
+  // On a measured map, further grids are cheaper than another measurement.
   if (scene_.accuracy.on_failure == Accuracy::OnFailure::error && last.note.empty() &&
       grids_.finest.nx > geometry_.grid().nx) {
     constexpr std::size_t in_a_row = 3;
     std::size_t endless = 0;
     for (const TriedGrid& tried : chosen_.tried)
       endless = std::isinf(tried.error) && std::max(tried.nx, tried.ny) >= fewest_of_others ? endless + 1 : 0;
-    // The request of a coarse grid may be too pessimistic, but not by so much.
+    // Coarse grids overestimate the required cells by less than this factor.
     constexpr double far_beyond = 4;
     if (endless == in_a_row ||
         (std::isfinite(last.error) && chosen_.cells_needed() > far_beyond * grids_.finest.nx))
@@ -468,7 +461,6 @@ std::optional<Choice::Step> Choice::next(const Step& step) const {
 }
 
 AccuracyChoice Choice::result() {
-  // Every solver counted transforms of its own grid; they count as those of the grid chosen.
   const Grid& grid = trial_->geometry->grid();
   double surplus = 0;
   for (const TriedGrid& tried : chosen_.tried)
@@ -491,8 +483,7 @@ AccuracyChoice Choice::result() {
 }  // namespace
 
 double first_tolerance(const AskedError& asked) {
-  // At these shares the bound of a solve is nearly always below the error of the cells. The bound on an area
-  // counts every node that might change sides.
+  // Shares of the request for which the algebraic bound is almost always below the discretisation error.
   constexpr double of_areas = 1e-2, of_others = 3e-4, loosest = 1e-3;
   const bool areas = std::all_of(asked.of.begin(), asked.of.end(), is_area);
   return std::clamp((areas ? of_areas : of_others) * asked.error, tightest, loosest);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact on other cells is made of the combined heights as they lie, under a body without heights that
-// keeps the material of the upper one: no turn or shift has to be found again on other cells.
+// Other cells get the combined heights under a flat body with the upper material, which avoids turns and
+// shifts.
 #include "engine/accuracy/companion_grids.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Field on_cells(const Field& field, const Grid& from, const Grid& to, bool period
       .surface.heights();
 }
 
-// No node is softer or harder than all it lies between.
+// Limited to the range of the given nodes.
 Field hardness_on_cells(const Field& hardness, const Grid& from, const Grid& to) {
   Field result = on_cells(hardness, from, to, false);
   const Range known = range(hardness.values());
@@ -48,8 +48,7 @@ bool periodic_together(const Scene& scene) {
   return scene.lower.traits().periodic && (upper == nullptr || upper->traits().periodic);
 }
 
-// Ground that nothing faces, of which the heights are missing: marked, and as high as the lowest that is
-// there.
+// Marks missing heights (no opposite surface) and sets the lowest height.
 Array<std::uint8_t> taken_out(Field& heights) {
   Array<std::uint8_t> uncovered;
   if (known_count(heights.values()) == heights.size()) return uncovered;
@@ -62,7 +61,7 @@ Array<std::uint8_t> taken_out(Field& heights) {
   return uncovered;
 }
 
-// The combined heights, missing on the coarser grid where a node of the finer one beside is.
+// Missing if a neighbouring node of the given grid is missing.
 Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool periodic) {
   const Grid& given = geometry.grid();
   if (!geometry.overhangs()) return on_cells(geometry.combined(), given, grid, periodic);
@@ -92,7 +91,7 @@ Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool 
 
 State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
                          Monitor& monitor) {
-  // From further away nested grids cost less than a beginning saves.
+  // From a coarser start, nested grids are cheaper.
   constexpr double near_enough = 4;
   const int nx = solver.geometry().grid().nx;
   if (coarser == nullptr || !coarser->converged() || nx > near_enough * coarser->grid().nx)
@@ -135,7 +134,7 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   Plan plan = given_plan.yield ? make_plan_like(given_plan, there, *geometry_there)
                                : make_plan(there, *geometry_there);
   if (plan.yield && given_plan.yield) plan.yield->carried = given_plan.yield->carried;
-  // A solver counts against its own finest grid; here that is the one given.
+  // In transforms of the given grid.
   const double before = cost::transforms();
   State state = press_from_coarser(*make_solver(plan, std::move(geometry_there)), coarser, request, monitor);
   const double weight = transform_work(grid) / transform_work(given);

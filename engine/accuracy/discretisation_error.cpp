@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Orders, margins and growths are rows of contact/quantities.cpp. How much differences count beside the
-// outline and the first touch (also of an approach that is prescribed), and shares of a finer grid, are those
-// that were best on the same scenes.
+// Constants of the quantities are in contact/quantities.cpp. The shares below were tuned on the same scenes.
 #include "engine/accuracy/discretisation_error.hpp"
 
 #include <algorithm>
@@ -26,13 +24,12 @@ using Kind = CellError::Kind;
 
 const StateQuantity& quantity_of(std::string_view name) { return *find_quantity(name); }
 
-// Share of the correction of the outline that is left wrong in a corrected area.
+// Remaining error of a corrected area, as a share of the outline correction.
 constexpr double share_of_outline = 0.1;
-// Where the outline or the first touch says most of an error, how much of what differences say counts beside
-// it: in full, they were more than three times the error of the one in a quarter of the scenes and of the
-// other in a sixth.
+// Weight of the differences next to an error by outline or first touch: at weight 1, they exceed three times
+// the error in a quarter and a sixth of the scenes.
 constexpr double share_beside_outline = 0.5, share_beside_touch = 0.3;
-// The share that the true area is mostly above the corrected one, and how far that differs by chance.
+// In outline corrections: excess of the true area over the corrected area, and its scatter.
 constexpr double share_of_finer_outline = 0.08, doubt_of_outline = 0.02;
 
 double lacks_by_touch(const State& state, const StateQuantity& quantity) {
@@ -47,8 +44,8 @@ bool follows_touch(const State& state, const StateQuantity& quantity) {
 }
 
 struct Differences {
-  double error = 0, correction = 0;  // the latter 0 where the two differences disagree in sign
-  bool diverges = false;             // each grid moves further than the one before
+  double error = 0, correction = 0;  // `correction`: 0 for differences of opposite sign
+  bool diverges = false;             // steps grow
 };
 
 Differences differences(const State& state, const StateQuantity& quantity, double order,
@@ -59,7 +56,7 @@ Differences differences(const State& state, const StateQuantity& quantity, doubl
   };
   const double fine = of(state), half = of(levels[0].state);
   if (levels.size() == 1) {
-    // One difference may be small by accident; half an order less makes up for it.
+    // A single difference may be small by accident.
     const double growth = elementary::pow(levels[0].ratio, order - 0.5) - 1;
     return {std::abs(fine - half) / growth};
   }
@@ -75,18 +72,17 @@ Differences differences(const State& state, const StateQuantity& quantity, doubl
               std::abs(step) > noticeable * std::abs(fine)};
 }
 
-// Exact on every grid, whatever a loose solve on a coarse one makes of it.
+// Exact on every grid.
 bool is_prescribed(std::string_view quantity, PressBy by) {
   if (by == PressBy::pressure || by == PressBy::load) return quantity == "pressure" || quantity == "load";
   return quantity == name(by);
 }
 
-// Of a quantity in units of area, that of the tile; 1 of a fraction.
 double area_unit(const State& state, const StateQuantity& quantity) {
   return quantity.dimension == dimension::area ? state.geometry().grid().area() : 1.0;
 }
 
-// By the finer grid, whose own error is a fraction of that of the state.
+// The error of the finer grid is a fraction of the error of the state.
 void estimate_by_finer(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                        DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
@@ -103,7 +99,7 @@ void estimate_by_finer(const State& state, const StateQuantity& quantity, bool b
   if (cells.kind == Kind::approach && !by_approach)
     better += rise_between_nodes(finer.geometry().combined(), wraps);
   if (state.companion_grids()->request().by == PressBy::approach) better += lacks_by_touch(finer, quantity);
-  if (better == value) return;  // infinite ones too
+  if (better == value) return;  // also if infinite
   result.error = cells.growth * std::abs(value - better);
   if (cells.kind == Kind::corrected)
     result.error = elementary::hypot(result.error, doubt_of_outline * (state.area_fraction() - value));
@@ -191,7 +187,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     return {state.secant_stiffness(), 0, state.secant_stiffness(), cells.margin};
   if (found->name == "secant_stiffness" && state.companion_grids()->request().by != PressBy::flatten &&
       state.companion_grids()->request().by != PressBy::indentation) {
-    // The error of what is not prescribed of its two.
+    // The error of pressure or approach, whichever is free.
     const auto part = discretisation_estimate(state, by_approach ? "pressure" : "approach");
     result.value = result.extrapolated = state.secant_stiffness();
     result.error = result.value * part.relative();
@@ -214,7 +210,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     result.extrapolated += lacks;
     return result;
   }
-  // From the first touch on, errors of an approach that is prescribed follow those of the highest node.
+  // At a prescribed approach, errors follow the highest node.
   const Differences d = differences(state, *found, by_approach ? std::min(cells.order, 1.0) : cells.order);
   switch (cells.kind) {
     case Kind::grid:
@@ -275,7 +271,7 @@ std::string discretisation_text(const State& state) {
 
 double rise_between_nodes(const Field& field, bool wraps) {
   const auto values = field.values();
-  // What is missing is below all that is there, and all that is there is above it.
+  // NaN is below every number.
   const auto below = [](double a, double b) { return std::isnan(a) ? !std::isnan(b) : a < b; };
   const auto top =
       static_cast<std::size_t>(std::max_element(values.begin(), values.end(), below) - values.begin());
@@ -285,7 +281,7 @@ double rise_between_nodes(const Field& field, bool wraps) {
   const double peak = values[top];
   const auto inside = [&](int k, int n) { return n >= 3 && (wraps || (k > 0 && k + 1 < n)); };
   const auto at = [&](int a, int b) { return field((i + a + nx) % nx, (j + b + ny) % ny); };
-  // Beside ground that nothing faces, of which the height is missing, there is a rim as well.
+  // Missing heights (no opposite surface) form a rim too.
   const double lowest = wraps ? -std::numeric_limits<double>::infinity() : known_range(values).min;
   const bool along_x = inside(i, nx) && at(-1, 0) > lowest && at(1, 0) > lowest;
   const bool along_y = inside(j, ny) && at(0, -1) > lowest && at(0, 1) > lowest;
@@ -299,7 +295,7 @@ double rise_between_nodes(const Field& field, bool wraps) {
   if (!along_x || !along_y) return separate;
   const double cross = 0.25 * (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1));
   const double determinant = kx * ky - cross * cross;
-  // A ridge across the axes is taken along the axes: the fit has no top of its own near this node.
+  // For a diagonal ridge, parabolas along the axes.
   if (!(determinant > 0.1 * kx * ky && kx < 0)) return separate;
   const double whole = -0.5 * (gx * gx * ky - 2 * gx * gy * cross + gy * gy * kx) / determinant;
   return std::min(std::max(whole, 0.0), 2 * separate);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A pose carries over node by node: an upper node that lies over lower node (i, j) is found from the turn
-// and shift of the given lattice, in cells of either grid.
 #include "engine/accuracy/finer_heights.hpp"
 
 #include <algorithm>
@@ -19,7 +17,7 @@ namespace {
 
 using LatticeNode = LatticeIsometry::Node;
 
-// Bilinear at a place in cells, or `outside`, which the last node bounds.
+// Bilinear; `outside` beyond the last node.
 double between(const Field& field, double x, double y, int last_x, int last_y, double outside) {
   constexpr double slack = 1e-9;
   if (!(x >= -slack && x <= last_x + slack && y >= -slack && y <= last_y + slack)) return outside;
@@ -31,8 +29,7 @@ double between(const Field& field, double x, double y, int last_x, int last_y, d
          v * ((1 - u) * field(i, above) + u * field(right, above));
 }
 
-// Turned by `angle` about the middle of the nodes of the contact, which are every third one; NaN where the
-// body of the contact has no node.
+// Turns about the middle of the contact nodes (every third node); NaN outside the body.
 Field turned_about(const Field& field, const Grid& given, const Grid& fine, double angle) {
   const double c = elementary::cos(angle), s = elementary::sin(angle);
   const int last_x = (given.nx - 1) * (fine.nx / given.nx), last_y = (given.ny - 1) * (fine.ny / given.ny);
@@ -50,7 +47,7 @@ Field turned_about(const Field& field, const Grid& given, const Grid& fine, doub
   return result;
 }
 
-// What the bodies lost together off the lattice is known here alone; their own frames hold it mapped.
+// Adds combined off-lattice flattening, which only `geometry` stores unmapped.
 void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, const Grid& fine, Field& h) {
   const Grid& given = geometry.grid();
   const ContactGeometry mapped(scene, geometry.pose());
@@ -72,7 +69,7 @@ void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, 
 Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary) {
   const int nx = upper.nx(), ny = upper.ny();
   const int factor_x = nx / lattice.nx(), factor_y = ny / lattice.ny();
-  // Without its shift the isometry is affine in the nodes.
+  // Without shift, the isometry is affine in the nodes.
   const LatticeIsometry turned = LatticeIsometry(lattice.nx(), lattice.ny()).turned(lattice.quarters());
   const LatticeNode origin = turned.to_upper(LatticeNode{0, 0});
   const auto step = [&](LatticeNode over) {

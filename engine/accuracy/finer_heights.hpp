@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The combined heights of a contact on three times its cells a side, lying as they do: the nodes of the
-// contact are every third node of the finer ones. Bodies whose generator is known are made again with all
-// their waves and features; others, measured or flattened by earlier events, are interpolated, which adds
-// nothing that was not known. Two rough bodies meet over the same places, turned about the same centre; past
-// the rim of an upper body that does not wrap, where half a cell has no node left, its last heights go on.
+// Combined heights of a contact on three times its cells per side; its nodes are every third node. Bodies
+// with a generator are generated again, others interpolated. Two rough bodies face each other at the same
+// places, turned about the same centre. Beyond a rim without wrap, the last heights of the upper body
+// continue.
 #pragma once
 
 #include "engine/contact/bodies/geometry.hpp"
@@ -11,21 +10,17 @@
 
 namespace asperity {
 
-// What the error of the grid leaves on finer cells is mostly chance, and an estimate from them is the better
-// the less of it there is: in the middle of 150 scenes a quarter of the error of the energy on twice the
-// cells, a ninth on thrice.
+// Remaining energy error, median over 150 scenes: a quarter on twice the cells, a ninth on three times.
 inline constexpr int times_finer = 3;
 
-// `times_finer` the cells along every side of more than one cell. Throws Error{bad_value} naming `estimate`
-// where there is none, or more than 65536 would be needed.
+// Sides of one cell stay. Throws Error{bad_value} naming `estimate` for a single cell or more than 65536 per
+// side.
 Grid finer_grid(const Grid& grid);
 
-// The upper body's heights over the nodes of a lower grid finer by whole factors, as the lattice part of a
-// pose lays it on the cells of `lattice`.
+// Upper heights over the nodes of a lower grid, finer by whole factors than the cells of `lattice`.
 Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary);
 
-// h on finer_grid(geometry.grid()), m. `scene` has the bodies of `geometry` as events have left them. Costs
-// what generating or interpolating the bodies costs, and no solve.
+// h on finer_grid(geometry.grid()), m, after the events of the bodies. No solve.
 Field finer_heights(const Scene& scene, const ContactGeometry& geometry,
                     Monitor& monitor = Monitor::silent());
 

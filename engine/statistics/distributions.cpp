@@ -15,10 +15,11 @@ namespace asperity {
 namespace {
 
 constexpr double beyond = std::numeric_limits<double>::infinity();
-// From here on Student's t is the normal distribution in every digit: they differ by about t^3/(4 degrees).
+// From here on, Student's t equals the normal distribution to the last digit: they differ by about t^3/(4
+// degrees).
 constexpr double normal_from = 1e17;
 
-// log Γ(a+1) - [(a + 1/2) log a - a + log(2π)/2], the error of Stirling's formula.
+// Error of Stirling's formula: log Γ(a+1) - [(a + 1/2) log a - a + log(2π)/2].
 double stirling_error(double a) {
   double sum = 0;
   for (; a < 16; ++a) sum += (a + 0.5) * elementary::log1p(1 / a) - 1;
@@ -29,7 +30,7 @@ double stirling_error(double a) {
                    a;
 }
 
-// a log(a/m) + m - a, without cancellation where a is near m.
+// a log(a/m) + m - a, free of cancellation.
 double deviance(double a, double m) {
   const double difference = a - m;
   if (std::abs(difference) < 0.1 * (a + m)) {
@@ -47,7 +48,7 @@ double deviance(double a, double m) {
 }
 
 struct Shares {
-  double x, y;  // y = 1 - x with its own digits
+  double x, y;  // y = 1 - x to full precision
 };
 
 Shares shares_of(double log_odds) {
@@ -56,7 +57,7 @@ Shares shares_of(double log_odds) {
   return log_odds > 0 ? Shares{one, other} : Shares{other, one};
 }
 
-// x^a y^b / B(a, b): the slope of I_x along the logarithm of the odds.
+// x^a y^b / B(a, b): derivative of I_x by the log odds.
 double beta_slope(double a, double b, const Shares& at) {
   if (at.x == 0 || at.y == 0) return 0;
   const double n = a + b;
@@ -65,8 +66,8 @@ double beta_slope(double a, double b, const Shares& at) {
   return elementary::exp(exponent) * std::sqrt(a * b / (2 * std::numbers::pi * n));
 }
 
-// The continued fraction of I_x(a, b), every second convergent of it, with a - (a+b)x taken where it does not
-// cancel (BFRAC of DiDonato & Morris); for x below (a+1)/(a+b+2).
+// I_x(a, b) by every second convergent (BFRAC of DiDonato & Morris), without cancellation in a - (a+b)x.
+// Needs x < (a+1)/(a+b+2).
 double beta_fraction(double a, double b, const Shares& at) {
   const double c = 1 + (a > b ? (a + b) * at.y - b : a - (a + b) * at.x);
   const double c0 = b / a, c1 = 1 + 1 / a;
@@ -90,7 +91,6 @@ double beta_fraction(double a, double b, const Shares& at) {
   return value;
 }
 
-// I_x(a, b) and 1 - I_x(a, b), each with its own digits.
 struct BetaTails {
   double lower, upper;
 };
@@ -103,10 +103,9 @@ BetaTails tails(double a, double b, const Shares& at, double slope) {
   return {1 - upper, upper};
 }
 
-// The log odds u with the share `lower` below and `upper` above, by Newton's method on the logarithm of the
-// smaller, which is concave in u, between bounds that close in.
+// Log odds of a quantile: Newton with bisection on the logarithm of the smaller tail, a concave function.
 double beta_quantile(double a, double b, double lower, double upper) {
-  constexpr double farthest = 700;  // exp(-u) is still a normal number
+  constexpr double farthest = 700;  // exp(-u) is still normal
   if (lower <= 0) return -beyond;
   if (upper <= 0) return beyond;
   const bool from_below = lower <= upper;
@@ -129,7 +128,6 @@ double beta_quantile(double a, double b, double lower, double upper) {
   return u;
 }
 
-// P(|Z| > z) for z >= 0.
 double normal_tails(double z) {
   if (z < 2) return 1 - elementary::erf(z / std::numbers::sqrt2);
   if (z > 40) return 0;
@@ -138,7 +136,7 @@ double normal_tails(double z) {
   return 2 * elementary::exp(-z * z / 2) / (std::sqrt(2 * std::numbers::pi) * fraction);
 }
 
-// The z with `within` of |Z| below and `outside` above it.
+// The z with P(|Z| < z) = `within` = 1 - `outside`.
 double normal_factor(double within, double outside) {
   if (within <= 0) return 0;
   if (outside <= 0) return beyond;

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The distributions behind intervals: Student's t and F for any degrees of freedom, whole or not,
-// and the normal one. Student's and F rest on the regularised incomplete beta function, by its continued
-// fraction (DiDonato & Morris 1992) with the prefactor in Loader's form (2000), which does not lose digits
-// for many degrees. Quantiles are solved for the smaller tail: relative errors are below 1e-12 for degrees
-// from 0.1 to 1e11 and tails down to 1e-300. A t beyond 1e150 is given as infinity. Thread-safe; some
-// microseconds a call.
+// Student's t, F and normal distributions for real degrees of freedom. t and F use the continued fraction of
+// the incomplete beta function (DiDonato & Morris 1992) with Loader's prefactor (2000), accurate for many
+// degrees. Relative errors are below 1e-12 for degrees from 0.1 to 1e11 and tails down to 1e-300; t above
+// 1e150 is infinite. Thread-safe; some microseconds per call.
 #pragma once
 
 namespace asperity {
 
-// The t with P(|T| <= t) = `confidence`, 0 <= confidence <= 1: half the width of an interval in standard
-// errors; `degrees` > 0, infinity for the normal distribution. Throws Error{bad_value} for a confidence
-// outside, or degrees that are not above 0.
+// The t with P(|T| <= t) = `confidence`; `degrees` > 0, infinite: normal. Throws Error{bad_value} otherwise.
 double student_t_factor(double confidence, double degrees);
 
-// P(F <= f) with `between` and `within` degrees, both > 0 and finite.
+// P(F <= f); degrees > 0 and finite.
 double f_cdf(double f, double between, double within);
 
-// The z below which lies the share `p`, 0 <= p <= 1; -infinity for 0, infinity for 1. Throws Error{bad_value}
-// for p outside.
+// The z with P(Z < z) = `p`, ±infinity at 0 and 1. Throws Error{bad_value} for other p.
 double normal_quantile(double p);
 
 }  // namespace asperity

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Problems of a file, gathered by line and column for one error.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@ class FileProblems {
   // "line 3, column 2 (load)": "\"x\" is no finite number".
   void add(const std::string& place, const std::string& finding);
   std::size_t count() const { return count_; }
-  // Throws Error{bad_file} with all problems, the first dozen in words.
+  // Throws Error{bad_file} with the first dozen problems.
   void fail_if_any() const;
 
  private:

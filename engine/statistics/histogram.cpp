@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_bins = 10'000;
 
-// Linear between order statistics (type 7 of Hyndman & Fan); `sorted` ascends.
+// Linear interpolation (type 7 of Hyndman & Fan); `sorted` ascends.
 double quantile_of(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto k = static_cast<std::size_t>(place);
@@ -32,7 +32,6 @@ int bins_by_rule(const std::vector<double>& sorted, std::string& rule) {
     rule = "Freedman-Diaconis";
     return std::max(1, static_cast<int>(std::ceil(range / width - 1e-9)));
   }
-  // More than half of the values are one: their quartiles tell no width.
   rule = "Sturges (the quartiles give no width for Freedman-Diaconis)";
   return static_cast<int>(std::ceil(elementary::log2(n))) + 1;
 }

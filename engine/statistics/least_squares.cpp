@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/least_squares.hpp"
 
-// A namespace of its own: the linker must not replace these functions by Eigen's functions from
-// another source, compiled with other alignments.
+// Own namespace: the linker must not merge this code with Eigen code compiled with other alignments.
 #define Eigen asperity_least_squares_eigen
 #define EIGEN_DONT_VECTORIZE
 #define EIGEN_MAX_ALIGN_BYTES 0
@@ -24,7 +23,7 @@ SingularValues singular_values(const TableColumns& columns) {
   if (columns.empty()) return {};
   const auto n = static_cast<Eigen::Index>(columns.size()),
              points = static_cast<Eigen::Index>(columns.front().size());
-  // Rows of zeros where there are fewer than columns: as many directions as columns, all the same.
+  // Zero rows, for as many directions as columns.
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(std::max(points, n), n);
   for (Eigen::Index k = 0; k < n; ++k)
     matrix.col(k).head(points) =
@@ -43,7 +42,7 @@ SingularValues singular_values(const TableColumns& columns) {
 
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y) {
   using Matrix = Eigen::MatrixXd;
-  // Blocks of products as of one processor, so that sums have one order everywhere.
+  // Fixed block sizes: sums have the same order on every processor.
   static const bool blocks_are_fixed = (Eigen::setCpuCacheSizes(1 << 15, 1 << 18, 1 << 21), true);
   (void)blocks_are_fixed;
   const auto rows = static_cast<Eigen::Index>(y.size()), count = static_cast<Eigen::Index>(columns.size());

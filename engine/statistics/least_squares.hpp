@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Singular values of a table, and linear least squares.
-//
-// Linear algebra is Eigen's, compiled for one processor alone, with sums in one order: the same bits
-// everywhere. No header shows its types.
+// Singular values and linear least squares, with Eigen hidden in the source. Sums have one order: the same
+// bits on every processor.
 #pragma once
 
 #include <span>
@@ -13,31 +11,29 @@ namespace asperity {
 // Columns of equal length.
 using TableColumns = std::vector<std::vector<double>>;
 
-// The decomposition A = U Σ Vᵀ of a table, by Jacobi's rotations after a factorisation with pivots: small
-// singular values keep their digits.
+// A = U Σ Vᵀ by Jacobi rotations after a pivoted factorisation: small singular values are accurate.
 struct SingularValues {
-  TableColumns u;              // orthonormal columns, as many as A has
-  std::vector<double> values;  // descending, not negative
-  TableColumns v;              // v[k][j]: component j of the direction of value k
+  TableColumns u;              // orthonormal
+  std::vector<double> values;  // descending, ≥ 0
+  TableColumns v;              // v[k][j]: component j of direction k
 };
 
-// Every entry must be finite.
+// Finite entries.
 SingularValues singular_values(const TableColumns& columns);
 
-// The least squares of y on columns, by Householder's QR decomposition.
+// Fit of y by Householder's QR.
 struct LinearLeastSquares {
   std::vector<double> coefficients, residuals;
-  std::vector<double> leverage;  // of each y on its own fitted value, from 0 to 1
-  TableColumns influence;        // influence[i][k]: change of coefficient k with y[i]
-  // The least part of a column that stands across those before it, relative to its length: near 0 where
-  // columns are not told apart, and the rest is then not to be used.
+  std::vector<double> leverage;  // of each y on its own fit, 0 to 1
+  TableColumns influence;        // influence[i][k]: d coefficient k / d y[i]
+  // Smallest relative length of a column orthogonal to the previous columns. Near 0, the other results are
+  // unusable.
   double independence = 1;
 };
 
-// Columns as long as y, and not more columns than y has numbers; every entry must be finite. O(n columns²).
+// Columns as long as y, no more columns than rows, finite entries. O(n columns²).
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y);
 
-// The root of the sum of their squares.
 double length_of(const std::vector<double>& values);
 
 }  // namespace asperity

@@ -13,7 +13,7 @@ namespace {
 
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
-// No-break and thin spaces, as word processors put them between thousands.
+// Thousands separators of word processors: no-break and thin spaces.
 constexpr std::array<std::string_view, 3> wide_blanks{"\u00A0", "\u202F", "\u2009"};
 
 std::string with_plain_blanks(std::string_view text) {
@@ -24,14 +24,13 @@ std::string with_plain_blanks(std::string_view text) {
   return plain;
 }
 
-// A minus sign as typesetters write it.
 std::string with_plain_minus(std::string text) {
   constexpr std::string_view minus = "\u2212";
   if (text.starts_with(minus)) text.replace(0, minus.size(), "-");
   return text;
 }
 
-// An apostrophe as Swiss spreadsheets write it.
+// Apostrophe of Swiss spreadsheets.
 std::string with_plain_apostrophe(std::string text) {
   constexpr std::string_view curved = "\u2019";
   for (std::size_t k = text.find(curved); k != std::string::npos; k = text.find(curved))
@@ -44,7 +43,7 @@ std::string_view without_sign(std::string_view text) {
   return text;
 }
 
-// One to three digits, then groups of three behind the sign.
+// One to three digits, then groups of three.
 bool parts_thousands(std::string_view whole, char sign) {
   std::size_t end = 0;
   while (end < whole.size() && is_decimal_digit(whole[end])) ++end;
@@ -56,7 +55,6 @@ bool parts_thousands(std::string_view whole, char sign) {
   return true;
 }
 
-// Digits, signs, points, commas and an exponent alone.
 bool looks_like_number(std::string_view text) {
   text = without_sign(text);
   return !text.empty() &&
@@ -134,7 +132,7 @@ void NumberEvidence::add(std::string_view cell, const std::string& place) {
   if (commas > 0 && points > 0) {
     const bool comma_last = digits.rfind(',') > digits.rfind('.');
     const char decimal = comma_last ? ',' : '.', thousands = comma_last ? '.' : ',';
-    if ((comma_last ? commas : points) > 1) return;  // unreadable, which its reader tells
+    if ((comma_last ? commas : points) > 1) return;  // unreadable; the reader reports it
     prove(decimal_, decimal, text, place);
     prove(thousands_, thousands, text, place);
     return;

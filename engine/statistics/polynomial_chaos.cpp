@@ -21,18 +21,18 @@ constexpr std::size_t most_terms = 300;
 constexpr int highest_degree = 12;
 constexpr double good_below = 0.05, rough_below = 0.20;
 
-// The orthonormal polynomials of one coordinate up to `values.size() - 1`, by their recurrences.
+// Orthonormal polynomials of one coordinate.
 void polynomials(InputShape shape, double x, std::span<double> values) {
   values[0] = 1;
   if (values.size() > 1) values[1] = shape == InputShape::uniform ? std::sqrt(3.0) * x : x;
   for (std::size_t n = 2; n < values.size(); ++n) {
     const double k = static_cast<double>(n);
     if (shape == InputShape::uniform)
-      // k P_k = (2k - 1) x P_{k-1} - (k - 1) P_{k-2}, each over its norm 1/sqrt(2k + 1).
+      // k P_k = (2k - 1) x P_{k-1} - (k - 1) P_{k-2}, norm 1/sqrt(2k + 1).
       values[n] = std::sqrt(2 * k + 1) / k *
                   (std::sqrt(2 * k - 1) * x * values[n - 1] - (k - 1) / std::sqrt(2 * k - 3) * values[n - 2]);
     else
-      // He_k = x He_{k-1} - (k - 1) He_{k-2}, each over sqrt(k!).
+      // He_k = x He_{k-1} - (k - 1) He_{k-2}, norm sqrt(k!).
       values[n] = (x * values[n - 1] - std::sqrt(k - 1) * values[n - 2]) / std::sqrt(k);
   }
 }
@@ -49,7 +49,7 @@ void add_terms(std::vector<int>& term, std::size_t input, int left, std::vector<
   }
 }
 
-// What run i is missed by when the fit is made of the others; infinite where it alone decides a term.
+// Leave-one-out residual of run i; infinite if the run alone determines a term.
 double left_out(const LinearLeastSquares& fit, std::size_t i) {
   const double free = 1 - fit.leverage[i];
   return free > 1e-10 ? fit.residuals[i] / free : std::numeric_limits<double>::infinity();
@@ -66,7 +66,6 @@ struct ShareSums {
   std::vector<double> first, total;
 };
 
-// Shares of the variance; zero where there is none.
 ShareSums share_sums(const std::vector<std::vector<int>>& terms, std::span<const double> coefficients) {
   const std::size_t inputs = terms.front().size();
   ShareSums sums{0, std::vector<double>(inputs), std::vector<double>(inputs)};
@@ -215,7 +214,7 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
   found.runs = runs;
   found.inputs.assign(inputs.begin(), inputs.end());
 
-  // Over the largest answer, that no square overflows.
+  // No square may overflow.
   double scale = 0, mean = 0, scatter = 0;
   for (const double answer : answers) scale = std::max(scale, std::abs(answer));
   if (scale == 0) scale = 1;

@@ -16,10 +16,10 @@ namespace asperity {
 namespace {
 
 struct Moments {
-  double centre = 0, second = 0, third = 0;  // the last two: sums of powers of the distance from the centre
+  double centre = 0, second = 0, third = 0;  // `second`, `third`: central power sums
 };
 
-// In units of `scale`, so that no square overflows.
+// No square may overflow.
 Moments moments_of(std::span<const double> values, double scale) {
   Moments found;
   const auto n = static_cast<double>(values.size());
@@ -126,7 +126,6 @@ SampleMean sample_mean(std::span<const double> values, MeanInterval interval, do
   }
   of.deviation = std::sqrt(found.second / (n - 1)) * scale;
   of.standard_error = *of.deviation / std::sqrt(n);
-  // Differences of the last digits are rounding, and have no shape.
   const double spread = std::sqrt(found.second / n);
   if (of.count > 2 && spread > 8 * std::numeric_limits<double>::epsilon()) {
     const double skewness = found.third / n / (spread * spread * spread);

@@ -67,7 +67,7 @@ void StampColumn::step(Reading& reading) {
   double now = *reading.seconds + added_;
   const double change = last_ ? now - *last_ : 0;
   const bool local = last_ && first_->dated && !first_->zoned && change >= -hour;
-  // An hourly log repeats one time when the clock goes back. Other logs may repeat any time.
+  // An hourly log repeats a time when clocks go back; others may repeat any time.
   const bool as_before = std::abs(change + hour - gap_) <= 0.25 * gap_;
   const bool hour_back = local && (change <= -hour / 2 || (change <= 0 && as_before && !repeats_));
   repeats_ = repeats_ || (last_ && change == 0);

@@ -56,8 +56,7 @@ TableColumn column_of(const Entry& entry) {
   return column;
 }
 
-// Whether a spreadsheet would take the text for a formula, and compute it or ask another program for it. A
-// number it takes for that number.
+// Security: whether a spreadsheet would execute the text. Plain numbers are safe.
 bool is_formula(std::string_view text) {
   if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return false;
   const std::string_view digits = text.front() == '+' ? text.substr(1) : text;
@@ -66,7 +65,7 @@ bool is_formula(std::string_view text) {
   return wrong != std::errc() || end != digits.data() + digits.size();
 }
 
-// A formula is quoted and has an apostrophe before it, by which spreadsheets know a text.
+// An apostrophe before formulas makes spreadsheets read text.
 std::string csv_text(std::string_view given) {
   const bool formula = is_formula(given);
   const std::string guarded = "'" + std::string(given);
@@ -81,7 +80,7 @@ std::string csv_text(std::string_view given) {
   return quoted_text + "\"";
 }
 
-// The shortest text of 100000 is "1e+05", which nobody writes.
+// 100000 instead of "1e+05".
 std::string csv_number(double number) {
   constexpr double most = 1e15;
   std::string text = format_exact(number);
@@ -226,7 +225,7 @@ std::string Table::digest() const {
   for (std::size_t row = 0; row < rows_.size(); ++row)
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const Cell& one = cell(row, k);
-      // A whole number is the number that it is.
+      // Whole numbers count as numbers.
       digester.add(static_cast<std::int64_t>(is_number(one) ? Cell(0.0).index() : one.index()));
       if (const auto number = number_in(one)) digester.add(*number);
       if (const auto* text = std::get_if<std::string>(&one)) digester.add(*text);

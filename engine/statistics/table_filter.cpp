@@ -12,7 +12,6 @@ namespace asperity {
 
 namespace {
 
-// "worn" stays a text in any column; "3 kN" is a number in one that has a unit.
 Cell counted_in(const Cell& accepted, const TableColumn& column) {
   const auto* text = std::get_if<std::string>(&accepted);
   if (text == nullptr || column.unit.empty()) return accepted;

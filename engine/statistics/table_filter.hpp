@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which rows of a table a `where` speaks of: those in which every named column holds one of the
-// accepted values (same_cell). In a column with a unit a text such as "3 kN" stands for a number counted in
-// it. An empty filter takes every row.
+// Row filter `where`: every named column must contain an accepted value (same_cell). With a unit, "3 kN" is a
+// number. An empty filter accepts all rows.
 #pragma once
 
 #include <string>
@@ -13,7 +12,7 @@ namespace asperity {
 
 struct Condition {
   std::string column;
-  std::vector<Cell> accepted;  // any value in this list
+  std::vector<Cell> accepted;  // alternatives
 };
 
 class TableFilter {
@@ -23,9 +22,8 @@ class TableFilter {
 
   bool empty() const { return conditions_.empty(); }
   const std::vector<Condition>& conditions() const { return conditions_; }
-  // Matching rows in order. Throws Error{unknown_name} naming `where` for a column the table lacks,
-  // with the nearest, and Error{bad_unit} for a quantity of another kind than the column's. Cost: rows ×
-  // conditions × accepted values.
+  // Matching rows in order. Throws Error{unknown_name} for a missing column, Error{bad_unit} for another kind
+  // of quantity. O(rows × conditions × accepted values).
   std::vector<std::size_t> rows(const Table& table) const;
   // "`N` = 1 and `D` = 2 or 2.5"; "" for an empty filter.
   std::string text() const;

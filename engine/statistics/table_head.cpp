@@ -20,13 +20,12 @@ std::optional<Quantity> parsed_unit(std::string_view text) {
   }
 }
 
-// Of some kind, not a plain number; "%" is one too.
 bool is_unit(std::string_view text) {
   const std::optional<Quantity> unit = parsed_unit(text);
   return unit && (unit->dimension != dimension::number || text == "%");
 }
 
-// Words and symbols that are units and much else: minimum, in, turn, Run N, group t.
+// Units that are also words: minimum, in, turn, Run N, group t.
 bool may_be_a_word(std::string_view text) {
   static constexpr std::array<std::string_view, 11> words{"min", "in",   "bar", "turn", "rev", "mil",
                                                           "ft",  "inch", "us",  "pm",   "lb"};
@@ -35,7 +34,7 @@ bool may_be_a_word(std::string_view text) {
          text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// "Force (kN, filtered)": a unit, then a comma and words, which stay in the name.
+// "Force (kN, filtered)": the remark stays in the name.
 std::optional<TableHead> with_remark(std::string_view name, std::string_view inside) {
   const std::size_t comma = inside.find(',');
   if (comma == std::string_view::npos) return {};

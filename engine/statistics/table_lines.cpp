@@ -18,17 +18,16 @@ char mark_of(Separator separator) {
   return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
 }
 
-// Spreadsheets write this for a failed cell; at the beginning of a line it is no comment.
+// Failed spreadsheet cells are no comments.
 bool is_failed_cell(std::string_view text) {
   constexpr std::array<std::string_view, 7> failed{"#DIV/0!", "#N/A",  "#NAME?", "#NULL!",
                                                    "#NUM!",   "#REF!", "#VALUE!"};
   return std::ranges::any_of(failed, [text](std::string_view word) { return text.starts_with(word); });
 }
 
-// Where cells begin as far as the separators are known: the quote that begins a cell holds line ends too.
+// Tracks cell starts; a quote there may contain line ends.
 class QuoteScan {
  public:
-  // `marks` part the cells.
   explicit QuoteScan(std::string_view marks) : marks_(marks) {}
   void take(std::string_view text) {
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -56,8 +55,7 @@ class QuoteScan {
   bool inside_ = false, begins_ = true;
 };
 
-// Cells with their quotes taken off; a doubled quote inside stands for one, and an end of a line for \n.
-// `open`: the quote of the last cell is not closed; `words_after`: one is closed before its cell ends.
+// `open`: the last quote is not closed; `words_after`: text after a closed quote.
 struct Quotes {
   bool open = false, words_after = false;
 };
@@ -78,7 +76,7 @@ std::vector<TableCell> split_at(std::string_view line, Separator separator, Quot
     TableCell& cell = cells.back();
     if (inside) {
       if (line[k] == '\r') {
-        // CRLF and CR CRLF are one end, CR alone is one each; looked for once a run.
+        // CRLF and CR CRLF are one line end, each single CR is one.
         const std::size_t end = std::min(line.find_first_not_of('\r', k), line.size());
         if (end == line.size() || line[end] != '\n') cell.text.append(end - k, '\n');
         k = end - 1;
@@ -109,7 +107,6 @@ bool is_blank(const std::vector<TableCell>& cells) {
   return std::all_of(cells.begin(), cells.end(), [](const TableCell& cell) { return cell.text.empty(); });
 }
 
-// The line in two or more pieces where two blanks or a tab stand between them.
 std::vector<TableCell> split_at_wide_blanks(std::string_view line) {
   std::vector<TableCell> cells;
   for (std::size_t k = 0; k < line.size();) {
@@ -124,7 +121,7 @@ std::vector<TableCell> split_at_wide_blanks(std::string_view line) {
   return cells;
 }
 
-// "time [s] load [kN]": a unit in brackets belongs to the word before it.
+// Joins units to names: "time [s] load [kN]".
 std::vector<TableCell> with_brackets_joined(std::vector<TableCell> words) {
   std::vector<TableCell> cells;
   bool open = false;
@@ -223,7 +220,7 @@ bool TableLines::read_heads() {
   do {
     before = lines_;
     if (!next_record(lines_, line, line_)) return false;
-    if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // a note of spreadsheets to themselves
+    if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // spreadsheet header
   } while (is_comment(line));
   line = without_comment(line);
   std::string_view next, second;
@@ -250,7 +247,7 @@ bool TableLines::read_heads() {
                return read_cell(cell.text, Separator::blank).kind == CellKind::number;
              });
     };
-    // A line of units may be between the heads and the first numbers.
+    // Units may precede the numbers.
     const bool units = std::ranges::all_of(words_below, [](const TableCell& cell) {
       return cell.text == "-" || unit_in_cell(cell.text) || bare_unit(cell.text) != cell.text;
     });
@@ -273,7 +270,7 @@ bool TableLines::read_heads() {
   heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split(line);
   for (TableCell& head : heads_) {
     head.text = utf8_or_cp1252(head.text);
-    std::ranges::replace(head.text, '\n', ' ');  // "load", and "[kN]" in a second line of the cell
+    std::ranges::replace(head.text, '\n', ' ');  // a head over two lines
   }
   while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
   below_ = split(next);
@@ -314,7 +311,7 @@ void TableLines::skip_below() {
 bool TableLines::next_row(std::vector<TableCell>& cells) {
   for (std::string_view line; next_record(lines_, line, line_);) {
     if (is_comment(line)) continue;
-    // A # begins a comment unless the row is only whole with what follows it: "sample #3".
+    // "sample #3": a # starts a comment unless the row is complete only with it.
     Quotes quotes;
     cells = split_at(without_comment(line), separator_, &quotes);
     if (cells.size() != heads_.size()) cells = split_at(line, separator_, &quotes);

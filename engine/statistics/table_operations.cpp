@@ -21,7 +21,6 @@ std::vector<Cell> cells_in(const Table& table, std::size_t row) {
   return cells;
 }
 
-// The columns by which two tables are joined, and the factor from the other's unit to that of the first.
 struct JoinColumn {
   std::size_t here, there;
   double factor = 1;
@@ -41,7 +40,7 @@ JoinColumn join_column(const Table& table, const Table& other, const std::string
   return column;
 }
 
-// Nothing before numbers before booleans before texts; a number that is none after all others.
+// Sort order: empty, numbers, NaN, booleans, texts.
 int rank_of(const Cell& cell) {
   if (is_empty(cell)) return 0;
   if (is_number(cell)) return std::isnan(*number_in(cell)) ? 2 : 1;
@@ -55,7 +54,6 @@ bool before(const Cell& a, const Cell& b) {
   return one == 4 && std::get<std::string>(a) < std::get<std::string>(b);
 }
 
-// Rows of the other table in the order of their first key, so that those near a value are found by bisection.
 class PartnerIndex {
  public:
   PartnerIndex(const Table& table, const Table& other, const std::vector<JoinColumn>& columns)
@@ -73,7 +71,6 @@ class PartnerIndex {
         order_, [&](std::size_t a, std::size_t b) { return before(keys_[a].front(), keys_[b].front()); });
   }
 
-  // Partners of a row of the first table, in the order of the other.
   std::vector<std::size_t> of(std::size_t row) const {
     const Cell& first = table_.cell(row, columns_.front().here);
     Cell from = first, to = first;
@@ -176,7 +173,7 @@ Table joined(const Table& table, const Table& other, const Join& join) {
   std::vector<TableColumn> columns = joined_columns(table, other, join, taken);
   const PartnerIndex index(table, other, by);
   std::vector<std::vector<Cell>> rows;
-  std::vector<std::size_t> owner(other.rows(), table.rows());  // the row that was given each of the other
+  std::vector<std::size_t> owner(other.rows(), table.rows());  // row joined to each other row
   std::size_t alone = 0, first_alone = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::vector<std::size_t> partners = index.of(row);
@@ -226,7 +223,7 @@ std::string table_text(const Table& table, std::size_t most) {
                                               : short_text(cell));
     }
   }
-  // A cell of several lines stands in one, or the columns part.
+  // Line ends would break columns.
   for (std::vector<std::string>& line : lines)
     for (std::string& cell : line)
       std::ranges::replace_if(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All cells are held as text first: what a column is, and what a comma means, its cells tell together.
+// Cells are stored as text first: column types and commas depend on all cells.
 #include "engine/statistics/table_reader.hpp"
 
 #include <algorithm>
@@ -21,16 +21,15 @@ namespace asperity {
 
 namespace {
 
-// The unit that says that numbers are days of a spreadsheet.
 constexpr std::string_view spreadsheet_date = "date";
 
 struct ReadColumn {
-  std::string title, name, unit;  // the unit as it was written
+  std::string title, name, unit;  // unit as written
   bool left_out = false;
   bool said_text = false;
 };
 
-// Whole, without a point or an exponent, and what a double holds exactly.
+// Exact in a double, without point or exponent.
 std::optional<std::int64_t> whole_number(std::string_view text) {
   std::int64_t value = 0;
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -46,7 +45,7 @@ bool is_data(std::string_view cell) {
   return looks_like_a_number(cell) || read_time_stamp(cell).kind != TimeStamp::Kind::none;
 }
 
-// As csv_text of table.cpp guards texts that a spreadsheet takes for formulas.
+// Reverses the formula guard of csv_text in table.cpp.
 std::string without_guard(const std::string& text) {
   const bool guarded = text.size() > 1 && text[0] == '\'' &&
                        std::string_view("=+-@\t\r").find(text[1]) != std::string_view::npos;
@@ -113,7 +112,7 @@ class MeasuredTable {
     if (below) lines_.skip_below();
   }
 
-  // A file without heads begins with data. A quantity may be a head beside words, as in "slip,10 N,20 N".
+  // Heads may be quantities among words: "slip,10 N,20 N".
   void refuse_data_as_heads() const {
     const std::vector<TableCell>& heads = lines_.heads();
     const bool numbers = is_row_of_numbers(lines_.head_line());
@@ -128,7 +127,7 @@ class MeasuredTable {
                   "give their heads, as in columns={ \"time [s]\", \"load [kN]\" }");
   }
 
-  // By the whole head first, then without its unit; the number of columns that are called so.
+  // By whole head, then without unit; index and number of matches.
   std::pair<std::size_t, std::size_t> find(std::string_view title) const {
     for (const bool whole : {true, false}) {
       std::size_t found = 0, count = 0;
@@ -212,7 +211,7 @@ class MeasuredTable {
   void check_unit(std::size_t k) {
     ReadColumn& column = columns_[k];
     if (column.left_out || column.said_text) return;
-    // "time [hh:mm:ss]" says how its cells are written.
+    // "time [hh:mm:ss]" is a format.
     if (column.unit.find(':') != std::string::npos) column.unit.clear();
     if (column.unit.empty() || column.unit == spreadsheet_date) return;
     try {
@@ -253,7 +252,7 @@ class MeasuredTable {
         const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
           return read_cell(cell.text, Separator::blank).kind == CellKind::number;
         });
-        // Wider than the table, or over other numbers, it is the table, and what was read stands above it.
+        // Wider rows, or rows above further numbers, are the table.
         bool above = rows_.empty() || (wanted == 1 && cells.size() > 1);
         const bool at_end = words && !above && lines_.at_end_of_table();
         above = above || (at_end && lines_.numbers_follow());
@@ -280,7 +279,7 @@ class MeasuredTable {
     warn_of_cut_line();
   }
 
-  // "2;1." and "2;" without a line end: the rest of the file may be missing.
+  // "2;1." or "2;" without a line end may be truncated.
   void warn_of_cut_line() {
     if (lines_.ends_with_a_line_end() || lines_.line() != line_of_.back()) return;
     const auto unfinished = [](const std::string& text) {
@@ -305,7 +304,6 @@ class MeasuredTable {
     return true;
   }
 
-  // What all numbers of the file tell together.
   void learn_number_form() {
     NumberEvidence evidence(form_.decimal, form_.thousands);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -320,7 +318,6 @@ class MeasuredTable {
     if (const auto doubt = evidence.doubt()) problems_.add(doubt->place, doubt->finding);
   }
 
-  // None of its cells is a number, in whatever form.
   bool holds_words(std::size_t k) const {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const std::string text = text_of(cell(row, k));
@@ -333,7 +330,7 @@ class MeasuredTable {
 
   struct Counts {
     std::size_t numbers = 0, stamps = 0, quantities = 0, truths = 0, texts = 0, filled = 0;
-    std::size_t first_other = 0;  // row of the first cell that is no number
+    std::size_t first_other = 0;
   };
 
   Counts count(std::size_t k) const {
@@ -360,7 +357,7 @@ class MeasuredTable {
     return counts;
   }
 
-  // Adds the column to the rows; gives its unit in SI.
+  // Returns the SI unit.
   std::string read_column(std::size_t k, std::vector<std::vector<Cell>>& rows) {
     ReadColumn& column = columns_[k];
     if (column.said_text) return read_texts(k, rows), "";
@@ -402,7 +399,7 @@ class MeasuredTable {
     }
   }
 
-  // Without a unit: whole numbers stay whole where all of the column are.
+  // Whole numbers only if all are whole.
   std::string read_plain(std::size_t k, std::vector<std::vector<Cell>>& rows) {
     bool whole = true;
     for (std::size_t row = 0; whole && row < rows_.size(); ++row) {
@@ -427,8 +424,7 @@ class MeasuredTable {
     return "";
   }
 
-  // Numbers that look like names: three digits and more, as many in every cell, with zeros before them; or
-  // more digits than a number keeps.
+  // Numbers that look like names: equal length with leading zeros, or more digits than a double.
   void warn_of_names(std::size_t k, bool whole) {
     constexpr std::size_t kept = 15, digits_of_names = 3;
     std::optional<std::size_t> zero, last, longest;
@@ -453,7 +449,7 @@ class MeasuredTable {
     if (zero && alike && digits >= digits_of_names) warn(*zero, "its zeros");
   }
 
-  // In the unit of the column, exact in SI; a cell may bring its own.
+  // Exact in SI; a cell may have its own unit.
   std::string read_numbers(std::size_t k, std::vector<std::vector<Cell>>& rows) {
     const ReadColumn& column = columns_[k];
     const Quantity unit = parse_unit(column.unit);
@@ -539,7 +535,6 @@ class MeasuredTable {
     return "s";
   }
 
-  // Days since the end of 1899, as spreadsheets count them, or stamps.
   std::string read_dates(std::size_t k, std::vector<std::vector<Cell>>& rows) {
     const Counts counts = count(k);
     if (counts.stamps == counts.filled) return read_stamps(k, rows);

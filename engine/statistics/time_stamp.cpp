@@ -19,7 +19,6 @@ struct DateParts {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Takes what it reads off the front of a text.
 class StampReader {
  public:
   explicit StampReader(std::string_view text) : rest_(text) {}
@@ -36,7 +35,7 @@ class StampReader {
     while (take(' ')) {
     }
   }
-  // A whole number of at most `most` digits, and how many it had.
+  // At most `most` digits; returns value and number of digits.
   std::optional<std::pair<int, int>> number(int most) {
     int digits = 0, value = 0;
     while (digits < most && is_digit(front())) {
@@ -71,7 +70,7 @@ class StampReader {
   std::string_view rest_;
 };
 
-// English and German, by their first three letters.
+// English and German, by their first letters.
 int month_named(const std::string& word) {
   static constexpr std::array<std::pair<std::string_view, int>, 17> names{{{"jan", 1},
                                                                            {"feb", 2},
@@ -105,10 +104,10 @@ bool is_in_calendar(const DateParts& date) {
   return date.day <= longest;
 }
 
-// Two digits are of this century.
+// Two digits: this century.
 int whole_year(std::pair<int, int> year) { return year.second <= 2 ? 2000 + year.first : year.first; }
 
-// The date in front. False where there is none; the stamp's kind says what else may be wrong.
+// Reads a leading date. False without one; stamp.kind holds other errors.
 bool read_date(StampReader& in, DateOrder order, TimeStamp& stamp) {
   DateParts date;
   StampReader trial = in;
@@ -161,7 +160,7 @@ bool read_date(StampReader& in, DateOrder order, TimeStamp& stamp) {
   return true;
 }
 
-// The time of day in front, to its end; false where there is none.
+// Reads the remaining time of day; false without one.
 bool read_clock(StampReader& in, ClockForm clock, TimeStamp& stamp) {
   using Kind = TimeStamp::Kind;
   const auto first = in.number(stamp.dated ? 2 : 5);
@@ -198,7 +197,7 @@ bool read_clock(StampReader& in, ClockForm clock, TimeStamp& stamp) {
   if (!three && fractional && stamp.dated) return false;
   const bool of_day = stamp.dated || twelve;
   if (!three && !of_day) {
-    // "10:30.5" has seconds at its end.
+    // "10:30.5" ends with seconds.
     const ClockForm form = fractional ? ClockForm::minutes_seconds : clock;
     if (form == ClockForm::unsaid) stamp.kind = Kind::unsaid_clock;
     if (form == ClockForm::minutes_seconds) {
@@ -219,7 +218,7 @@ bool read_clock(StampReader& in, ClockForm clock, TimeStamp& stamp) {
   return true;
 }
 
-// "Z", "+01:00", "-0530", "+01" at the end.
+// Final "Z", "+01:00", "-0530", "+01".
 bool read_zone(StampReader& in, TimeStamp& stamp) {
   if (in.at_end()) return true;
   stamp.zoned = true;
@@ -253,7 +252,7 @@ bool read_zone(StampReader& in, TimeStamp& stamp) {
 }  // namespace
 
 std::int64_t days_to_date(std::int64_t year, int month, int day) {
-  // Years that begin in March have their leap day last; 400 of them are 146097 days.
+  // Years from March have their leap day last; 400 years are 146097 days.
   const std::int64_t y = month <= 2 ? year - 1 : year;
   const std::int64_t era = (y >= 0 ? y : y - 399) / 400, in_era = y - 400 * era;
   const std::int64_t in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
@@ -266,7 +265,7 @@ TimeStamp read_time_stamp(std::string_view text, DateOrder order, ClockForm cloc
   TimeStamp stamp;
   if (text.empty() || text.size() > longest || !is_digit(text.front())) return stamp;
   StampReader in(text);
-  // "20261123T100000" of ISO 8601.
+  // ISO 8601 basic format, "20261123T100000".
   if (text.size() >= 9 && text[8] == 'T') {
     std::string extended;
     for (std::size_t k = 0; k < text.size(); ++k) {

@@ -16,8 +16,7 @@ namespace asperity {
 
 namespace {
 
-// Joe & Kuo's primitive polynomials, by degree and inner coefficients, and first direction numbers, of the
-// second coordinate on; the first one is van der Corput's.
+// Joe & Kuo: degree, inner coefficients, initial direction numbers, from the second coordinate.
 struct SobolRow {
   int degree;
   std::uint32_t coefficients;
@@ -73,7 +72,7 @@ std::uint32_t sobol_bits(const Directions& v, std::size_t index) {
   return bits;
 }
 
-// Each bit is turned or not by a draw of its own for the bits before it.
+// Owen: flips each bit by a random bit that depends on the previous bits.
 std::uint32_t scrambled(std::uint32_t bits, const Stream& stream) {
   std::uint32_t out = 0;
   for (unsigned k = 0; k < 32; ++k) {
@@ -160,7 +159,7 @@ std::vector<std::vector<double>> input_points(std::span<const UncertainInput> in
     const Stream stream(seed, "input points " + std::to_string(j));
     const Directions directions = directions_of(j);
     for (std::size_t i = 0; i < runs; ++i) {
-      // The middle of the finest slice: no normal coordinate is infinite.
+      // Midpoint: normal coordinates stay finite.
       const double p =
           (static_cast<double>(scrambled(sobol_bits(directions, first + i), stream)) + 0.5) * 0x1p-32;
       points[i][j] = inputs[j].coordinate(p);

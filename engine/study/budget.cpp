@@ -50,7 +50,6 @@ double median_seconds(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-// Asks, counts and forecasts.
 class BudgetRuns {
  public:
   BudgetRuns(const BudgetRequest& request, const BudgetBatch& ask)
@@ -68,14 +67,13 @@ class BudgetRuns {
     for (std::size_t c = 0; c < grids_; ++c) weight_ += weight_of(c) * static_cast<double>(replicates_);
   }
 
-  // The first replicate on the coarsest grid, as well as can be.
+  // First replicate, coarsest grid, best tolerance and tip.
   BudgetSetting base(std::string part) const {
     BudgetSetting setting = base_;
     setting.part = std::move(part);
     return setting;
   }
 
-  // Throws where an answer is not finite, unless some may be lost.
   std::vector<double> run(std::vector<BudgetSetting> settings, bool some_may_be_lost = false) {
     if (settings.empty()) return {};
     for (BudgetSetting& setting : settings) {
@@ -108,7 +106,7 @@ class BudgetRuns {
     return values;
   }
 
-  // answers[c][r]: on grid c with replicate r.
+  // answers[c][r]: grid c, replicate r.
   std::vector<std::vector<double>> replicates() {
     std::vector<std::vector<double>> answers(grids_);
     for (const auto& [from, to] :
@@ -126,7 +124,7 @@ class BudgetRuns {
     }
     return answers;
   }
-  // The specimen on the grids between; empty if `ask` refuses one grid.
+  // Empty if `ask` refuses a grid.
   std::vector<double> between() {
     std::vector<BudgetSetting> settings(cells_.size() - grids_, base("grids between"));
     for (std::size_t k = 0; k < settings.size(); ++k) settings[k].cells = grids_ + k;
@@ -137,7 +135,6 @@ class BudgetRuns {
       return {};
     }
   }
-  // More runs over the inputs than were counted at first.
   void expect(std::size_t more) {
     total_ += more;
     weight_ += weight_of(0) * static_cast<double>(more);
@@ -145,9 +142,9 @@ class BudgetRuns {
 
   std::size_t count = 0;
   double sum = 0;
-  std::vector<std::vector<double>> seconds;  // of runs at the values of the inputs, grid by grid
+  std::vector<std::vector<double>> seconds;  // by grid, for the nominal inputs
   double loose_seconds = 0;
-  std::optional<Error> lost;  // names the first answer without a finite number
+  std::optional<Error> lost;
 
  private:
   double weight_of(std::size_t c) const { return cells_.empty() ? 1 : cells_[c] * cells_[c]; }
@@ -174,7 +171,7 @@ class BudgetRuns {
   double weight_ = 0, done_ = 0;
 };
 
-// Means of the repeats of each specimen, without replicates that gave no finite number.
+// Averages repeats of specimens; drops replicates without a finite number.
 void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
                     std::vector<std::vector<double>>& answers, Budget& budget) {
   std::map<std::size_t, std::vector<std::size_t>> repeats;
@@ -204,8 +201,8 @@ void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
     refuse_request("`replicate` has one specimen", "scatter takes two or more, better five");
 }
 
-// A drift of this order through all grids, with chance in proportion to the width of their cells: by how much
-// the value at no width differs from that of the finest, and the standard error of this.
+// Fits a drift of this order with scatter proportional to cell width. Returns its value at width 0 relative
+// to the finest grid, and the standard error.
 std::pair<double, double> drift_of(const std::vector<double>& widths, const std::vector<double>& steps,
                                    double order) {
   TableColumns columns(2);
@@ -222,7 +219,6 @@ std::pair<double, double> drift_of(const std::vector<double>& widths, const std:
   return {fit.coefficients[0], std::sqrt(squares * influence / static_cast<double>(widths.size() - 2))};
 }
 
-// `at(p)` for orders p alike anywhere between the ends.
 constexpr int order_steps = 200;
 template <class At>
 std::vector<double> over_orders(double low, double high, At at) {
@@ -232,15 +228,15 @@ std::vector<double> over_orders(double low, double high, At at) {
   return found;
 }
 
-// The error of the finest of two that differ by `change`, r times as fine, over all orders.
+// Richardson's correction of the finer answer, for all orders.
 std::vector<double> extrapolations(double change, double ratio, double low, double high) {
   return over_orders(low, high, [&](double order) { return change / (elementary::pow(ratio, order) - 1); });
 }
 
-// The error that the cells make for one specimen; `between` holds the answers on the grids between.
+// Discretisation error of a single specimen.
 void look_at_chance(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
                     const std::vector<double>& between, BudgetTerm& term, Budget& budget) {
-  // Drifts of order 1 to 2 exceed their errors by this factor; the scatter of rough faces hardly ever does.
+  // In standard errors: drifts of order 1 to 2 exceed this, the scatter of rough faces hardly ever.
   constexpr double clear = 15;
   const std::vector<double> grids = budget_grids(request);
   const std::size_t last = answers.size() - 1;
@@ -295,7 +291,7 @@ void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>
         "the two finest grids give the same answer, to the last digit: does `ask` use its `cells`?");
   if (last > 1) {
     const double before = average_of(answers[last - 1]) - average_of(answers[last - 2]);
-    // For equal ratios the changes go as r^p; unequal ones are taken for their mean.
+    // The observed order is exact for equal ratios; otherwise the mean ratio is used.
     if (change / before > 0)
       budget.order_observed =
           elementary::log(before / change) /
@@ -312,7 +308,6 @@ void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>
   BudgetTerm& term = found.terms.emplace_back();
   term.name = "cells";
   if (request.replicates == 0) return look_at_chance(request, answers, runs.between(), term, budget);
-  // Each replicate is corrected by the mean over the orders; the mean change keeps its standard error.
   term.list = extrapolations(1, ratio, request.order_low, request.order_high);
   const double factor = average_of(term.list), count = static_cast<double>(steps.size());
   term.degrees = count - 1;
@@ -352,13 +347,12 @@ void look_at_solver(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const double ratio = request.tolerances[last - 1] / request.tolerances[last];
   BudgetSetting loose = runs.base("solver");
   --loose.tolerance;
-  // The steps have the standard deviation of the whole interval.
+  // The steps get the standard deviation of the interval.
   const double half = (runs.run({loose}).front() - found.first) / (ratio - 1) /
                       std::sqrt(1 - 1.0 / (order_steps * order_steps));
   found.terms.push_back({"solver", over_orders(-1, 1, [&](double share) { return share * half; })});
 }
 
-// What a stylus and its noise do to the answer; nothing is said of a budget that has no instrument.
 void look_at_instrument(const BudgetRequest& request, BudgetRuns& runs, BudgetFindings& found,
                         Budget& budget) {
   if (request.tips.size() > 1) {
@@ -391,10 +385,10 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
     budget.notes.emplace_back("inputs: taken as exact");
     return;
   }
-  // Doubled only where nobody has said how many runs or how long.
+  // Runs may double only without `runs` and `at_most`.
   ChaosRequest of_inputs{request.inputs, request.runs, request.seed};
   if (request.at_most) of_inputs.runs = runs_of_inputs(request);
-  // Student's t goes far beyond the points.
+  // Student's t extrapolates far beyond the points.
   if (std::ranges::any_of(request.inputs, [](const auto& of) { return of.degrees < 30; }))
     of_inputs.highest = 3;
   std::size_t asked = 0;
@@ -413,7 +407,6 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const ChaosTrust trust = budget.chaos->trust();
   if (!(budget.chaos->variance > 0))
     budget.warnings.emplace_back("the answer does not hang on the inputs: does `ask` use them?");
-  // A rough fit is reported once, as a warning.
   budget.notes.push_back(
       (request.correlations.empty() ? "inputs: taken as independent" : "inputs: correlated") +
       (trust == ChaosTrust::good ? "; " + budget.chaos->text() : std::string()));
@@ -431,7 +424,7 @@ BudgetPart& add_part(Budget& budget, std::string name, double uncertainty, doubl
   return part;
 }
 
-// A row for each input, a row for the correlations, and a row for the rest of the variance.
+// One row per input, one for correlations, one for the rest.
 void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& budget) {
   constexpr double always = std::numeric_limits<double>::infinity();
   const PolynomialChaos& chaos = *budget.chaos;
@@ -458,7 +451,7 @@ void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& 
     rest -= part.variance();
     for (std::size_t k = 0; k < j; ++k) mutual += 2 * slopes[j] * slopes[k] * inputs.correlation(j, k);
   }
-  // Halving an input halves what it shares with the correlated ones.
+  // Halving an input halves its covariances.
   for (std::size_t j = 0; j < count && !request.correlations.empty(); ++j) {
     BudgetPart& part = budget.parts[budget.parts.size() - count + j];
     part.total = part.variance() * (1 - 4.0 / 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws from all parts of a budget together.
+// Joint draws from all parts of a budget.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace asperity {
 
-// Student's t with `degrees` of freedom from two uniform numbers (Bailey 1994).
+// Bailey's method (1994).
 inline double student_draw(const Stream& stream, std::uint64_t k, double degrees) {
   const double u = 1 - stream.uniform(2 * k), v = stream.uniform(2 * k + 1);
   return std::sqrt(degrees * elementary::expm1(-2 / degrees * elementary::log(u))) *
          elementary::cos(2 * std::numbers::pi * v);
 }
 
-// χ² with these degrees of freedom (Marsaglia & Tsang 2000): one try in 19 of 20 draws, and never 16.
+// Marsaglia & Tsang's method (2000): one try in 19 of 20 draws, never 16.
 inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double degrees) {
   const double shape = degrees / 2, d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3;
   for (std::uint64_t i = 16 * k;; ++i) {
@@ -36,9 +36,8 @@ inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double deg
   }
 }
 
-// Draws of inputs. Standard normal numbers with the correlations select the quantiles of the inputs. An input
-// with degrees of freedom is Student's t; correlated inputs share an estimate of their scatter, as the
-// parameters of a calibration do.
+// Correlated normal scores select quantiles of the inputs. Inputs with degrees of freedom follow Student's t;
+// correlated inputs share one scatter estimate.
 class InputDraws {
  public:
   InputDraws(const BudgetRequest& request) : inputs_(request.inputs) {
@@ -71,7 +70,6 @@ class InputDraws {
       }
   }
 
-  // Standardised coordinates of draw k.
   std::vector<double> at(std::uint64_t k) const {
     std::vector<double> scores, found;
     for (std::size_t j = 0; j < inputs_.size(); ++j) {
@@ -79,7 +77,7 @@ class InputDraws {
       double z = 0;
       for (std::size_t i = 0; i <= j; ++i)
         if (factor_[j][i] != 0) z += factor_[j][i] * scores[i];
-      // The first that this one is correlated with has the scatter of both.
+      // Correlated inputs share the χ² draw of their first.
       std::size_t group = 0;
       while (correlation_[j][group] == 0) ++group;
       if (const double degrees = inputs_[j].degrees; std::isfinite(degrees))
@@ -111,7 +109,6 @@ inline double average_of(const std::vector<double>& values) {
   return mean;
 }
 
-// Standard deviation about the mean, with these degrees of freedom.
 inline double deviation_of(const std::vector<double>& values, double degrees) {
   const double mean = average_of(values);
   double squares = 0;
@@ -119,7 +116,7 @@ inline double deviation_of(const std::vector<double>& values, double degrees) {
   return degrees > 0 ? std::sqrt(squares / degrees) : 0;
 }
 
-// A part adds a value from a list, each equally likely, and Student's t times a scale.
+// Sum of a random value of `list` and `scale` times Student's t.
 struct BudgetTerm {
   std::string name;
   std::vector<double> list;
@@ -130,12 +127,12 @@ struct BudgetTerm {
 };
 
 struct BudgetFindings {
-  double first = 0;   // the first replicate on the coarsest grid
-  double centre = 0;  // of the replicates: their mean, or that of Cox
+  double first = 0;   // first replicate on the coarsest grid
+  double centre = 0;  // mean of the replicates, or Cox's
   std::vector<BudgetTerm> terms;
 };
 
-// Ascending; of the parts, and of the inputs by their polynomial unless it is refused.
+// Ascending; inputs by their polynomial unless refused.
 inline std::vector<double> budget_draws(const BudgetRequest& request, const InputDraws& inputs,
                                         const BudgetFindings& found, const Budget& budget) {
   const Stream lack(request.seed, "budget lack");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What it costs to halve a part of a budget, and the cheapest way to an interval. Times of other grids follow
-// from those measured, as a power of the cells; the error of the cells falls with their order, that of the
-// mean with the root of the replicates.
+// Cost of halving a part of a budget, and the cheapest way to an interval. Times scale as a power of the
+// cells, discretisation errors with their order, the error of the mean as the root of the replicates.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,8 +18,8 @@ namespace {
 
 constexpr std::size_t most_replicates = 100000;
 
-// Variance and degrees of freedom of the whole, by Welch and Satterthwaite, where the variance of the
-// sampling and of the cells are these times greater. Correlated inputs count as one.
+// Total variance and degrees of freedom (Welch–Satterthwaite), with factors on the variances of sampling and
+// cells. Correlated inputs count as one.
 std::pair<double, double> whole_of(const Budget& budget, double sampling, double cells, double replicates) {
   const bool correlated =
       std::ranges::find(budget.parts, "correlation", &BudgetPart::name) != budget.parts.end();
@@ -44,7 +43,6 @@ std::pair<double, double> whole_of(const Budget& budget, double sampling, double
 
 double even_cells(double cells) { return 2 * std::ceil(cells / 2 - 1e-9); }
 
-// Predicts interval and time for other numbers of replicates and cells.
 class Planner {
  public:
   Planner(const Budget& budget, double order) : budget_(budget), order_(order) {
@@ -64,10 +62,10 @@ class Planner {
     return of_one * budget_.repeats * static_cast<double>(std::max<std::size_t>(1, replicates));
   }
 
-  // The fewest replicates on these cells; 0 for none, or where there is nothing to sample.
+  // Fewest replicates on these cells; 0: unreachable.
   std::size_t replicates_for(double half, double cells) const {
     if (half_width(most_replicates, cells) > half) return 0;
-    std::size_t low = 1, high = most_replicates;  // not enough, enough
+    std::size_t low = 1, high = most_replicates;  // insufficient, sufficient
     while (high - low > 1) {
       const std::size_t middle = low + (high - low) / 2;
       (half_width(middle, cells) <= half ? high : low) = middle;
@@ -122,23 +120,22 @@ class Planner {
   }
 
   const Budget& budget_;
-  double order_, ratio_ = 2, scale_ = 1, power_ = 2;  // power of the seconds
+  double order_, ratio_ = 2, scale_ = 1, power_ = 2;  // `power_`: of the seconds
 };
 
 }  // namespace
 
 double Budget::degrees() const { return whole_of(*this, 1, 1, static_cast<double>(replicates)).second; }
 
-// Fills what halving takes, how wide the interval is then, and the plan. `order` is that of the error of the
-// cells; `solver_seconds` is how much longer a run on the coarsest grid takes to the tightest tolerance than
-// to the one before.
+// `order`: of the discretisation error; `solver_seconds`: extra time per run on the coarsest grid of the
+// tightest tolerance.
 void add_costs(Budget& budget, double order, double solver_seconds) {
   const Planner planner(budget, order);
   const std::size_t n = budget.replicates;
   const double runs = budget.repeats * static_cast<double>(std::max<std::size_t>(1, n));
   const double whole = budget.uncertainty * budget.uncertainty;
   for (BudgetPart& part : budget.parts) {
-    // An input narrows also what it does together with others.
+    // Includes joint effects.
     const double share = part.input && whole > 0 ? part.total / whole : std::max(0.0, part.share);
     part.half_width_after = budget.half_width() * std::sqrt(std::max(0.0, 1 - 0.75 * share));
     if (part.name == "sampling") {
@@ -155,11 +152,11 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
       const double first = budget.seconds_of_cells.front();
       const double growth = first > 0 ? budget.seconds_of_cells.back() / first : 1;
       part.halving = "tolerance = " + format_short(tightest / 2, 3);
-      // The whole is run again, each run longer by what a halved tolerance takes.
+      // All runs repeat and take longer.
       part.halving_seconds = planner.seconds(n, planner.finest()) +
                              runs * growth * solver_seconds * elementary::log(2) / elementary::log(ratio);
     } else if (part.name == "tip") {
-      // Of an error that falls as the radius to the power of about 3/2.
+      // The error scales as about radius^(3/2).
       part.halving =
           "a tip of " + format_quantity(budget.tips.back() / elementary::exp2(2.0 / 3), dimension::length, 2);
     } else if (part.name == "noise") {

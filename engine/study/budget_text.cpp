@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A budget as a table.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +10,7 @@ namespace asperity {
 
 namespace {
 
-// A number without the rounding of its last digits.
+// Rounding errors around 0 print as 0.
 std::string tidy(double value, double uncertainty, int digits) {
   return format_short(std::abs(value) < 1e-12 * uncertainty ? 0 : value, digits);
 }
@@ -20,7 +19,7 @@ std::string degrees_text(double degrees) {
   return std::isfinite(degrees) ? format_short(degrees, 3) : std::string("∞");
 }
 
-// The inputs as the Guide to the Expression of Uncertainty in Measurement lists them.
+// Table of inputs after the GUM.
 void add_input_sheet(const Budget& budget, std::string& text) {
   std::vector<TextLine> lines = {{"input", "value", "u", "degrees", "sensitivity", "contribution", "shape"}};
   for (const BudgetPart& part : budget.parts)

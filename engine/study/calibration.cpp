@@ -20,11 +20,11 @@ namespace asperity {
 
 namespace {
 
-constexpr double level_of_specimens = 0.5;  // of the F test after which specimens are the observations
+constexpr double level_of_specimens = 0.5;  // p-value; below, specimen means are the observations
 constexpr double through_every_row = 1e-9;  // residuals, relative to the data
-constexpr double no_part = 0.01;            // of a direction that no row sees, in a parameter
-constexpr double moved_little = 0.2;        // half-widths by which a bound may move a linearised interval,
-constexpr double moved_far = 3;             // and those from which only a combination is known
+constexpr double no_part = 0.01;            // negligible component of an undetermined direction
+constexpr double moved_little = 0.2;        // half-widths; larger moves by a bound void an interval
+constexpr double moved_far = 3;             // the same; larger moves void the estimate
 
 std::string row_name(const CalibrationRows& rows, std::size_t k) {
   return "row " + std::to_string(rows.numbers.empty() ? k + 1 : rows.numbers[k]);
@@ -86,7 +86,6 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-// Specimens in the order in which they come.
 std::vector<std::pair<std::string, CalibrationGroup>> specimen_groups(const CalibrationRows& rows) {
   std::vector<std::pair<std::string, CalibrationGroup>> found;
   std::map<std::string, std::size_t> places;
@@ -98,13 +97,12 @@ std::vector<std::pair<std::string, CalibrationGroup>> specimen_groups(const Cali
   return found;
 }
 
-// Variances of the weighted residuals about the mean of their specimen, and of those means.
 struct SpecimenVariances {
   double within = 0, between = 0;
   SpecimenScatter test;
 };
 
-// Residuals of rows, each times the root of its weight. More specimens than parameters, more rows than
+// `weighted`: residuals times root weights. Needs more specimens than parameters and more rows than
 // specimens.
 SpecimenVariances variances_of(const std::vector<std::pair<std::string, CalibrationGroup>>& groups,
                                const std::vector<double>& weighted, std::size_t parameters) {
@@ -136,7 +134,7 @@ SpecimenVariances variances_of(const std::vector<std::pair<std::string, Calibrat
   return found;
 }
 
-// Means of specimens as observations, each with the weight of its own variance; weights of mean 1.
+// Specimen means weighted by their own variances; mean weight 1.
 std::vector<CalibrationGroup> specimen_observations(
     const std::vector<std::pair<std::string, CalibrationGroup>>& groups, const SpecimenVariances& variances) {
   std::vector<CalibrationGroup> found;
@@ -156,8 +154,7 @@ std::vector<double> weighted_rows(const CalibrationRows& rows, const Calibration
   return weighted;
 }
 
-// Covariance for a scatter of 1, of all parameters: 0 beside those that are held; directions that are not
-// determined take no part.
+// Covariance for unit scatter; 0 for fixed parameters.
 TableColumns covariance_of(const CalibrationTangent& at, std::size_t parameters) {
   TableColumns covariance(parameters, std::vector<double>(parameters));
   for (std::size_t i = 0; i < at.parameters.size(); ++i)
@@ -204,7 +201,7 @@ class CalibrationWork {
       const std::optional<std::vector<double>> lower = profile();
       profiled = !lower;
       if (profiled) break;
-      // A lower sum lies beside: the fit begins there once more.
+      // Restart at the lower sum.
       problem_.say("fit again");
       fit(*lower);
       ++begun_again_;
@@ -214,7 +211,7 @@ class CalibrationWork {
   }
 
  private:
-  // The least sum by rows, then by specimens where they scatter.
+  // Fits rows, then specimen means if specimens scatter more.
   void fit(const std::vector<double>& start) {
     groups_ = specimen_groups(rows_);
     test_.reset();
@@ -253,14 +250,12 @@ class CalibrationWork {
     describe_place();
   }
 
-  // What the derivatives at the least sum say.
   void describe_place() {
     const std::vector<bool> none(problem_.parameters(), false);
     held_ = problem_.pushed(at_.place, at_.rows_jacobian, none);
     let_go(problem_.tangent(at_.place, at_.rows_jacobian, none, at_.hidden));
     tangent_ = problem_.tangent(at_.place, at_.rows_jacobian, held_, at_.hidden);
-    // The directions that no row sees are those of all parameters but the held ones; a held one that would
-    // be free is measured by its own column.
+    // Undetermined directions involve all parameters except fixed ones.
     covariance_ = covariance_of(tangent_, problem_.parameters());
     determined_ = determined_parameters(tangent_, problem_.parameters());
     moved_.assign(problem_.parameters(), 0);
@@ -268,7 +263,7 @@ class CalibrationWork {
     const std::size_t held = static_cast<std::size_t>(std::ranges::count(held_, true));
     const std::size_t observations = problem_.groups().size(), used = tangent_.rank + held;
     degrees_ = observations > used ? observations - used : 0;
-    // Residuals of a model that passes through every row are rounding errors.
+    // Residuals of an exact fit are rounding errors.
     const double rounding = through_every_row * problem_.size_of(at_.place);
     scatter_ = degrees_ > 0 && at_.place.sum > rounding * rounding
                    ? at_.place.sum / static_cast<double>(degrees_)
@@ -278,7 +273,7 @@ class CalibrationWork {
       if (held_[p]) leave_bound(p);
   }
 
-  // How the estimates move when the observations move so.
+  // Changes of the estimates with the observations.
   std::vector<double> moves_with(const std::vector<double>& observed) const {
     std::vector<double> moves(problem_.parameters());
     for (std::size_t k = 0; k < tangent_.rank; ++k) {
@@ -297,12 +292,11 @@ class CalibrationWork {
     return problem_.observed(column);
   }
 
-  // How far the parameter p can leave its bound until S meets the cut, and how far the others move with it.
-  // An interval with p held at the bound is the interval of their combination with p.
+  // Range of p from its bound until S meets the cut, and the moves of the others.
   void leave_bound(std::size_t p) {
     const std::vector<double> column = observed_column(p);
     CalibrationBound bound{p, 0, moves_with(column)};
-    std::vector<double> across = column;  // less what the others can make up for
+    std::vector<double> across = column;  // not compensated by others
     for (std::size_t i = 0; i < bound.moves.size(); ++i) {
       const std::vector<double> other = observed_column(i);
       for (std::size_t k = 0; k < across.size(); ++k) across[k] -= bound.moves[i] * other[k];
@@ -325,11 +319,11 @@ class CalibrationWork {
     bounds_.push_back(std::move(bound));
   }
 
-  // Whether `u` says how far an observation scatters.
+  // Whether `u` determines the scatter.
   bool known_scatter() const { return !rows_.u.empty() && !options_.relative_u && !by_specimens_; }
 
-  // A parameter at a bound is not held there by the rows where it can leave it, together with others, and no
-  // row changes. `all`: the tangent of all parameters.
+  // Frees a parameter that can leave its bound along an undetermined direction. `all`: tangent with every
+  // parameter.
   void let_go(const CalibrationTangent& all) {
     for (std::size_t k = all.rank; k < all.svd.values.size(); ++k) {
       const std::vector<double>& v = all.svd.v[k];
@@ -346,8 +340,8 @@ class CalibrationWork {
     }
   }
 
-  // Derivatives of a model that has steps or noise of its own may tell parameters apart which the rows do
-  // not, or be 0. Where the profile has not shown that they hold, they are taken anew, as wide as it needs.
+  // Steps or noise of the model can falsify derivatives. Unless the profile confirms the derivatives, wider
+  // differences replace them.
   void confirm(bool profiled) {
     bool sure = profiled && !at_.noisy;
     for (std::size_t p = 0; sure && p < determined_.size(); ++p)
@@ -381,7 +375,6 @@ class CalibrationWork {
   }
   double cut() const { return factor() * factor(); }
 
-  // Where a lower sum lies, if one was met.
   std::optional<std::vector<double>> profile() {
     const double allowed = cut() * variance_;
     for (std::size_t p = 0; p < problem_.parameters(); ++p) {
@@ -408,8 +401,8 @@ class CalibrationWork {
     return {};
   }
 
-  // The scatter of replicates, as it moves the estimates: that of their mean through all rows together, and,
-  // unless the means of specimens show it, that of each specimen's own face through its rows.
+  // Adds replicate scatter to the covariance: the mean moves all rows and, unless specimens are the
+  // observations, each face its specimen's rows.
   void add_faces() {
     const std::size_t replicates = rows_.replicates;
     faces_.assign(problem_.parameters(), std::vector<double>(problem_.parameters()));
@@ -440,7 +433,7 @@ class CalibrationWork {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       const double rows = variance_ * covariance_[i][i], of_faces = faces_[i][i], sum = rows + of_faces;
       if (!(sum > 0)) continue;
-      // Welch and Satterthwaite's degrees, the fewest of all parameters.
+      // Smallest Welch–Satterthwaite degrees.
       degrees = std::min(
           degrees, sum * sum / ((rows > 0 ? rows * rows / own_degrees : 0) + of_faces * of_faces * share));
       for (std::size_t j = 0; j < faces_.size(); ++j)
@@ -538,15 +531,15 @@ class CalibrationWork {
   CalibrationTangent tangent_;
   std::vector<bool> held_, determined_;
   std::vector<CalibrationBound> bounds_;
-  std::vector<double> moved_;  // by parameters that leave their bounds, in half-widths of the own interval
+  std::vector<double> moved_;  // by parameters leaving their bounds, in half-widths
   TableColumns covariance_;
-  TableColumns faces_;           // covariance by the scatter of replicates
-  double interval_degrees_ = 0;  // with replicates
+  TableColumns faces_;  // covariance from replicates
+  double interval_degrees_ = 0;
   std::vector<std::pair<std::string, CalibrationGroup>> groups_;
   std::optional<SpecimenScatter> test_;
   std::vector<CalibrationProfile> profiles_;
   std::size_t degrees_ = 0;
-  double scatter_ = 0, variance_ = 0;  // of an observation of weight 1: seen in residuals, of intervals
+  double scatter_ = 0, variance_ = 0;  // of unit weight: from residuals, for intervals
   bool by_specimens_ = false;
   int iterations_ = 0, begun_again_ = 0;
 };

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far differences of a model can be trusted. A model that counts (nodes in contact, say) or has a
-// tolerance of its own has steps: narrow differences of it are 0 or far too large, and columns of a Jacobian
-// that are made of steps look independent where the parameters act as one. Differences of two widths agree as
-// well as both hold: their disagreement bounds what noise and curvature can do to singular values (Weyl), and
-// a direction is seen only above it.
+// Reliability of difference derivatives. Models that count nodes or iterate to a tolerance have steps: narrow
+// differences are 0 or far too large. The disagreement between two widths bounds the effect of noise and
+// curvature on singular values (Weyl). Only directions above this bound are determined.
 #include <algorithm>
 #include <cmath>
 
@@ -16,14 +14,13 @@ namespace asperity {
 
 namespace {
 
-constexpr double wider = 4;                   // than the differences before
+constexpr double wider = 4;                   // than the previous differences
 constexpr double widest_share = 0.25;         // of a parameter
-constexpr double first_sparing_share = 0.02;  // the same, of differences that are dear
-constexpr double beyond_errors = 2;           // what is seen, in disagreements of the columns
-constexpr double beyond_noise = 1.2;          // the same, where the wider hold three times as well
-constexpr double falls_by = 0.5;              // disagreement with width, where noise makes it
+constexpr double first_sparing_share = 0.02;  // the same, for expensive models
+constexpr double beyond_errors = 2;           // bound of singular values, in disagreements
+constexpr double beyond_noise = 1.2;          // the same, if disagreement falls with width
+constexpr double falls_by = 0.5;              // the fall due to noise
 
-// A model that refuses to go as far as a wide difference has been asked enough.
 bool ends_there(const Error& error) {
   return error.code() == ErrorCode::bad_value || error.code() == ErrorCode::infeasible ||
          error.code() == ErrorCode::not_converged;
@@ -62,7 +59,6 @@ std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinim
     for (std::size_t k = 0; k < weighted.size(); ++k) weighted[k] = at.place.roots[k] * of_rows[k];
     return observed(weighted);
   };
-  // Errors relative to the length of each column, together.
   const auto disagreement = [&](const TableColumns& narrow, const TableColumns& wide) {
     double sum = 0;
     for (std::size_t p = 0; p < parameters(); ++p) {
@@ -75,14 +71,14 @@ std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinim
     }
     return std::sqrt(sum);
   };
-  // One share for all: parameters that act as one then have the same columns, steps and curvature and all.
+  // One share for all: equivalent parameters then have identical columns.
   double share = widest_share;
   for (const CalibrationParameter& of : parameters_)
     share = std::min(share, sparing_ ? std::max(of.step, first_sparing_share) : of.step);
   std::optional<FirmSlopes> best;
   std::size_t least_silent = parameters() + 1;
   TableColumns narrow;
-  double before = 0;  // disagreement
+  double before = 0;
   for (;;) {
     TableColumns wide;
     try {

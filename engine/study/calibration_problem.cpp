@@ -18,11 +18,11 @@ namespace {
 
 constexpr int most_calibration_steps = 200;
 constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent plane, relative
-constexpr double near_enough_for_central = 1e-4;  // the same, from which differences are central
-constexpr double noise_of_model = 0.03;           // the same, at which a model that goes no lower has arrived
+constexpr double near_enough_for_central = 1e-4;  // the same, for central differences
+constexpr double noise_of_model = 0.03;           // the same, accepted for noisy models
 constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
-constexpr double unseen = 1e-5;                   // a singular value relative to the largest
-constexpr double smallest_share = 1e-3;           // of the largest fitted value, as relative weights count it
+constexpr double unseen = 1e-5;                   // singular value relative to the largest
+constexpr double smallest_share = 1e-3;           // of the largest fitted value, for relative weights
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -50,8 +50,8 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
   size_ = length_of(weighted);
 }
 
-// What is left is never less than what comes after the present part, so that a part which takes longer than
-// was foreseen slows the progress down and does not stop it.
+// Counts at least the work after the present part, so that an underestimated part slows but does not stop
+// progress.
 void CalibrationProblem::report(std::int64_t calls) {
   const auto now = std::chrono::steady_clock::now();
   if (seconds_between(reported_, now) < 0.1) return;
@@ -64,7 +64,7 @@ void CalibrationProblem::report(std::int64_t calls) {
                              seconds_between(begun_, now));
 }
 
-// Of these sets of parameters, one after the other; fewer where the model has no value in a row.
+// Values in order, up to a row without a value.
 std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<double>>& sets) {
   std::vector<CalibrationQuery> queries;
   for (const std::vector<double>& q : sets)
@@ -217,7 +217,7 @@ double CalibrationProblem::inside(double value, std::size_t p) const {
   return value;
 }
 
-// df/dq_p of the rows; nothing where the model has no value beside.
+// df/dq_p by rows; nothing if the model has no value nearby.
 std::optional<std::vector<double>> CalibrationProblem::slopes(const CalibrationPlace& at, std::size_t p,
                                                               double step, bool central) {
   const double room_above = parameters_[p].upper ? *parameters_[p].upper - at.q[p] : step * 4,
@@ -259,7 +259,7 @@ TableColumns CalibrationProblem::jacobian(const CalibrationPlace& at, const std:
   for (std::size_t p = 0; p < parameters(); ++p) {
     if (held[p]) continue;
     std::optional<std::vector<double>> column;
-    // A smaller step where the model ends nearby.
+    // Smaller steps near the edge of the domain.
     for (double share = parameters_[p].step; !column && share > parameters_[p].step * 1e-4; share /= 30)
       column = slopes(at, p, share * scales[p], central);
     if (!column) refuse_place("where its derivatives are taken");
@@ -291,7 +291,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     double product = 0;
     for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
     found.along.push_back(product);
-    // The largest counts however far the derivatives may be off.
+    // The largest always counts.
     const double least = (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0];
     if (!(found.svd.values[k] > (k == 0 ? least : std::max(hidden, least)))) continue;
     found.rank = k + 1;
@@ -316,7 +316,7 @@ std::vector<bool> CalibrationProblem::pushed(const CalibrationPlace& at, const T
   return all;
 }
 
-// The step of Levenberg and Marquardt from here, within the bounds.
+// Levenberg–Marquardt step within bounds.
 std::vector<double> CalibrationProblem::stepped(const CalibrationPlace& at, const CalibrationTangent& tangent,
                                                 double damping) const {
   std::vector<double> step(tangent.parameters.size());
@@ -332,12 +332,12 @@ std::vector<double> CalibrationProblem::stepped(const CalibrationPlace& at, cons
   return q;
 }
 
-// The first place on the way down that lies lower; nothing where none does.
+// First lower place along rising damping.
 std::optional<CalibrationPlace> CalibrationProblem::better(const CalibrationPlace& at,
                                                            const CalibrationTangent& tangent,
                                                            const std::vector<double>* roots,
                                                            double& damping) {
-  // A sparing fit gives up after five places.
+  // A sparing fit tries five.
   const double most = sparing_ ? 1e4 : 1e16, harder = sparing_ ? 300 : 10;
   if (sparing_) damping = std::min(damping, 1e-4);
   for (; damping < most; damping *= harder) {
@@ -349,8 +349,8 @@ std::optional<CalibrationPlace> CalibrationProblem::better(const CalibrationPlac
   return {};
 }
 
-// What each parameter is measured by: its start; one that begins at 0 by its bounds, or by the largest power
-// of ten that moves the model by no more than the data.
+// Scale of a parameter: its start; for 0 a quarter of its bounds, or the largest power of ten that changes
+// the model by at most the size of the data.
 std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& at) {
   std::vector<double> scales;
   for (std::size_t p = 0; p < parameters(); ++p) {
@@ -376,7 +376,7 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
     constexpr int largest = 6, smallest = -17;
     int power = largest;
     if (sparing_) {
-      // A parameter that is moved further moves the model further: halves instead of one by one.
+      // Larger moves change the model more: bisect.
       int low = smallest - 1, high = largest + 1;
       while (high - low > 1) {
         const int middle = low + (high - low) / 2;
@@ -418,7 +418,7 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
       continue;
     }
     if (central && offset_within(calibration_orthogonal)) {
-      // One more full step: so near the end, sums differ by rounding alone.
+      // One full step more: nearby sums differ by rounding only.
       if (auto last = place(stepped(found.place, at, 0), nullptr)) found.place = *std::move(last);
       return found;
     }
@@ -442,7 +442,6 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
     found.place = *std::move(next);
     weigh(found.place, nullptr);
     damping = std::max(damping * 1e-3, 1e-20);
-    // Steps of differences follow a parameter that leaves 0, or comes near it.
     for (std::size_t i = 0; i < at.parameters.size(); ++i) {
       const std::size_t p = at.parameters[i];
       const double acts = at.lengths[i] > 0 ? 0.01 * size_of(found.place) / at.lengths[i] : natural[p];

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least squares of a calibration: weighted residuals of rows or of means of specimens, their derivatives
-// by differences within bounds, and the least sum by Levenberg and Marquardt's method on the singular values
-// of the Jacobian. Differences go forward on the way and are central at the end; a parameter at a bound that
-// the rows push against is held there. Directions that no observation sees are left as they are. A sparing
-// fit (calibration_sparing.cpp) takes differences at the start and at the end alone. Where a model has steps
-// or noise of its own, differences of several widths say how far they can be trusted
-// (calibration_firmness.cpp).
+// Least-squares problem of a calibration: weighted residuals of rows or specimen means, derivatives by
+// differences, and Levenberg–Marquardt on the singular values of the Jacobian. Final differences are central.
+// Parameters pushed against a bound are fixed; undetermined directions do not move.
 #pragma once
 
 #include <chrono>
@@ -22,48 +18,46 @@
 
 namespace asperity {
 
-// Rows that make an observation, and its weight: the observation is weight × mean of their weighted
-// residuals.
+// An observation: weight × mean weighted residual over its rows.
 struct CalibrationGroup {
   std::vector<std::size_t> rows;
   double weight = 1;
 };
 
-// A place in the parameters with all that is known of the model there.
 struct CalibrationPlace {
   std::vector<double> q;
-  std::vector<double> fitted;    // of rows
-  std::vector<double> roots;     // of the weights of rows
-  std::vector<double> residual;  // of observations
-  double sum = 0;                // of their squares
+  std::vector<double> fitted;    // by row
+  std::vector<double> roots;     // of row weights
+  std::vector<double> residual;  // by observation
+  double sum = 0;                // of squares
 };
 
-// The Jacobian of observations at a place, of some of the parameters, with columns of length 1.
+// Jacobian of observations with unit columns.
 struct CalibrationTangent {
-  std::vector<std::size_t> parameters;  // those of its columns
-  std::vector<double> lengths;          // of the columns
+  std::vector<std::size_t> parameters;
+  std::vector<double> lengths;  // of columns
   SingularValues svd;
-  std::vector<double> along;  // of the residuals along each direction
-  double offset = 0;          // of the residuals along those that are determined
+  std::vector<double> along;  // residuals along each direction
+  double offset = 0;          // residuals along the determined directions
   std::size_t rank = 0;
   bool determined(std::size_t k) const { return k < rank; }
 };
 
 struct CalibrationMinimum {
   CalibrationPlace place;
-  TableColumns rows_jacobian;  // df/dq of rows, central
+  TableColumns rows_jacobian;  // df/dq by row, central
   std::vector<double> scales;
-  std::vector<double> differenced_at;  // of a sparing fit: where the differences of rows_jacobian were taken
+  std::vector<double> differenced_at;  // sparing: place of the differences
   int iterations = 0;
-  bool noisy = false;  // the model's own noise ended it
-  // A singular value of the tangent, beside the largest, that errors of rows_jacobian alone may make.
+  bool noisy = false;  // ended by model noise
+  // Other singular values up to this may stem from errors of rows_jacobian.
   double hidden = 0;
 };
 
-// df/dq of rows from differences so wide that those of another width agree, as well as they do.
+// df/dq by row from differences wide enough to agree with another width.
 struct FirmSlopes {
   TableColumns rows_jacobian;
-  double hidden = 0;  // as in CalibrationMinimum
+  double hidden = 0;
 };
 
 class CalibrationProblem {
@@ -79,52 +73,47 @@ class CalibrationProblem {
   const CalibrationRows& rows() const { return rows_; }
   std::int64_t calls() const { return calls_; }
   bool sparing() const { return sparing_; }
-  // Sets of parameters that are still to be expected, for the progress, and how many of them come after the
-  // part of the work that begins here.
+  // Expected parameter sets: in all, and after the present part.
   void expect(std::int64_t sets, std::int64_t afterwards) {
     expected_ = calls_ + sets * static_cast<std::int64_t>(rows_.y.size());
     afterwards_ = afterwards * static_cast<std::int64_t>(rows_.y.size());
   }
   void say(std::string part) { part_ = std::move(part); }
 
-  // Nothing where the model has no value in a row; `roots`: none for those of the model there.
+  // Nothing without a value in a row; null `roots`: from the weights there.
   std::optional<CalibrationPlace> place(const std::vector<double>& q, const std::vector<double>* roots);
-  // Refuses, naming the row in which the model had no value when place() was last called.
   [[noreturn]] void refuse_place(const std::string& where) const;
   void weigh(CalibrationPlace& place, const std::vector<double>* roots) const;
   TableColumns jacobian(const CalibrationPlace& at, const std::vector<double>& scales,
                         const std::vector<bool>& held, bool central);
-  // `hidden`: as in CalibrationMinimum.
   CalibrationTangent tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                              const std::vector<bool>& held, double hidden = 0) const;
-  // The model of rows less its mean over the replicates, of each replicate.
+  // By replicate: the model minus its mean over replicates.
   std::vector<std::vector<double>> replicate_deviations(const CalibrationPlace& at);
-  // Throws Error{not_converged} where no row changes with a parameter by its difference, but some by a wider
-  // one, or where no parameter changes any row.
+  // Throws Error{not_converged} if a parameter changes rows only by wide differences, or no parameter changes
+  // any row.
   void refuse_still(const CalibrationMinimum& at);
   std::vector<double> observed(const std::vector<double>& of_rows) const;
   double observed_mean(const std::vector<double>& of_rows, std::size_t observation) const;
-  // Of differences of rising width, the first that tell every parameter, or else those that agree best;
-  // nothing where the model has no value beside.
+  // Widens differences until all parameters are determined; otherwise returns the best agreement, if any.
   std::optional<FirmSlopes> firm_slopes(const CalibrationMinimum& at);
-  // Parameters that stand at a bound which the residuals push against, and those held before.
+  // Fixed parameters, and those pushed against a bound.
   std::vector<bool> pushed(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                            const std::vector<bool>& held) const;
   bool at_lower(double value, std::size_t p) const;
   bool at_upper(double value, std::size_t p) const;
   double inside(double value, std::size_t p) const;
 
-  // `before`: an earlier minimum of the same rows, of which scales and derivatives are taken up; empty where
-  // there was none.
+  // `before`: an earlier minimum, for its scales and derivatives; may be empty.
   CalibrationMinimum minimum(const std::vector<double>& start, const CalibrationMinimum& before);
-  // With parameter p held at its value in `start`, weights as they are and scales known, until what is left
-  // to gain of the sum is below `gain`. `beside`: the least sum of all. Nothing where it does not get there.
+  // Minimum with p fixed as in `start`, and weights and scales of `beside`, to within `gain`; nothing if not
+  // reached.
   std::optional<CalibrationPlace> minimum_beside(const CalibrationPlace& start, std::size_t p,
                                                  const CalibrationMinimum& beside, double gain);
   std::string parameters_text(const std::vector<double>& q) const;
-  // Throws Error{not_converged}: no step from here makes the sum less, and the derivatives say one should.
+  // Throws Error{not_converged}: no step lowers the sum.
   [[noreturn]] void throw_no_lower(const std::vector<double>& q) const;
-  // Of the data as the weights there count them.
+  // Weighted norm of the data.
   double size_of(const CalibrationPlace& at) const;
 
  private:
@@ -139,7 +128,7 @@ class CalibrationProblem {
   std::optional<CalibrationPlace> better(const CalibrationPlace& at, const CalibrationTangent& tangent,
                                          const std::vector<double>* roots, double& damping);
 
-  // --- of a sparing fit
+  // --- sparing fits
   CalibrationMinimum sparing_minimum(const std::vector<double>& start, const CalibrationMinimum& before);
   std::optional<CalibrationPlace> sparing_beside(const CalibrationPlace& start, std::size_t p,
                                                  const CalibrationMinimum& beside, double gain);
@@ -148,14 +137,14 @@ class CalibrationProblem {
                                     const std::vector<double>& scales, double scatter) const;
   TableColumns sparing_jacobian(const CalibrationPlace& at, const std::vector<double>& steps,
                                 const std::vector<bool>& held);
-  // Of the observations, as the derivatives foretell it between two places.
+  // Predicted residuals.
   std::vector<double> foretold(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                                const std::vector<double>& from, const std::vector<double>& to) const;
   CalibrationPlace foretold_place(const CalibrationMinimum& from, const std::vector<double>& q) const;
   std::optional<CalibrationPlace> lower(CalibrationMinimum& from, double& damping, int& tries);
   void see_noise(const CalibrationMinimum& from, const CalibrationTangent& tangent,
                  const CalibrationPlace& to, double scatter);
-  // A singular value, relative to the largest, that errors of differences alone may make.
+  // Singular values up to this, relative to the largest, may stem from differences.
   double sparing_unseen() const;
   void correct(TableColumns& rows_jacobian, const CalibrationPlace& from, const CalibrationPlace& to,
                const std::vector<double>& scales) const;
@@ -170,15 +159,15 @@ class CalibrationProblem {
   Monitor& monitor_;
   std::vector<CalibrationGroup> groups_;
   std::vector<double> own_;  // 1/u
-  double size_ = 0;          // of the weighted y
+  double size_ = 0;          // weighted norm of y
   std::int64_t calls_ = 0, expected_ = 1, afterwards_ = 0;
-  // Of a sparing fit, so that no set of parameters is asked for twice.
+  // Model values of sparing fits, never recomputed.
   std::vector<std::pair<std::vector<double>, std::vector<double>>> known_;
-  double noise_ = 0;        // of an observation of the model, as far as a sparing fit has seen
-  double differences_ = 0;  // by how much those of a sparing fit move the observations at least
+  double noise_ = 0;        // of an observation, as a sparing fit found it
+  double differences_ = 0;  // smallest move of observations by differences
   double share_ = 0;
   std::string part_ = "fit";
-  std::size_t without_value_ = 0;  // row
+  std::size_t without_value_ = 0;
   std::vector<double> without_value_at_;
   std::chrono::steady_clock::time_point begun_, reported_;
 };

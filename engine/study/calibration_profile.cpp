@@ -9,25 +9,25 @@ namespace asperity {
 
 namespace {
 
-constexpr double straight_enough = 0.01;  // of the root of the cut
-constexpr double foretold_enough = 0.3;   // of the change that derivatives foretell
+constexpr double straight_enough = 0.01;  // relative to the root of the cut
+constexpr double foretold_enough = 0.3;   // relative to the predicted change
 constexpr double end_within = 0.003;      // of the root of the cut
-constexpr double sparing_within = 0.1;    // the same, of a fit to which each place is dear
-constexpr int most_places = 24;           // of an end
+constexpr double sparing_within = 0.1;    // the same, for sparing fits
+constexpr int most_places = 24;           // per end
 
-// A place of the profile: distance from the estimate (not negative), root of S - S_min, the parameters.
+// Distance from the estimate (≥ 0), root of S - S_min, parameters.
 struct ProfilePlace {
   double distance = 0, root = 0;
   std::vector<double> q;
 };
 
-// What the observations do at the first place of a side, and what the derivatives at the estimate foretell.
+// First place of a side: actual and predicted changes of the observations.
 struct FirstPlace {
   double distance = 0;
-  std::vector<double> foretold, lack;  // of each observation; lack: foretold less found
+  std::vector<double> foretold, lack;  // `lack`: predicted minus actual
 };
 
-// Curvature is the same on both sides and cancels in their difference; steps and noise of the model do not.
+// Curvature cancels between both sides; steps and noise of the model do not.
 bool derivatives_hold(const FirstPlace& below, const FirstPlace& above) {
   const auto within = [](const std::vector<double>& lack, const std::vector<double>& foretold) {
     double apart = 0, change = 0;
@@ -57,7 +57,7 @@ class ProfileSide {
     places_.push_back({0, 0, at.place.q});
   }
 
-  // Nothing where S does not reach the cut.
+  // Nothing if S stays below the cut.
   std::optional<double> follow(double reach) {
     double next = reach;
     std::optional<ProfilePlace> inner, outer;
@@ -67,7 +67,7 @@ class ProfileSide {
       if (!(next > inner->distance)) return {};
       auto found = place_at(next, *inner);
       if (!found) {
-        // No value there, or no least sum: half as far, a few times.
+        // No value or no minimum: halve the step.
         next = inner->distance + (next - inner->distance) / 2;
         if (++failures_ > 6) return {};
         continue;
@@ -106,7 +106,7 @@ class ProfileSide {
     if (outer) {
       const double width = outer->distance - inner.distance;
       const double share = (root_ - inner.root) / (outer->root - inner.root);
-      // Where one end stays, the middle is taken now and then.
+      // Every fourth step bisects.
       turns_between_ += 1;
       return inner.distance + width * (turns_between_ % 4 == 0 ? 0.5 : std::clamp(share, 0.02, 0.98));
     }
@@ -118,7 +118,7 @@ class ProfileSide {
   }
 
   std::optional<ProfilePlace> place_at(double distance, const ProfilePlace& from) {
-    // Along the valley as the derivatives at the estimate foretell it, or as it went so far.
+    // Along the predicted valley, or as before.
     std::vector<double> q = at_.place.q;
     const double further = side_ * (distance - from.distance);
     for (std::size_t i = 0; i < q.size(); ++i) {
@@ -139,7 +139,6 @@ class ProfileSide {
     return ProfilePlace{distance, std::sqrt(std::max(above, 0.0)), std::move(there->q)};
   }
 
-  // Whether the rows still push every other parameter at a bound against the bound.
   bool bounds_hold(const CalibrationPlace& there) const {
     std::vector<bool> held(there.q.size());
     held[p_] = true;
@@ -149,7 +148,7 @@ class ProfileSide {
     return true;
   }
 
-  // Whether the model there is what its derivatives at the estimate say.
+  // Whether the model is linear so far.
   bool straight(const CalibrationPlace& there, double distance) {
     CalibrationPlace foretold = there;
     foretold.fitted = at_.place.fitted;

@@ -47,8 +47,7 @@ struct Sampled {
   std::vector<double> x, y;
 };
 
-// sqrt of the excess goes nearly straight between the places that were visited, and changes its sign at the
-// estimate.
+// The root of the excess is nearly linear between places and changes sign at the estimate.
 Sampled sampled_profile(const std::vector<ProfilePoint>& points) {
   Sampled found;
   const auto least = std::ranges::min_element(points, {}, &ProfilePoint::excess);
@@ -91,7 +90,6 @@ std::vector<std::size_t> in_order_of(const std::vector<double>& x) {
   return order;
 }
 
-// Whether rows of the same x have the same fit, so that it is a curve over x.
 bool is_curve(const std::vector<double>& x, const std::vector<double>& fitted,
               const std::vector<std::size_t>& order) {
   for (std::size_t k = 0; k + 1 < order.size(); ++k) {

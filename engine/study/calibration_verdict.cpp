@@ -17,10 +17,10 @@ namespace asperity {
 
 namespace {
 
-constexpr double main_part = 0.01;     // of a direction that no row sees
-constexpr double seen_by_law = 1e-5;   // a singular value relative to the largest, where there is no noise
-constexpr double weak_part = 0.3;      // of the direction that the rows see least
-constexpr double weak_condition = 10;  // from which parameters may be hardly apart
+constexpr double main_part = 0.01;     // component of an undetermined direction
+constexpr double seen_by_law = 1e-5;   // singular value relative to the largest, without noise
+constexpr double weak_part = 0.3;      // component of the weakest direction
+constexpr double weak_condition = 10;  // above, parameters may be hardly separable
 constexpr double level_of_residuals = 0.05;
 constexpr int digits = 4;
 
@@ -39,12 +39,12 @@ double choose(int n, int k) {
 }
 
 struct RunsTest {
-  double p_value = 1;  // how often independent residuals have as few runs of one sign
+  double p_value = 1;  // of so few runs of one sign
   int runs = 0;
   double expected = 0;
 };
 
-// Residuals in the order of x; those at one x count by their mean (Wald & Wolfowitz 1940).
+// By order of x; equal x count by their mean (Wald & Wolfowitz 1940).
 RunsTest runs_test(std::vector<std::array<double, 2>> along) {
   std::ranges::sort(along);
   int count[2] = {0, 0}, last = -1;
@@ -60,7 +60,7 @@ RunsTest runs_test(std::vector<std::array<double, 2>> along) {
     last = sign;
   }
   const int a = count[0], b = count[1];
-  constexpr int most = 400;  // beyond, products of binomials overflow
+  constexpr int most = 400;  // beyond, binomials overflow
   if (a == 0 || b == 0 || a + b > 2 * most) return found;
   found.expected = 1 + 2.0 * a * b / (a + b);
   found.p_value = 0;
@@ -78,21 +78,20 @@ struct NeighbourTest {
   double p_value = 1, correlation = 0;
 };
 
-// The sum of products of neighbours over that of squares, with its mean and variance for independent errors
-// under this Jacobian (Durbin & Watson 1950), taken as normal.
+// Lag-one correlation; mean and variance under this Jacobian (Durbin & Watson 1950), assumed normal.
 NeighbourTest neighbour_test(const std::vector<double>& residual, const CalibrationTangent& tangent) {
   const std::size_t n = residual.size(), p = tangent.rank;
   if (n < p + 6) return {};
   const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
   };
-  const auto neighbours = [](const std::vector<double>& a) {  // half the sum of both neighbours
+  const auto neighbours = [](const std::vector<double>& a) {
     std::vector<double> sum(a.size());
     for (std::size_t k = 0; k + 1 < a.size(); ++k) sum[k] += a[k + 1] / 2, sum[k + 1] += a[k] / 2;
     return sum;
   };
   const auto degrees = static_cast<double>(n - p);
-  double trace = 0, square = static_cast<double>(n - 1) / 2;  // of M A and of its square
+  double trace = 0, square = static_cast<double>(n - 1) / 2;  // of M A and its square
   for (std::size_t i = 0; i < p; ++i) {
     const std::vector<double> near = neighbours(tangent.svd.u[i]);
     trace -= product(tangent.svd.u[i], near);
@@ -136,7 +135,6 @@ class VerdictWords {
     return number(value) + (unit.empty() ? "" : " " + unit);
   }
 
-  // " (tau0 in Pa)": of what a combination is made of.
   std::string units_of(const std::vector<std::size_t>& parts) const {
     std::vector<std::string> list;
     for (const std::size_t p : parts)
@@ -159,7 +157,7 @@ class VerdictWords {
     return text;
   }
 
-  // "0.52 (0.49 to 0.55)" with the gradient of what has this value.
+  // "0.52 (0.49 to 0.55)"; `gradient` of `value`.
   std::string with_interval(double value, const std::vector<std::pair<std::size_t, double>>& gradient) const {
     double sum = 0;
     for (const auto& [i, a] : gradient)
@@ -169,14 +167,13 @@ class VerdictWords {
     return number(value) + " (" + number(value - reach) + " to " + number(value + reach) + ")";
   }
 
-  // Whether no observation changes with these parameters instead of the estimates, beside what each change
-  // alone would do.
+  // Whether `q` leaves all observations unchanged, relative to each change alone.
   bool unchanged(const std::vector<double>& q) {
     for (std::size_t p = 0; p < q.size(); ++p)
       if (f_.problem.inside(q[p], p) != q[p]) return false;
     const auto there = f_.problem.place(q, &f_.at.place.roots);
     if (!there) return false;
-    // The end of a sparing fit may be foretold and never computed.
+    // The end of a sparing fit may be predicted only.
     if (!computed_ && f_.problem.sparing()) computed_ = f_.problem.place(f_.at.place.q, &f_.at.place.roots);
     const CalibrationPlace& here = computed_ ? *computed_ : f_.at.place;
     double change = 0, alone = 0;
@@ -191,16 +188,16 @@ class VerdictWords {
     return std::sqrt(change) <= (f_.problem.sparing() ? 1e-2 : 1e-3) * alone;
   }
 
-  // The combination of two parameters that is the same along a direction in which they change by `da`, `db`.
+  // The combination that stays constant along (`da`, `db`).
   std::string combination(std::size_t a, std::size_t b, double da, double db) {
     const std::vector<double>& q = f_.at.place.q;
     const auto scale = [&](std::size_t p) { return f_.at.scales[p]; };
-    const double factor = -da / db;  // of b beside 1 of a
+    const double factor = -da / db;  // of b relative to a
     std::string text = name(a) + signed_term(factor, name(b));
     text += " = " + with_interval(q[a] + factor * q[b], {{a, 1.0}, {b, factor}});
     const double together =
-        q[a] != 0 && q[b] != 0 ? da / q[a] * q[b] / db : 0;  // -1 along a product, 1 a ratio
-    // Derivatives that are rough tell the sense alone; what is said is proven by the model itself.
+        q[a] != 0 && q[b] != 0 ? da / q[a] * q[b] / db : 0;  // -1 for a product, 1 for a ratio
+    // Rough derivatives give the sign only; the model itself proves the statement.
     const bool rough = f_.at.hidden > 1e-2;
     const bool like_ratio = rough ? together > 0 : std::abs(together - 1) < 1e-2,
                like_product = rough ? together < 0 : std::abs(together + 1) < 1e-2;
@@ -211,7 +208,7 @@ class VerdictWords {
       there[b] *= by_b;
       return there;
     };
-    // Along a ratio the parameters go straight to 0, and their sum says nothing of it.
+    // Along a ratio, parameters fall to 0 on a straight line, which a sum cannot distinguish.
     if (like_ratio && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
       return "the ratio " + name(a) + "/" + name(b) + " = " +
              with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of({a, b});
@@ -316,7 +313,6 @@ class VerdictWords {
     for (std::size_t p = 0; p < of_.parameters.size(); ++p) tell_moved(p);
   }
 
-  // A parameter that has no number because another one may leave its bound: what the rows do determine.
   void tell_moved(std::size_t p) {
     if (of_.parameters[p].determined || !(f_.moved[p] > 0)) return;
     std::string text = name(p);
@@ -432,14 +428,14 @@ class VerdictWords {
     tell_residuals();
     const bool known = !f_.problem.rows().u.empty() && !f_.options.relative_u && !of_.by_specimens;
     if (!known || of_.degrees == 0) return;
-    // The sum of squares over its degrees is 1 where `u` is right.
+    // S over its degrees is 1 if `u` is right.
     const double share = f_cdf(f_.scatter, static_cast<double>(of_.degrees), 1e9);
     if (share > 0.99 || share < 0.01)
       of_.warnings.push_back("the rows scatter " + format_short(std::sqrt(f_.scatter), 3) +
                              " times as far as `u` says; intervals rest on `u`");
   }
 
-  // Weighted residuals of observations ought to be independent: of x, of their neighbours, of copies.
+  // Residuals should be independent of x, of neighbours and of copies.
   void tell_residuals() {
     const std::vector<double>& r = f_.at.place.residual;
     const CalibrationRows& rows = f_.problem.rows();

@@ -20,7 +20,7 @@ double model(std::string_view name, double value) {
     return n * n * elementary::log(n);
   }
   if (name == "cells_factor") return value * value;
-  // One more, for what a solve does before its first iteration.
+  // Plus one for set-up.
   return 1 + std::max(0.0, -elementary::log10(std::max(value, 1e-300)));
 }
 
@@ -59,7 +59,6 @@ double CostForecast::ratio(const Knobs& knobs, const Measured& reference) const 
       const double power =
           std::clamp(elementary::log(reference.seconds / other.seconds) / elementary::log(*had / *before),
                      0.0, steepest);
-      // Lists that go along together grow as one.
       return factor * elementary::pow(*wanted / *had, power);
     }
   }
@@ -74,7 +73,7 @@ std::optional<double> CostForecast::seconds(std::optional<std::size_t> way, cons
     for (const Knob& knob : knobs)
       shared += std::any_of(one.knobs.begin(), one.knobs.end(),
                             [&](const Knob& own) { return own.name == knob.name; });
-    // Of several the dearest: least of it is the cost of beginning.
+    // The most expensive: fixed costs matter least.
     const std::pair<int, double> rank{shared, one.seconds};
     if (rank > best_rank) {
       best = &one;

@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double difference_step = 1e-5;  // of a formula, relative to each parameter
+constexpr double difference_step = 1e-5;  // relative to each parameter
 constexpr int curve_steps = 100;
 
 void check_points(const CalibrationRows& rows, std::size_t parameters, const CalibrationOptions& options) {
@@ -41,7 +41,7 @@ double weight_of(const CalibrationRows& rows, std::size_t k) {
   return rows.u.empty() ? 1 : 1 / (rows.u[k] * rows.u[k]);
 }
 
-// The weighted least squares of y on a straight line in x: its value at the mean of x, its slope, that mean.
+// Weighted least squares: y at the mean of x, slope, mean of x.
 std::array<double, 3> straight_line(const CalibrationRows& rows) {
   double weight = 0, x0 = 0, y0 = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < rows.x.size(); ++k) {
@@ -58,7 +58,7 @@ std::array<double, 3> straight_line(const CalibrationRows& rows) {
   return {y0, xx > 0 ? xy / xx : 0, x0};
 }
 
-// 200 places from `low` to `high`: equal steps, and as many equal ratios between where both ends are above 0.
+// Equal steps; for `low` above 0 also equal ratios.
 std::vector<double> places_of_curve(double low, double high) {
   std::vector<double> places;
   for (int k = 0; k <= curve_steps; ++k) {
@@ -71,13 +71,13 @@ std::vector<double> places_of_curve(double low, double high) {
   return places;
 }
 
-// The curve with its interval, from differences of a hundredth of the standard errors.
+// Interval by differences of 0.01 standard errors.
 std::vector<CurvePoint> curve_of(const Calibration& found, const CurveModel& model, double low, double high) {
   std::vector<double> q;
   for (const CalibratedParameter& of : found.parameters) q.push_back(*of.value);
   std::vector<CurvePoint> curve;
   for (const double x : places_of_curve(low, high)) {
-    std::vector<double> effect;  // of a standard error of each parameter
+    std::vector<double> effect;  // per standard error of a parameter
     for (std::size_t p = 0; p < q.size(); ++p) {
       const double u = found.parameters[p].standard_error.value_or(0);
       std::vector<double> above = q, below = q;
@@ -95,7 +95,7 @@ std::vector<CurvePoint> curve_of(const Calibration& found, const CurveModel& mod
   return curve;
 }
 
-// Two parameters q' = T q in the place of those that were fitted.
+// Replaces the fitted parameters by T q.
 void express(Calibration& found, const std::array<std::array<double, 2>, 2>& t,
              const std::array<double, 2>& values) {
   double covariance[2][2] = {};
@@ -161,7 +161,7 @@ CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options
         "the points do not tell `intercept` and `slope` apart: x is " + format_short(x0) + " in all of them",
         "measure at two or more values of x");
   CalibrationOptions straight = options;
-  straight.profile = false;  // it is the linearised interval
+  straight.profile = false;  // linearised is exact here
   CurveFit fit = fit_model(
       rows, [x0 = x0](double x, std::span<const double> q) { return q[0] + q[1] * (x - x0); },
       {{"intercept", middle, {}, {}}, {"slope", slope, {}, {}}}, straight);
@@ -172,7 +172,6 @@ CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options
 
 CurveFit fit_power(const CalibrationRows& rows, const CalibrationOptions& options) {
   check_points(rows, 2, options);
-  // A straight line through the logarithms of the points of the more frequent sign of y.
   CalibrationRows logs[2];
   for (std::size_t k = 0; k < rows.x.size(); ++k) {
     if (rows.x[k] < 0)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A curve y = f(x, q) through measured points: a calibration (calibration.hpp) of a straight line, a power
-// law or any function of x, and the curve with its pointwise interval for drawing. Line and power law are
-// fitted about the middle of the points, where their parameters are nearly independent, and then expressed at
-// x = 0 and x = 1. Here parameters that the points do not determine are an error. x is taken as exact.
+// Fit of y = f(x, q) to measured points (calibration.hpp), for a line, a power law or any function, with a
+// pointwise interval. Lines and power laws are fitted about the middle of the points, where their parameters
+// are nearly independent. Undetermined parameters are an error. x is exact.
 #pragma once
 
 #include <functional>
@@ -15,23 +14,22 @@
 
 namespace asperity {
 
-// The value at x with these parameters; not a number where there is none.
+// NaN outside its domain.
 using CurveModel = std::function<double(double x, std::span<const double> parameters)>;
 
 struct CurveFit {
   Calibration found;
-  std::optional<double> r_squared;  // 1 - S/Σ w (y - mean)²; none where every y is the same
-  std::vector<CurvePoint> curve;    // over the range of x, ascending, without points that have no value
+  std::optional<double> r_squared;  // 1 - S/Σ w (y - mean)²; none for equal y
+  std::vector<CurvePoint> curve;    // over the range of x, ascending
 };
 
-// The points are rows.x and rows.y. All throw as calibrate() does, besides Error{bad_value} for an x that is
-// not finite and for fewer points than parameters + 1 without a known `u`, and Error{infeasible} naming the
-// parameters that the points do not determine.
+// Points are rows.x and rows.y. All throw errors of calibrate(), Error{bad_value} for an x that is not finite
+// or fewer points than parameters + 1 (parameters, with known `u`), Error{infeasible} for undetermined
+// parameters.
 CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options = {});
-// y = a x^b by least squares of y itself, begun from the straight line through the logarithms. Throws besides
-// Error{bad_value} for x below 0, and where fewer than two points of different x have x and y that begin it.
+// y = a x^b by least squares of y, started from logarithms. Also throws Error{bad_value} for x below 0 and
+// Error{infeasible} for fewer than two usable x.
 CurveFit fit_power(const CalibrationRows& rows, const CalibrationOptions& options = {});
-// Any function, begun from the starts of the parameters.
 CurveFit fit_model(const CalibrationRows& rows, const CurveModel& model,
                    std::vector<CalibrationParameter> parameters, const CalibrationOptions& options = {});
 

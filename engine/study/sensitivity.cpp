@@ -16,9 +16,9 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t most_doublings = 3;
-constexpr std::size_t few_inputs = 5;                       // more begin with runs for degree 1
-constexpr double exact_below = 1e-3, hopeless_above = 0.9;  // of leave-one-out errors
-constexpr double tie_within = 0.01;                         // of the deviation
+constexpr std::size_t few_inputs = 5;
+constexpr double exact_below = 1e-3, hopeless_above = 0.9;
+constexpr double tie_within = 0.01;  // of the deviation
 
 std::string with_error(double share, double error) {
   return format_short(std::round(1000 * share) / 10, 4) + " ± " +

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which uncertain input the answer of a model hangs on: shares of the variance by polynomial chaos, of runs
-// that are doubled until the leave-one-out error is below 5 %, and which input to measure better next: the
-// one with the greatest total share: halved, it narrows also what it does together with others. Inputs are
-// taken for independent.
+// Sensitivity of a model answer to independent uncertain inputs: variance shares by polynomial chaos, with
+// runs doubled until the leave-one-out error is below 5 %. The input with the largest total share deserves
+// the next measurement.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +17,8 @@ namespace asperity {
 
 struct ChaosRequest {
   std::vector<UncertainInput> inputs;
-  // Fixed; 0: chaos_runs, doubled up to three times while the fit is not good and twice where it is hopeless;
-  // of more than five inputs two for each term of degree 1 at first, where degree 1 is all but exact.
+  // 0: chaos_runs, doubled up to three times for a poor fit, twice for a hopeless fit. More than five inputs
+  // start with two runs per term of degree 1.
   std::size_t runs = 0;
   std::uint64_t seed = 1;
   int highest = 12;  // degree
@@ -30,27 +29,26 @@ struct ChaosOfRuns {
   std::vector<double> answers;
 };
 
-// The answers at many values of the inputs, in their order, which may be computed side by side.
+// Answers in order; may run in parallel.
 using InputBatch = std::function<std::vector<double>(std::span<const std::vector<double>>)>;
-// Told how many runs will follow, before the first and at each doubling.
+// Number of new runs, before the first and at each doubling.
 using RunsToCome = std::function<void(std::size_t)>;
 
-// Throws as polynomial_chaos does, and whatever `ask` throws. No run is made twice.
+// Throws errors of polynomial_chaos and of `ask`. Never repeats a run.
 ChaosOfRuns chaos_of_batches(const ChaosRequest& request, const InputBatch& ask,
                              const RunsToCome& to_come = {});
 
 struct Sensitivity {
   PolynomialChaos chaos;
-  double deviation = 0;            // standard, of the answer over the inputs
-  std::vector<std::size_t> order;  // of the inputs: those first that narrow the answer most
-  std::size_t tied = 0;            // the first of these, in the order of the inputs, narrow it alike
-  std::vector<double>
-      deviation_when;  // of each input: that of the answer with its uncertainty halved, nearly
+  double deviation = 0;                // standard deviation of the answer
+  std::vector<std::size_t> order;      // inputs by reduction of the deviation
+  std::size_t tied = 0;                // leading inputs of equal reduction
+  std::vector<double> deviation_when;  // about, with one uncertainty halved
 
   std::string text() const;
 };
 
-// Throws as chaos_of_batches does, and Error{not_converged} where no shares can be had.
+// Throws errors of chaos_of_batches, and Error{not_converged} without shares.
 Sensitivity sensitivity_of_batches(const ChaosRequest& request, const InputBatch& ask,
                                    const RunsToCome& to_come = {});
 

@@ -21,7 +21,6 @@ struct Extent {
   Range range(double below, double above) const { return {low / below, high * above}; }
 };
 
-// Of a setting without an error: after which it failed, or what it was expected to take.
 double time_of(const StudyRow& row) {
   return row.end == StudyRow::End::failed ? row.first_seconds : row.expected_seconds.value_or(0);
 }
@@ -50,7 +49,7 @@ LineChart study_chart(const StudyResult& result, const std::string& title) {
                 "no setting was measured against the truth");
   if (error.high == 0) error.take(std::numeric_limits<double>::epsilon());  // every answer is the truth
   if (seconds.high == 0) seconds.take(1e-9);                                // a clock that did not move
-  // A mark far off would leave the lines little room.
+  // A distant mark would squeeze the lines.
   constexpr double room = 4;
   const Extent measured = seconds;
   const auto at_rim = [&measured](const StudyRow& row) {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chart of a study: error against the time of one run on logarithmic axes, one line a way with bars
-// from the fastest to the slowest run, and rings about the settings that nothing beats. What has no
-// error to draw stands at the rim: a failed setting as a cross at the top, at the time after which it
-// failed; one that the budget left out as a triangle there, at the time it was expected to take; both
-// no further than a small factor from the times measured. One whose answer is the truth to the last
-// bit stands as a diamond at the bottom.
+// Chart of a study: error against run time, logarithmic, one line per way. Bars span fastest and slowest run;
+// rings mark the Pareto front, crosses failed settings, triangles omitted settings at their expected time. A
+// diamond marks an answer identical to the truth.
 #pragma once
 
 #include "engine/plot/chart.hpp"

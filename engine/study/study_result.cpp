@@ -21,7 +21,6 @@ double median(std::vector<double> values) {
 
 bool has_error(const StudyRow& row) { return row.end == StudyRow::End::measured && std::isfinite(row.error); }
 
-// Rows of one way by the place of their setting.
 std::vector<StudyRow*> rows_of_way(StudyResult& result, std::size_t way) {
   std::vector<StudyRow*> rows(result.request.ways[way].settings.size(), nullptr);
   for (StudyRow& row : result.rows)
@@ -56,7 +55,6 @@ void conclude(StudyResult& result) {
       row.seconds_low = *std::min_element(row.runs.begin(), row.runs.end());
       row.seconds_high = *std::max_element(row.runs.begin(), row.runs.end());
     }
-    // Against itself a setting has no error that says anything.
     if (!result.truth || result.is_truth(row)) continue;
     row.absolute_error = std::abs(row.value - *result.truth);
     row.error = result.relative() ? row.absolute_error / std::abs(*result.truth) : row.absolute_error;
@@ -87,7 +85,7 @@ const StudyRow* best_held(const StudyResult& result) {
   const StudyRow* best = nullptr;
   for (const StudyRow& row : result.rows) {
     if (!has_error(row)) continue;
-    // Of several held to the same error, the one that has it.
+    // Among equal held errors, the row with this error itself.
     if (best == nullptr || row.held_error < best->held_error ||
         (row.held_error == best->held_error && row.error > best->error))
       best = &row;
@@ -99,7 +97,7 @@ namespace {
 
 constexpr double much_faster = 0.5;
 
-// Whether a row that is listed before has the same answer, in not much more time.
+// Whether an earlier row has the same answer at a similar time.
 bool stood_for(const StudyResult& result, const StudyRow& row, double error) {
   for (const StudyRow& other : result.rows) {
     if (&other == &row) return false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a study of work and precision varies: knobs, which are named numbers, texts and booleans that the
-// studied function understands, and ways, which are named rows of settings from coarse to fine. Also
-// the knobs as Lua source, to be pasted into a script.
+// Variables of a work-precision study. A knob is a named number, text or boolean; a way is a named list of
+// settings from coarse to fine.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +19,16 @@ struct Knob {
   KnobValue value;
   bool operator==(const Knob&) const = default;
 };
-using Knobs = std::vector<Knob>;  // each name once, in ascending order
+using Knobs = std::vector<Knob>;  // unique names, ascending
 
-// The number under that name; nothing if there is none or it is no number.
+// Nothing for a missing name or another type.
 std::optional<double> number_of(const Knobs& knobs, std::string_view name);
 
-// "256", "1e-06", "math.huge", "true", "\"box\"": reads back as the same value.
+// Lua literals of the same value: "256", "1e-06", "math.huge", "\"box\"".
 std::string lua_source(const KnobValue& value);
-// "{ cells=256, tolerance=1e-06 }".
 std::string lua_source(const Knobs& knobs);
 
-// A knob of a way as a script gives it: one value for all settings, or a list of one for each.
+// One value for all settings of a way, or one per setting.
 struct KnobSweep {
   std::string name;
   std::vector<KnobValue> values;
@@ -42,16 +40,13 @@ struct StudyWay {
   std::vector<Knobs> settings;
 };
 
-// The settings of a way; lists go along together. Without a list there is one setting. Throws
-// Error{bad_value} for lists of unequal length, an empty list, a knob given twice, and one named like a
-// column of the rows that come out (row_fields).
+// Lists advance together; without a list there is one setting. Throws Error{bad_value} for unequal or empty
+// lists, repeated knobs and names in row_fields().
 StudyWay make_way(std::string name, std::vector<KnobSweep> knobs);
 
-// What a row has besides its knobs.
 const std::vector<std::string>& row_fields();
 
-// Places of the settings from coarse to fine: the order given, turned round where `cells` falls or
-// `tolerance` rises along it.
+// Indices from coarse to fine: the given order, reversed if `cells` falls or `tolerance` rises.
 std::vector<std::size_t> coarse_to_fine(const StudyWay& way);
 
 }  // namespace asperity

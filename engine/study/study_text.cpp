@@ -20,7 +20,7 @@ Cell cell_of(const KnobValue& value) {
   return std::get<std::string>(value);
 }
 
-// Width on a terminal of UTF-8 text: its characters.
+// Number of UTF-8 characters.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -32,7 +32,6 @@ std::string time_with_spread(const StudyRow& row) {
          seconds_text(row.seconds_high) + ")";
 }
 
-// The first line of a message, cut where it grows long.
 std::string short_reason(const std::string& reason, std::size_t most = 72) {
   std::string text = reason.substr(0, reason.find('\n'));
   if (width_of(text) <= most) return text;
@@ -41,7 +40,7 @@ std::string short_reason(const std::string& reason, std::size_t most = 72) {
   return text + "…";
 }
 
-// The settings that may be as fast, those that hold the least error first.
+// Settings of similar speed, smallest held error first.
 std::string ties_text(const StudyResult& result, const StudyRow& row, double error) {
   constexpr std::size_t most_named = 3;
   std::vector<const StudyRow*> tied = tied_with(result, row, error);
@@ -107,7 +106,7 @@ std::string aligned(const std::vector<TextLine>& lines) {
 
 std::string share_text(double share) {
   const double percent = 100 * share;
-  // Three digits, and no power of ten for a percentage that people still read.
+  // No power of ten for readable percentages.
   return format_short(percent >= 100 && percent < 1e6 ? std::round(percent) : percent,
                       percent >= 100 ? 6 : 3) +
          " %";

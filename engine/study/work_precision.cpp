@@ -17,8 +17,8 @@ namespace asperity {
 
 namespace {
 
-constexpr double look_every = 0.1;       // seconds between two records, and two signs of progress
-constexpr double settling_share = 0.01;  // of the time, for clearing away
+constexpr double look_every = 0.1;       // seconds between records and between progress messages
+constexpr double settling_share = 0.01;  // of the run time
 constexpr const char* title = "work and precision";
 
 bool same_bits(double a, double b) {
@@ -101,7 +101,6 @@ void WorkPrecision::flush() {
 
 // --- one call
 
-// Where the whole stands: its share that is done before and after the next call.
 void WorkPrecision::show(const std::string& part, double expected) {
   const double total = elapsed() + quote().seconds;
   share_ = std::max(share_, total > 0 ? elapsed() / total : 0);
@@ -173,7 +172,7 @@ double WorkPrecision::left() const {
                                  : std::numeric_limits<double>::infinity();
 }
 
-// The timed runs still to come of the settings that were asked.
+// Outstanding timed runs.
 double WorkPrecision::committed() const {
   double seconds = 0;
   for (const StudyRow& row : result_.rows)
@@ -192,7 +191,7 @@ std::optional<double> WorkPrecision::truth_forecast() const {
   return forecast_.seconds({}, *knobs);
 }
 
-// Settings that were not asked yet, the cheapest first.
+// Rows without a first run, cheapest first.
 std::vector<StudyRow*> WorkPrecision::waiting() {
   std::vector<std::pair<double, StudyRow*>> found;
   for (std::size_t k = 0; k < result_.rows.size(); ++k)
@@ -212,7 +211,6 @@ void WorkPrecision::leave_out(StudyRow& row, double expected, double needed) {
                seconds_text(std::max(left() - committed(), 0.0)) + " left beside the others";
 }
 
-// What is still to come by the forecast, and what of it the budget leaves out.
 WorkPrecision::Quote WorkPrecision::quote() {
   Quote quote;
   quote.seconds = truth_forecast().value_or(0) + committed();
@@ -250,8 +248,7 @@ std::string WorkPrecision::quote_text() {
 
 // --- the parts of the study
 
-// The cheapest setting of each way, from which the rest is forecast. One that fails says nothing: then the
-// next one of its way.
+// Runs the cheapest setting of each way; after a failure, the next.
 void WorkPrecision::scout() {
   for (std::size_t way = 0; way < result_.request.ways.size(); ++way) {
     std::vector<StudyRow*> rows;
@@ -290,7 +287,7 @@ void WorkPrecision::ask_truth() {
 }
 
 void WorkPrecision::first_runs() {
-  // Each run sharpens the forecast of what is left.
+  // Each run improves the forecast.
   for (std::vector<StudyRow*> rows = waiting(); !rows.empty(); rows = waiting()) {
     StudyRow& row = *rows.front();
     const double expected = forecast(row).value_or(0);

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a study of work and precision. Every setting is asked once to begin with: that run gives its
-// answer, makes the plans and touches the memory it needs, and is not among the times. Then all
-// settings are timed in rounds, one run each, so that a machine that slows down slows all alike.
-//
-// A budget is quoted first and then obeyed: the cheapest setting of each way is asked, the rest is forecast
-// from it (cost_forecast.hpp), and a sentence says what the study will take and what it leaves out. The
-// truth has the first call on the budget, cheap settings come before dear ones, and no run is begun
-// that by its forecast would end after the budget.
+// Work-precision study: error against run time. Each setting first runs once untimed. Timed rounds follow
+// with a run per setting, so that a slow machine slows all settings alike. With a budget, costs are forecast
+// from the cheapest setting of each way (cost_forecast.hpp); no run starts whose forecast exceeds the budget.
 #pragma once
 
 #include <functional>
@@ -28,40 +23,36 @@ struct StudyAnswer {
   std::string failure;  // why there is no value
 };
 
-// One call of the studied function, as it is put on record.
 struct StudyRun {
-  const Knobs* knobs;      // of the request, which outlives it
-  const std::string* way;  // null: the truth
-  int round;               // 0: the first run
+  const Knobs* knobs;      // owned by the request
+  const std::string* way;  // null for the truth
+  int round;               // 0: untimed
   std::optional<double> value;
   double seconds;
 };
 
-// The studied function and what stands about it.
 class StudyWork {
  public:
   virtual ~StudyWork() = default;
-  // Before each call, outside its time.
   virtual void prepare(const Knobs& /*knobs*/) {}
-  // What is timed. `monitor` shows its progress as part of the study's. Throws Error for a stop and for an
-  // answer that the study refuses; a setting that fails is an answer.
+  // Timed. A failed setting is an answer. Throws Error for a stop and for a refused answer.
   virtual StudyAnswer ask(const Knobs& knobs, Monitor& monitor) = 0;
-  // Between calls, where what they left behind may be cleared away; as often as costs a hundredth.
+  // Cleans up between calls; takes about 1 % of the time.
   virtual void settle() {}
-  // Calls that were made since the last record, at most ten times a second and once at the end.
+  // Receives new calls, at most ten times a second and once at the end.
   virtual void record(std::span<const StudyRun> /*runs*/) {}
 };
 
 class WorkPrecision {
  public:
-  using Clock = std::function<double()>;  // seconds, never going back
+  using Clock = std::function<double()>;  // monotonic seconds
 
-  // `work` and `monitor` must outlive it. Throws Error{bad_value} for a request without a setting, two
-  // ways of one name, a truth that is not finite, or fewer than one repeat.
+  // Arguments must outlive the study. Throws Error{bad_value} for no settings, no repeats, equal names or a
+  // truth that is not finite.
   WorkPrecision(StudyRequest request, StudyWork& work, Monitor& monitor, Clock clock = steady_seconds);
 
-  // Once. Throws Error when a stop was asked for, when the truth failed or does not fit the budget, and
-  // whatever `work` throws; result() then holds what was measured before.
+  // Call once. Throws errors of `work`, and Error on a stop and for a truth that failed or exceeds the
+  // budget. result() stores all earlier measurements.
   void run();
   const StudyResult& result() const { return result_; }
 
@@ -79,7 +70,7 @@ class WorkPrecision {
   void rounds();
   void finish();
 
-  // `seconds`: what it is expected to take, and then what it took.
+  // `seconds`: forecast on entry, measured on return.
   StudyAnswer call(const Knobs& knobs, const std::string* way, int round, double& seconds);
   bool first_run(StudyRow& row);
   void leave_out(StudyRow& row, double expected, double needed);
@@ -100,7 +91,7 @@ class WorkPrecision {
   Monitor& monitor_;
   Clock clock_;
   CostForecast forecast_;
-  std::vector<bool> asked_;  // by row: its first run was made, or it was left out
+  std::vector<bool> asked_;  // by row: run or left out
   std::vector<StudyRun> unrecorded_;
   double begun_ = 0, now_ = 0;
   double recorded_at_ = 0, shown_at_ = 0;

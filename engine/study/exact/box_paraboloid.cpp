@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A paraboloid of radius R on independent elements of stiffness k (Winkler): pressure k(δ − r²/2R), so
-//   F = πkRδ²,  A = 2πRδ,  U = Fδ/3.
+// Paraboloid of radius R on a Winkler foundation, pressure k(δ − r²/2R): F = πkRδ², A = 2πRδ, U = Fδ/3.
 #include "engine/study/exact/closed_forms.hpp"
 
 #include <cmath>

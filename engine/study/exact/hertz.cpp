@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A paraboloid of radius R pressed into a half-space (Hertz 1882; Johnson, Contact Mechanics, §4.2):
-//   a² = R δ,  F = (4/3) E* √R δ^(3/2),  p0 = 3F/(2πa²),  U = (2/5) F δ,
-// with E* the contact modulus of the two bodies. The free half-space, without friction or adhesion.
+// Frictionless paraboloid of radius R on a half-space (Hertz 1882; Johnson, Contact Mechanics, §4.2):
+//   a² = R δ,  F = (4/3) E* √R δ^(3/2),  p0 = 3F/(2πa²),  U = (2/5) F δ.
 #include "engine/study/exact/closed_forms.hpp"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real contact area of a rough half-space by Persson's theory (Persson 2001, J. Chem. Phys. 115, 3840, with
-// its absorbing edge at the hardness): pressures diffuse from p̄ over a variance (E* h')²/4 between edges at
-// 0 and H, with h' the rms slope. A theory, exact at full contact and some 20 % below simulations of light
-// loads; what it is here for is its limits.
+// Contact area of a rough half-space by Persson's theory (J. Chem. Phys. 115, 3840, 2001), with an absorbing
+// edge at the hardness: pressures diffuse from p̄ over a variance (E* h')²/4 between 0 and H. Exact at full
+// contact, some 20 % below simulations at light loads.
 #include "engine/study/exact/closed_forms.hpp"
 
 #include <numbers>
@@ -13,16 +12,16 @@
 namespace asperity::exact {
 
 PerssonArea persson_area(double modulus, double rms_slope, double pressure, double hardness) {
-  const double width = modulus * rms_slope;  // twice the standard deviation of the diffused pressure
+  const double width = modulus * rms_slope;  // 2 standard deviations
   if (pressure >= hardness)
     throw Error(ErrorCode::infeasible, "`pressure` is not below `hardness`: the contact cannot carry it",
                 "lower the pressure");
-  // At this distance, in standard deviations, the edge at H is out of sight.
+  // In standard deviations; beyond, the edge at H has no effect.
   constexpr double far = 40;
   if (hardness - pressure > far * 0.5 * width)
     return {elementary::erf(std::numbers::sqrt2 * (pressure / width)), 0};
-  // Mode k of the density is sin(kπp/H), of weight 2/H sin(kπp̄/H) e^(−λ_k). Its share of the area is its
-  // integral over 0 … H, and its share of the load its first moment.
+  // Mode k of the density: 2/H sin(kπp̄/H) e^(−λ_k) sin(kπp/H). Its integral over 0 … H contributes area, its
+  // first moment load.
   PerssonArea area;
   double carried = 0;  // share of H
   const double decay = 0.125 * (width / hardness) * (width / hardness);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wavy half-spaces pressed against a flat. One wave, z = h cos(2πx/λ) (Westergaard 1939; Johnson, Contact
-// Mechanics, §13.2), with f = p̄/p_full and p_full = πE*h/λ: contact on a share A of each wave with
-// sin²(πA/2) = f, mean gap h(1 − f + f ln f), and what follows from these. Two crossed waves, z = h
-// cos(2πx/λ) cos(2πy/λ) (Johnson, Greenwood & Higginson 1985), have a closed form at full contact only, from
-// p* = √2 πE*h/λ up. Frictionless, without adhesion; approach from first touch.
+// Wavy half-spaces against a flat, frictionless, without adhesion. One wave z = h cos(2πx/λ) (Westergaard
+// 1939; Johnson, Contact Mechanics, §13.2): f = p̄/p_full, p_full = πE*h/λ, contact fraction A from
+// sin²(πA/2) = f, mean gap h(1 − f + f ln f). Crossed waves z = h cos(2πx/λ) cos(2πy/λ) (Johnson, Greenwood &
+// Higginson 1985) have a closed form at full contact only, p̄ ≥ √2 πE*h/λ. Approach from first touch.
 #include "engine/study/exact/closed_forms.hpp"
 
 #include <cmath>

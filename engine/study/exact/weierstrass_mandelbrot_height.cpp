@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One height of a Weierstrass–Mandelbrot surface (surface/generators/weierstrass_mandelbrot.hpp) to the last
-// digit of a double: the sum of its definition in as many bits as its highest wave number has, and 128 more.
-// It shares nothing with the generator but the draw of the phases. Slow: one cosine of thousands of bits a
-// wave.
+// Height of a Weierstrass–Mandelbrot surface (surface/generators/weierstrass_mandelbrot.hpp), exact to a
+// double: its series with the bits of the highest wave number plus 128. Shares only the random phases with
+// the generator. Slow.
 #include "engine/study/exact/closed_forms.hpp"
 
 #include <mpfr.h>
@@ -18,7 +17,6 @@ namespace {
 
 constexpr mpfr_prec_t guard_bits = 128;
 
-// A number of MPFR that frees itself.
 class Number {
  public:
   explicit Number(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
@@ -31,7 +29,7 @@ class Number {
   mpfr_t value_;
 };
 
-// φ/2π of wave (m, n), golden ones not rounded to a double: k·0.6180339887498949, k = m·(n_max+1) + n.
+// φ/2π of wave (m, n). Golden phases k·0.6180339887498949, k = m·(n_max+1) + n, are not rounded to a double.
 void set_phase(mpfr_ptr phase, const WeierstrassMandelbrotOptions& o, int m, int n) {
   switch (o.phases) {
     case WavePhases::seeded:
@@ -49,7 +47,6 @@ void set_phase(mpfr_ptr phase, const WeierstrassMandelbrotOptions& o, int m, int
   throw Error(ErrorCode::bad_value, "an exact height needs `phases` drawn from the seed, or \"golden\"");
 }
 
-// cos(2π turns), of which only the fraction matters.
 void cosine_of_turns(mpfr_ptr result, mpfr_ptr turns, mpfr_ptr pi, Number& angle) {
   mpfr_mul(angle, turns, pi, MPFR_RNDN);
   mpfr_mul_ui(angle, angle, 2, MPFR_RNDN);
@@ -70,7 +67,7 @@ double weierstrass_mandelbrot_height(const WeierstrassMandelbrotOptions& o, int 
     mpfr_sin_cos(sine, cosine, angle, MPFR_RNDN);
     mpfr_mul_si(cosine, cosine, i, MPFR_RNDN);
     mpfr_mul_si(sine, sine, j, MPFR_RNDN);
-    // Turns of order 0; each order has γ times as many.
+    // Turns at order 0; each order multiplies them by γ.
     mpfr_add(step, cosine, sine, MPFR_RNDN);
     mpfr_mul_d(step, step, o.span, MPFR_RNDN);
     mpfr_div_si(step, step, o.nx, MPFR_RNDN);
