@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums of several functions of an index at once, in fixed blocks of 1024 that are added pairwise:
-// the same bits for any number of threads. And powers of two by which heights are scaled before
-// they are squared, so that neither 1e-160 m nor 1e160 m under- or overflows on the way.
+// Sums over blocks of 1024, added pairwise: same bits for any thread count. Powers of two keep squared
+// heights of 1e-160 to 1e160 m in range.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +14,7 @@
 
 namespace asperity {
 
-// Σ terms(k) for k in [0, n); `terms` returns an array of K doubles and must be callable from any
-// thread. Takes K·n/1024 doubles.
+// Σ terms(k), k in [0, n); any thread may call `terms`. Memory: K·n/1024 doubles.
 template <std::size_t K, class Terms>
 std::array<double, K> blocked_sums(std::size_t n, const Terms& terms) {
   constexpr std::size_t block = 1024, blocks_per_turn = 64;
@@ -40,18 +38,16 @@ std::array<double, K> blocked_sums(std::size_t n, const Terms& terms) {
   return total;
 }
 
-// The exponent e for which value·2^-e lies in [1/2, 1); kept where 2^±e is a finite double. 0 for 0.
+// e with value·2^-e in [1/2, 1), clamped so that 2^±e is finite; 0 for 0.
 inline int scale_exponent(double value) {
   int e = 0;
   std::frexp(value, &e);
   return std::clamp(e, -1000, 1024);
 }
 
-// The greatest magnitude within a range.
 inline double magnitude(const Range& r) { return std::max(std::abs(r.min), std::abs(r.max)); }
 
-// The mean in two passes: the second adds the mean of what the first left over, so that an offset
-// that dwarfs the roughness costs no digits. Exact for equal values, and never overflows.
+// Two passes: the second corrects rounding under large offsets. Exact for equal values; no overflow.
 double exact_mean(std::span<const double> values, const Range& values_range);
 
 // Blocks of rows, each on one thread.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double share_of_run = 0.4, least_run = 0.03, greatest_run = 0.1;
 constexpr double scatters = 2;
-// Of the scatter, what is left of it as D goes to 1, and how it grows with D.
+// Factor of the scatter at D = 1; growth with D.
 constexpr double scatter_at_one = 0.4, scatter_growth = 1.2;
 constexpr int stretches = 4;
 
@@ -24,7 +24,7 @@ double dimension_between(const ScalingSteps& s, std::size_t a, std::size_t b) {
   return s.at_zero + s.per_slope * slope;
 }
 
-// Where stretches of about equal length on the logarithmic axis begin and end: every step where they are few.
+// Borders of stretches of about equal logarithmic length.
 std::vector<std::size_t> ends_of_stretches(std::span<const double> steps) {
   std::vector<std::size_t> ends;
   const double whole = elementary::log(steps.back() / steps.front());
@@ -39,9 +39,8 @@ std::vector<std::size_t> ends_of_stretches(std::span<const double> steps) {
   return ends;
 }
 
-// The most steps in a row, three or more, over which the local dimensions differ by no more than `within`,
-// and of as many those where they differ least: the first and the last of them. The same twice: there are
-// none.
+// First and last step of the longest row of three or more with local dimensions within `within`; ties:
+// smallest spread. Equal if there is none.
 std::pair<std::size_t, std::size_t> constant_over(std::span<const double> local, double within) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   double best_spread = infinity;

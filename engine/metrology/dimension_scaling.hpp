@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a statistic of profiles scales, so that one fractal dimension describes it: the dimensions between
-// neighbouring steps (local slopes) of a fractal are alike, those of a face that is smooth over short steps
-// or ends its growth at long ones run from step to step. And what box counting misses of a dimension that is
-// known.
+// Tests if a statistic of profiles scales with one fractal dimension: then local dimensions between
+// neighbouring steps are equal. Smooth short steps or saturated long ones make them run. Also the bias of box
+// counting.
 #pragma once
 
 #include <span>
@@ -12,31 +11,28 @@
 namespace asperity {
 
 struct ScalingSteps {
-  std::span<const double> steps;           // samples, rising, three or more
-  std::span<const double> log_statistics;  // of each, as the line through them takes them
+  std::span<const double> steps;           // samples, rising; three or more
+  std::span<const double> log_statistics;  // as used in the line fit
   double at_zero = 0, per_slope = 1;       // D = at_zero + per_slope · slope
 };
 
-// D between neighbours: one less than steps.
+// D between neighbouring steps.
 std::vector<double> local_dimensions(const ScalingSteps& scaling);
 
-// Empty where the local dimensions do not run; else from where to where they run, and over which steps in a
-// row they are constant. `D` was found over all steps, of so many profiles of so many samples. They run where
-// four of them, over stretches alike on a logarithmic axis, rise or fall throughout by more than two fifths
-// of D - 1 (at least 0.03, at most 0.1) and twice the scatter that fractional Brownian profiles show:
-// `scatter` · √(longest step / samples), which D below 1.5 lowers, to two fifths at 1, and as many profiles
-// as lie further apart than that step, taken as neighbouring rows of a map. Measured scatter: 0.5 of mean
-// differences, 1.2 of lengths without offsets.
+// Empty unless the local dimensions run; else the text names the run and the steps of constant dimension. A
+// run is monotonic over four equal logarithmic stretches. It exceeds 0.4 (D - 1), limited to 0.03 … 0.1, by
+// twice the scatter of fractional Brownian profiles, `scatter` · √(longest step / samples). The scatter falls
+// below D = 1.5 (to 0.4 at 1) and with the number of profiles a longest step apart. Measured `scatter`: mean
+// differences 0.5, lengths without offsets 1.2.
 std::string running_dimension(const ScalingSteps& scaling, double D, int samples, int profiles,
                               double scatter);
 
-// Empty unless boxes of the smallest sides see less than two fifths of the D - 1 that all sides find: on
-// fractional Brownian profiles of any D and of 150 to 16384 samples they see half to two thirds.
+// Empty unless the smallest boxes see less than 0.4 (D - 1). Fractional Brownian profiles: half to two
+// thirds.
 std::string smooth_in_small_boxes(const ScalingSteps& scaling, double D);
 
-// What counting boxes of the default sides misses of the dimension of fractional Brownian profiles, where it
-// finds D on so many samples: means over 32 to 64 exact profiles of each of eleven dimensions from 1.05 to
-// 1.95, linear in D and in the logarithm of the samples between 150, 1024 and 16384, and constant beyond.
+// True minus measured D for fractional Brownian profiles and default boxes: means of 32 to 64 profiles at
+// eleven D. Linear in D and log samples (150, 1024, 16384), constant outside.
 double box_counting_bias(double D, int samples);
 
 }  // namespace asperity

@@ -23,18 +23,17 @@ namespace asperity {
 
 namespace {
 
-// Default steps double from 1 to this.
 constexpr int longest_default_step = 16;
 
-// Profiles that lie in memory in whatever way; `read` fills `into` and is called from any thread.
+// `read` is called from any thread.
 struct ProfileSet {
   std::int64_t count = 0;
   int shortest = 0, longest = 0;
   bool wrap = false;
-  std::int64_t points = 0, measured = 0;  // of all
-  double range = 0, magnitude = 0;        // m, the greatest of all
-  double spacing = 0;                     // m, the least of all
-  double tip_cut_off = 0;                 // m, where a tip was given: of the worst of all
+  std::int64_t points = 0, measured = 0;
+  double range = 0, magnitude = 0;  // m, maxima
+  double spacing = 0;               // m, minimum
+  double tip_cut_off = 0;           // m, maximum; 0 without tip
   struct One {
     Array<double> heights;
     double spacing = 0;
@@ -51,7 +50,7 @@ std::vector<int> chosen_steps(const FractalDimensionOptions& options, int sample
   }
   const int longest = wrap ? samples : samples - 1;
   if (options.steps.empty()) {
-    // Boxes need every size there is: those of a few samples alone are filled by the samples.
+    // Boxes of a few samples alone reflect the sampling.
     std::vector<int> steps;
     const bool is_box = options.method == DimensionMethod::box;
     for (int s = 1; s <= (is_box ? longest / 4 : std::min(longest / 2, longest_default_step)); s *= 2)
@@ -73,7 +72,6 @@ std::vector<int> chosen_steps(const FractalDimensionOptions& options, int sample
   return options.steps;
 }
 
-// One ordinate of the log-log line from one statistic.
 double log_ordinate(DimensionMethod method, double statistic) {
   switch (method) {
     case DimensionMethod::length:
@@ -106,12 +104,11 @@ Relation relation(DimensionMethod method) {
   return {1, 0};
 }
 
-// A statistic of zero (equal heights at every step of that length) has no logarithm.
 bool has_logarithm(DimensionMethod method, double statistic) {
   return method == DimensionMethod::length || method == DimensionMethod::psd || statistic > 0;
 }
 
-// A statistic as it is handed out, in metres where it has a unit.
+// In SI units.
 double reported(DimensionMethod method, double statistic, double unit) {
   switch (method) {
     case DimensionMethod::length:
@@ -154,11 +151,11 @@ Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
   return result;
 }
 
-// The tables of all profiles: `steps` numbers each.
+// Row: profile; column: step.
 struct Tables {
   Array<double> statistics, mean_square_slopes;
-  Array<double> D, error;  // NaN inside this file where a profile gave none
-  Array<char> gappy;       // 1: for want of measured pairs at some step
+  Array<double> D, error;  // NaN: profile without D
+  Array<char> gappy;       // 1: no measured pair at some step
 };
 
 Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& stepping,
@@ -192,11 +189,11 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
       } else if (flat) {
         continue;
       } else if (method == DimensionMethod::psd) {
-        // Traces of other lengths than the shortest have other bands: cut to it.
+        // Bands depend on the length: use the shortest.
         const auto n = static_cast<std::size_t>(set.shortest);
         band_log_powers(std::span<const double>(one.heights).first(n), set.range, stepping.wrap, statistics);
       } else {
-        // The unit square of a profile is its own; what is averaged over profiles needs a common unit.
+        // Boxes use each profile's unit square; averages need a common unit.
         const double unit = method == DimensionMethod::box ? range(one.heights).span() : set.range;
         step_statistics(one.heights, one.spacing, unit, stepping, statistics, {});
       }
@@ -213,7 +210,6 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
   return tables;
 }
 
-// Mean of column `k` over the profiles that gave a D.
 double column_mean(const Tables& tables, std::span<const double> table, std::size_t width, std::size_t k) {
   Array<double> column;
   for (std::size_t p = 0; p < tables.D.size(); ++p)
@@ -221,7 +217,7 @@ double column_mean(const Tables& tables, std::span<const double> table, std::siz
   return mean(column);
 }
 
-// Why the length method would be believed no further; empty where it may be.
+// Returns a reason, or an empty string; so do the checks below.
 std::string too_flat(std::span<const double> mean_square_slopes, std::span<const int> steps) {
   double share = 0;
   for (const double s2 : mean_square_slopes) share += length_sensitivity(std::sqrt(s2));
@@ -239,7 +235,6 @@ std::string too_flat(std::span<const double> mean_square_slopes, std::span<const
          " % of D - 1; a slope of 2 to 3.5 at the longest step is needed, or the method `structure`";
 }
 
-// Why a line through the spectrum is not to be believed; empty where it may be.
 std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_wavelengths,
                             std::span<const double> log_powers, const LineFit& line) {
   std::vector<double> above_line(log_powers.begin(), log_powers.end());
@@ -253,7 +248,7 @@ std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_
          "ends or bends; draw `spectrum`, or use the method `structure`";
 }
 
-// Why the steps are not those of one dimension; empty where they are. `statistics` have logarithms.
+// All `statistics` have logarithms.
 std::string lack_of_scaling(DimensionMethod method, std::span<const double> steps,
                             std::span<const double> statistics, const FractalDimension& found, bool offsets,
                             int samples) {
@@ -273,11 +268,11 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
   return running_dimension(scaling, found.D, samples, found.profiles, few_starts ? 1.2 : 0.5);
 }
 
-// Jumps scale as a rough profile does. Their share reveals jumps: in most profiles up to four steps make
-// more than half of the mean square (four of 64 Gaussian steps make some 30 %).
+// Jumps scale like a rough profile. In the median profile, up to four jumps then hold half of the mean square
+// (four of 64 Gaussian steps: 30 %).
 std::string made_by_jumps(const ProfileSet& set) {
   constexpr std::size_t most = 4, steps_a_jump = 16;
-  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // of each profile
+  Array<double> jumps(static_cast<std::size_t>(set.count), most + 1);  // per profile
   parallel_for(set.count, [&](std::int64_t k) {
     ProfileSet::One one;
     set.read(k, one);
@@ -299,7 +294,6 @@ std::string made_by_jumps(const ProfileSet& set) {
          std::string(" of it: the heights do not scale");
 }
 
-// Why a tip may have made what short steps show; empty where it has not, or none was given.
 std::string shown_by_tip(const ProfileSet& set, double radius, std::span<const double> steps, bool is_psd) {
   const double shortest = *std::ranges::min_element(steps) * set.spacing;
   if (!(shortest < set.tip_cut_off)) return {};
@@ -333,7 +327,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
             std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
             " were not measured",
         "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
-  // A profile cut to the shortest has lost its periodicity.
+  // A cut profile is not periodic.
   const bool wrap = set.wrap && !(is_psd && set.shortest < set.longest);
   const std::vector<double> step_values =
       is_psd ? band_wavelengths(set.shortest, wrap) : std::vector<double>(steps.begin(), steps.end());
@@ -409,7 +403,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
   if (result.reason.empty() && !is_psd)
     result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
-  // Boxes miss much of a dimension, so they hardly reveal heights without one.
+  // Biased box counts rarely detect missing scaling.
   if (result.reason.empty() && method == DimensionMethod::box)
     if (const FractalDimension other = measure(
             set,

@@ -25,10 +25,10 @@ namespace asperity {
 namespace {
 
 constexpr double ln2 = std::numbers::ln2;
-// Cut-offs from the middle of the kernel to where it is under 1e-16: exp(-(π²/ln 2) r²).
+// Cut-offs until exp(-(π²/ln 2) r²) falls below 1e-16.
 constexpr double kernel_reach = 1.62;
 
-// Absent where there is nothing to do.
+// Drops an infinite `long_wave`.
 GaussianFilter checked(const GaussianFilter& filter) {
   if (!filter.short_wave && !filter.long_wave)
     throw Error(ErrorCode::bad_value, "a filter was asked for without `short_wave` or `long_wave`",
@@ -50,7 +50,7 @@ GaussianFilter checked(const GaussianFilter& filter) {
   return result;
 }
 
-// What is kept of a wave of |q|² = q_squared, (rad/m)².
+// Transmission at |q|² = q_squared, (rad/m)².
 double kept(const GaussianFilter& filter, double q_squared) {
   const double unit = ln2 * q_squared / (4 * std::numbers::pi * std::numbers::pi);
   double share = 1;
@@ -59,7 +59,7 @@ double kept(const GaussianFilter& filter, double q_squared) {
   return share;
 }
 
-// A length of at least n that transforms fast.
+// A fast transform length of at least n.
 int smooth_length(int n) {
   for (;; ++n) {
     int rest = n;
@@ -69,7 +69,6 @@ int smooth_length(int n) {
   }
 }
 
-// The mean line of one cut-off over lines of n samples.
 class LineFilter {
  public:
   LineFilter(int n, double spacing, double cut_off)
@@ -86,7 +85,7 @@ class LineFilter {
       kernel[static_cast<std::size_t>(k == 0 ? 0 : padded_ - k)] = weight;
       cumulative[static_cast<std::size_t>(k)] = sum += weight;
     }
-    // The kernel is even: its transform is real.
+    // Real, as the kernel is even.
     for (const std::complex<double> bin : fourier_forward(kernel)) response_.push_back(bin.real() / padded_);
     weights_.resize(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i)
@@ -95,14 +94,13 @@ class LineFilter {
           cumulative[static_cast<std::size_t>(std::min(n - 1 - i, reach_))] - 1;
   }
 
-  // Whether a line comes back as it went in.
+  // The kernel is one sample.
   bool idle() const { return reach_ == 0; }
 
-  // Lines that are worked on together.
   static constexpr int lines = BatchFourier::rows;
   BatchFourier::Work work() const { return BatchFourier::Work(batch_); }
 
-  // Replaces the samples of up to `lines` lines by their mean lines; not scaled to unit weight unless asked.
+  // Replaces up to `lines` lines by their mean lines.
   void apply(BatchFourier::Work& work, std::span<double* const> line, bool to_unit_weight) const {
     const auto count = static_cast<int>(line.size()), n = static_cast<int>(weights_.size());
     batch_.load_reals(work, line.data(), n, count);
@@ -179,8 +177,7 @@ Field filter_periodic(Field z, const Grid& grid, const GaussianFilter& filter) {
   return fourier_inverse(std::move(spectrum));
 }
 
-// The mean surface of one cut-off over the measured nodes: Σ w z / Σ w, NaN elsewhere. `own`, where it is
-// given, are weights of the nodes beside those of the filter.
+// Σ w z / Σ w over measured nodes, NaN elsewhere; `own`: additional weights.
 Field mean_of_measured(const Field& z, const Grid& grid, bool periodic, double cut_off,
                        const Field* own = nullptr) {
   Field sum = z, weight = own ? *own : Field(z.nx(), z.ny(), 1);
@@ -207,7 +204,6 @@ double median_magnitude(const Field& residuals) {
   return upper_median(magnitudes);
 }
 
-// The mean surface that Tukey's biweight of the residuals leaves to the bulk of the heights.
 Field robust_mean(const Field& z, const Grid& grid, bool periodic, double cut_off) {
   constexpr int most_iterations = 100;
   constexpr double settled = 1e-4;
@@ -232,7 +228,7 @@ Field robust_mean(const Field& z, const Grid& grid, bool periodic, double cut_of
     }
     const Field old = std::move(mean);
     mean = mean_of_measured(z, grid, periodic, cut_off, &weight);
-    // Where nothing within the kernel's reach has a weight, the mean is what it was.
+    // No weight within reach: keep the old mean.
     for (std::size_t k = 0; k < z.size(); ++k)
       if (!std::isfinite(mean[k]) && !std::isnan(z[k])) mean[k] = old[k];
   }
@@ -256,7 +252,7 @@ double mean_of_known(const Field& z, bool holes) {
   return exact_mean(known, range(known));
 }
 
-// The mean goes round the transforms: it would cost the roughness its digits.
+// The mean bypasses the transforms, where it would cost digits.
 Field filtered(Field z, const Grid& grid, bool periodic, bool holes, const GaussianFilter& filter) {
   const double mean = mean_of_known(z, holes);
   for (double& value : z.values()) value -= mean;

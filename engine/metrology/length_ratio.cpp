@@ -10,12 +10,12 @@ namespace asperity {
 
 namespace {
 
-// √(2x/π) eˣ times K0(x) and K1(x): of order one for large x, where the functions themselves vanish.
+// √(2x/π) eˣ times K0(x), K1(x): of order one where the functions vanish.
 struct ScaledBessel {
   double k0, k1;
 };
 
-// Hankel's asymptotic series, Σ Π (4ν² - (2m-1)²)/(8x m), to its least term.
+// Σ Π (4ν² - (2m-1)²)/(8x m), to the least term.
 double hankel_series(double four_nu_squared, double x) {
   double sum = 1, term = 1;
   for (int m = 1; m < 60; ++m) {
@@ -27,8 +27,7 @@ double hankel_series(double four_nu_squared, double x) {
   return sum;
 }
 
-// From K_ν(x) eˣ = ∫ exp(−x(cosh t − 1)) cosh νt dt over t > 0 by the trapezoidal rule: its error falls as
-// exp(−π²/step), and the integrand itself faster than that.
+// Trapezoidal rule for K_ν(x) eˣ = ∫ exp(−x(cosh t − 1)) cosh νt dt, t > 0; error exp(−π²/step).
 ScaledBessel scaled_bessel(double x) {
   if (x > 25) return {hankel_series(0, x), hankel_series(4, x)};
   constexpr double step = 0.125, vanished = 60;
@@ -46,9 +45,9 @@ ScaledBessel scaled_bessel(double x) {
   return {scale * k0, scale * k1};
 }
 
-// Beyond it the profile is all slope: E√(1 + s²g²) = s E|g| to the last digit.
+// Above, E√(1 + s²g²) = s E|g| to the last digit.
 constexpr double very_steep = 1e9;
-// Under it 1/s² is not a number.
+// Below, 1/s² overflows.
 constexpr double very_flat = 1e-150;
 
 }  // namespace

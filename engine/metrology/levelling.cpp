@@ -20,8 +20,7 @@ namespace {
 // Polynomials of degree 0, 1, … over n equally spaced nodes, orthonormal there.
 class OrthonormalPolynomials {
  public:
-  // As many as the nodes can tell apart. Each is x times the one before, made orthogonal to all before
-  // it twice over (Gram–Schmidt), which is orthogonal to rounding.
+  // Orthogonalised twice (Gram–Schmidt) to reach rounding; at most n polynomials.
   OrthonormalPolynomials(int n, int degree) : table_(n, std::min(degree, n - 1) + 1) {
     for (int k = 0; k < table_.ny(); ++k) {
       for (int i = 0; i < n; ++i) {
@@ -47,7 +46,7 @@ class OrthonormalPolynomials {
     for (int i = 0; i < table_.nx(); ++i) table_(i, k) -= share * table_(i, m);
   }
 
-  Field table_;  // row k holds polynomial k
+  Field table_;  // row k: polynomial k
 };
 
 void check_degree(int degree) {
@@ -56,7 +55,7 @@ void check_degree(int degree) {
                 "give 0 (mean), 1 (plane), 2 (quadratic) … " + std::to_string(max_levelling_degree));
 }
 
-// Σ a[i]·b[i] in blocks, for the digits of long lines.
+// In blocks against rounding on long lines.
 double dot(std::span<const double> a, std::span<const double> b) {
   constexpr std::size_t block = 256;
   double total = 0;
@@ -70,7 +69,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
 
 void subtract_fit(Field& z, const OrthonormalPolynomials& along_x, const OrthonormalPolynomials& along_y,
                   int degree) {
-  // First what each row holds of each polynomial in x, then of those the polynomials in y.
+  // Coefficients in x per row, then in y.
   Field of_rows(z.ny(), along_x.count());
   for_each_row(z.ny(), [&](int j) {
     for (int a = 0; a < along_x.count(); ++a) of_rows(j, a) = dot(along_x[a], z.row(j));
@@ -91,7 +90,7 @@ void subtract_fit(Field& z, const OrthonormalPolynomials& along_x, const Orthono
   });
 }
 
-// The second pass removes what rounding left of a fit much larger than the roughness.
+// The second pass removes the rounding of a large fit.
 void level(Field& z, int degree) {
   for (int pass = 0; pass < 2; ++pass) {
     const double mean = exact_mean(z.values(), range(z.values()));
@@ -104,7 +103,7 @@ void level(Field& z, int degree) {
   for (int pass = 0; pass < 2; ++pass) subtract_fit(z, along_x, along_y, degree);
 }
 
-// The polynomials in x and y over the smallest rectangle around what was measured, and their products.
+// Polynomial products over the bounding rectangle of measured nodes.
 class MaskedPolynomials {
  public:
   MaskedPolynomials(const Field& z, int degree)
@@ -116,8 +115,7 @@ class MaskedPolynomials {
   std::size_t count() const { return terms_.size(); }
   int first_row() const { return box_.low; }
   int rows() const { return box_.height(); }
-  // What a row of the rectangle holds: Σ over its measured nodes of each with z, and of each product of two
-  // unless `gram` is empty.
+  // Adds a row: Σ polynomial · z, and Σ products unless `gram` is empty.
   void add_row(const Field& z, int j, std::span<double> gram, std::span<double> moments) const {
     std::vector<double> at(count());
     for (int i = box_.left; i <= box_.right; ++i) {
@@ -165,8 +163,7 @@ class MaskedPolynomials {
   std::vector<Term> terms_;
 };
 
-// Eigenvalues and vectors of a symmetric matrix of a few rows, by Jacobi's rotations: row k of `vectors` goes
-// with the eigenvalue that is left on the diagonal.
+// Jacobi; row k of `vectors` belongs to diagonal entry k.
 void diagonalise(std::vector<double>& matrix, std::vector<double>& vectors, std::size_t n) {
   vectors.assign(n * n, 0.0);
   for (std::size_t k = 0; k < n; ++k) vectors[k * n + k] = 1;
@@ -195,8 +192,7 @@ void diagonalise(std::vector<double>& matrix, std::vector<double>& vectors, std:
   }
 }
 
-// Least squares over the measured nodes. Combinations of polynomials that the nodes hardly see are left out:
-// they are others over again there. What rounding leaves of the rest the next pass takes away.
+// Tiny eigenvalues mark combinations that duplicate others on the nodes. Further passes remove rounding.
 void level_measured(Field& z, int degree) {
   for (int pass = 0; pass < 2; ++pass) {
     Array<double> known;
@@ -211,7 +207,7 @@ void level_measured(Field& z, int degree) {
   constexpr int passes = 4;
   constexpr double hardly_seen = 1e-11;
   for (int pass = 0; pass < passes; ++pass) {
-    // Row by row, then over the rows in pairs: the same bits for any number of threads.
+    // Fixed order: same bits for any thread count.
     Field of_rows(polynomials.rows(), static_cast<int>(each));
     for_each_row(polynomials.rows(), [&](int row) {
       std::vector<double> sums(each);

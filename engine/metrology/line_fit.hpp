@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The straight line y = intercept + slope·x of least squares, with what it says of its own quality.
+// Least-squares line y = intercept + slope·x with its quality.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@ namespace asperity {
 
 struct LineFit {
   double slope = 0, intercept = 0;
-  double slope_error = 0;  // standard error of the slope from the residuals; 0 for two points
-  double r_squared = 0;    // share of the variance of y explained; 1 where y does not vary
+  double slope_error = 0;  // from the residuals; 0 for two points
+  double r_squared = 0;    // explained share of the variance of y; 1 for constant y
 };
 
-// x and y of one length, at least two different x. Cost O(n).
+// Equal lengths; at least two different x. Cost O(n).
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 
 }  // namespace asperity

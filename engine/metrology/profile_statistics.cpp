@@ -8,7 +8,7 @@ namespace asperity {
 
 namespace {
 
-// Calls pair(i, j) with the ends of every step of `s` samples, of which both are known if there are holes.
+// Calls pair(from, to) for every step of `s` samples, with `holes` only between measured ends.
 template <class Pair>
 int for_each_step(std::span<const double> z, int s, bool wrap, bool every_offset, bool holes,
                   const Pair& pair) {
@@ -36,7 +36,7 @@ Length length_at(std::span<const double> z, double spacing, int s, const Steppin
   const int steps =
       for_each_step(z, s, stepping.wrap, stepping.offsets, stepping.holes, [&](std::size_t i, std::size_t j) {
         const double slope = std::abs(z[j] - z[i]) / run;
-        // √(1 + slope²) - 1 without cancellation, and without overflow where slope² would.
+        // √(1 + slope²) - 1 without cancellation or overflow.
         excess += slope < 1e150 ? slope * slope / (1 + std::sqrt(1 + slope * slope)) : slope;
         squares += std::min(slope, 1e150) * std::min(slope, 1e150);
       });
@@ -53,8 +53,7 @@ double difference_at(std::span<const double> z, double unit, int s, const Steppi
   return sum / steps;
 }
 
-// Boxes are stacked on the lowest point and lined up on the first; the count over whole columns of
-// boxes is scaled up to the length that the last incomplete one would have had its part of.
+// Boxes start at the lowest point and first sample; whole columns are scaled up to the length.
 double boxes_at(std::span<const double> z, double unit, int s, bool wrap) {
   const auto n = z.size();
   const std::size_t intervals = wrap ? n : n - 1;

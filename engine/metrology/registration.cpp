@@ -24,8 +24,8 @@ namespace registration {
 namespace {
 
 struct Prepared {
-  HeightMap map;  // heights in rms of the before-map, lengths in cells
-  Plane plane;    // that was taken off, m over cells
+  HeightMap map;  // heights: rms of the before-map; lengths: cells
+  Plane plane;    // subtracted, m over cells
 };
 
 Prepared prepared(const Surface& surface, const char* which, double cell) {
@@ -36,7 +36,7 @@ Prepared prepared(const Surface& surface, const char* which, double cell) {
            "measure on more cells");
   Prepared result;
   result.map = levelled_map(surface, cell, result.plane);
-  // What is left of a plane by rounding is no relief.
+  // Below the rounding error of a plane, no relief remains.
   const double rounding =
       1e-13 * std::max(std::abs(surface.height_range().min), std::abs(surface.height_range().max));
   if (!(rms_height(result.map) > rounding))
@@ -49,7 +49,6 @@ void divide_heights(HeightMap& map, double unit) {
   for (double& value : map.heights.values()) value /= unit;
 }
 
-// The after-map on the nodes of the before-map.
 Field laid_on(const HeightMap& after, const HeightMap& before, const Pose& pose, const Plane& plane,
               const Plane& before_plane, double unit, Monitor& monitor) {
   Field filled = after.heights;
@@ -67,7 +66,7 @@ Field laid_on(const HeightMap& after, const HeightMap& before, const Pose& pose,
       double u = x / after.hx + 0.5 * (after.nx() - 1), v = y / after.hy + 0.5 * (after.ny() - 1);
       double& height = result(i, j);
       height = std::numeric_limits<double>::quiet_NaN();
-      // A node on the rim stays there, by the error of its place.
+      // Rounding must not exclude nodes on the rim.
       constexpr double rounding = 1e-3;
       if (!(u >= -rounding && v >= -rounding && u <= after.nx() - 1 + rounding &&
             v <= after.ny() - 1 + rounding))
@@ -108,7 +107,7 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   divide_heights(from.map, unit);
   divide_heights(onto.map, unit);
   const HeightMap from_map = without_spikes(from.map), onto_map = without_spikes(onto.map);
-  constexpr double no_wear = 100;  // wear that leaves so little of the heights leaves no ground to go by
+  constexpr double no_wear = 100;  // more wear leaves nothing to register
   const double ratio = rms_height(from_map) / rms_height(onto_map);
   if (ratio > no_wear || ratio < 1 / no_wear)
     refuse("the heights of the after-map are " + format_short(ratio, 3) + " times those of the before-map",
@@ -137,7 +136,7 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   result.shift_x = found.pose.x * cell + 0.5 * ((b.nx - 1) * b.hx() - (a.nx - 1) * a.hx());
   result.shift_y = found.pose.y * cell + 0.5 * ((b.ny - 1) * b.hy() - (a.ny - 1) * a.hy());
   result.angle = std::remainder(found.pose.turn, 2 * std::numbers::pi);
-  // Of the after-map above the before-map: the planes that were taken off, and what was found between.
+  // After-map above before-map: the subtracted planes plus the fitted plane.
   const auto [sine, cosine] = elementary::sincos(found.pose.turn);
   const double slope_x = (from.plane.slope_x + plane.slope_x * unit) / cell;
   const double slope_y = (from.plane.slope_y + plane.slope_y * unit) / cell;
@@ -145,7 +144,7 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   result.tilt_y = sine * slope_x + cosine * slope_y - onto.plane.slope_y / cell;
   result.lift = from.plane.height + plane.height * unit - onto.plane.height -
                 onto.plane.slope_x * found.pose.x - onto.plane.slope_y * found.pose.y;
-  // The uncertainties of the slopes turn as lengths of an ellipse along the axes do.
+  // Slope uncertainties rotate like the axes of an ellipse.
   const double ux = u.plane.slope_x * unit / cell, uy = u.plane.slope_y * unit / cell;
   result.u = {u.pose.x * cell,
               u.pose.y * cell,

@@ -12,10 +12,9 @@ namespace asperity {
 
 namespace {
 
-// Heights as (z·down - mean - rest)·up, of order one; both factors are powers of two, and `rest` is
-// what the mean loses by being rounded to a double.
+// (z·down - mean - rest)·up is of order one, with powers of two; `rest`: rounding of the mean.
 struct Normalised {
-  int exponent = 0;  // one unit is 2^exponent metres
+  int exponent = 0;  // unit: 2^exponent m
   double down = 1, mean = 0, rest = 0, up = 1;
   double operator()(double z) const { return ((z * down - mean) - rest) * up; }
 };
@@ -59,7 +58,7 @@ Roughness flat(const Range& r) {
   return result;
 }
 
-// The root of the mean of (dx/hx)² + (dy/hy)², with the squares taken of numbers of order one.
+// Root mean square of (dx/hx)² + (dy/hy)², from squares of order one.
 double rms_slope(const Field& z, const Grid& grid, const Normalised& unit) {
   const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
   const int columns = along_x ? grid.nx - 1 : 1, rows = along_y ? grid.ny - 1 : 1;
@@ -85,7 +84,7 @@ double rms_slope(const Field& z, const Grid& grid, const Normalised& unit) {
   return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
 }
 
-// The mean of the squares of differences over the pairs of which both are known; NaN where there is none.
+// Mean over pairs; NaN without pairs.
 struct PairMean {
   double sum = 0;
   std::int64_t pairs = 0;
@@ -94,7 +93,7 @@ struct PairMean {
   }
 };
 
-// Over the pairs (k, k + step) of a line; those that are not pairs of neighbours are left out by `holds`.
+// Pairs (k, k + step); `holds` excludes pairs across a rim.
 template <class Holds>
 PairMean mean_square_difference(std::span<const double> z, std::size_t step, const Normalised& unit,
                                 const Holds& holds) {
@@ -107,7 +106,6 @@ PairMean mean_square_difference(std::span<const double> z, std::size_t step, con
   return {sum, static_cast<std::int64_t>(pairs)};
 }
 
-// Of a surface with holes: pairs along x and pairs along y, each by themselves.
 double rms_slope_of_pairs(const Field& z, const Grid& grid, const Normalised& unit) {
   const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
   const double h = along_x && along_y ? std::min(grid.hx(), grid.hy()) : (along_x ? grid.hx() : grid.hy());

@@ -13,16 +13,15 @@ namespace asperity {
 
 namespace {
 
-// Digamma and trigamma are summed up to here by their recurrences; their series are exact to 1e-14 beyond.
+// Recurrences run to here; the series are exact to 1e-14 beyond.
 constexpr double far_out = 16;
 
-// Of empty bands, see the header.
+// Criterion of empty_band.
 constexpr double least_gap = 1, standard_deviations = 3.5;
 
 }  // namespace
 
-// From half the length, as the Hann window leaks the mean into the ordinate before (a periodic profile
-// needs none and starts at its length), down to three samples, as what aliases fills up the rest.
+// The Hann window leaks the mean into the first ordinate; waves below three samples are aliased.
 std::vector<SpectralBand> spectral_bands(int n, bool wrap) {
   std::vector<SpectralBand> result;
   if (n < 16) return result;
@@ -47,7 +46,7 @@ std::vector<double> band_wavelengths(int n, bool wrap) {
 
 namespace {
 
-// Hann's window of n samples, that of the last length kept: profiles of one surface are all of one length.
+// Cached for the last length.
 const Array<double>& hann_window(int n) {
   thread_local Array<double> window;
   if (window.size() == static_cast<std::size_t>(n)) return window;
@@ -73,7 +72,7 @@ void band_log_powers(std::span<const double> heights, double unit, bool wrap, st
     total += value * value;
   }
   const Array<std::complex<double>> waves = fourier_forward(samples);
-  // What rounding leaves of an ordinate that is zero.
+  // Rounding floor of a zero ordinate.
   const double floor = 1e-32 * total * n;
   const std::vector<SpectralBand> bands = spectral_bands(n, wrap);
   for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -102,7 +101,7 @@ double log_mean_deficit(double independent) {
   return elementary::log(independent) - digamma;
 }
 
-// The same, 6.4.6 and 6.4.12.
+// Abramowitz and Stegun (1964), 6.4.6 and 6.4.12.
 double log_mean_scatter(double independent) {
   double below = 0, v = independent;
   for (; v < far_out; v += 1) below += 1 / (v * v);

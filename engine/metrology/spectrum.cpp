@@ -16,7 +16,6 @@ namespace asperity {
 
 namespace {
 
-// Samples of the window along one side; ones where there is a single node.
 Array<double> window_samples(Window window, int n) {
   Array<double> samples(static_cast<std::size_t>(n), 1.0);
   if (window == Window::hann && n > 1)
@@ -33,7 +32,6 @@ double mean_square(std::span<const double> samples) {
          static_cast<double>(samples.size());
 }
 
-// The weighted mean over the nodes that were measured.
 double known_weighted_mean(const Field& z, std::span<const double> wx, std::span<const double> wy) {
   double result = 0;
   for (int pass = 0; pass < 2; ++pass) {
@@ -54,7 +52,7 @@ double known_weighted_mean(const Field& z, std::span<const double> wx, std::span
   return result;
 }
 
-// The weighted mean, in two passes for the sake of large offsets.
+// Two passes, against large offsets.
 double weighted_mean(const Field& z, std::span<const double> wx, std::span<const double> wy) {
   double result = 0;
   for (int pass = 0; pass < 2; ++pass) {
@@ -71,7 +69,6 @@ double weighted_mean(const Field& z, std::span<const double> wx, std::span<const
   return result;
 }
 
-// Which shell a wave falls in.
 struct Shells {
   double fundamental = 0, corner = 0;  // rad/m
   int bins = 0;
@@ -90,7 +87,7 @@ Shells shells_of(const Grid& grid, int bins) {
   return {least, elementary::hypot(x * (grid.nx / 2), y * (grid.ny / 2)), bins};
 }
 
-// `measure` is the area of a surface, the length of a profile.
+// `measure`: area (surface) or length (profile).
 Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
   if (bins < 0)
     throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
@@ -134,7 +131,7 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
       if (a == 0 && b == 0) continue;
       const double qx = 2 * pi / grid.size_x * a;
       const double q2 = qx * qx + qy * qy, q = std::sqrt(q2);
-      // Bin a stands for the wave and its conjugate, but for the ends, which are their own.
+      // Bins represent a wave and its conjugate, except the self-conjugate ends.
       const int twins = a == 0 || 2 * a == waves.nx() ? 1 : 2;
       const double power = twins * std::norm(waves(a, b) * per_node) / window_power;
       heights += power;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// On one patch of the bilinear surface the tip rests on a node, on an edge (a straight line: closed form)
-// or inside (a saddle). Every candidate is a point of the surface, so none is above the true maximum. On a
-// patch whose twist times R is below 1 the problem is concave and Newton's method finds its one maximum; on
-// one that is twisted more there may be several, sought from ten places.
+// On a bilinear patch the tip touches a node, an edge (closed form) or the inside (a saddle). All candidates
+// are surface points. For twist · R < 1 the problem is concave and Newton's method finds the maximum;
+// otherwise we use ten starts.
 #include "engine/metrology/spherical_tip.hpp"
 
 #include <algorithm>
@@ -26,23 +25,20 @@ double checked_radius(double radius) {
   return radius;
 }
 
-// How far a sphere lies above its lowest point at distance d <= R from it, without cancellation.
+// Rise of a sphere at distance d <= R, without cancellation.
 double rise(double radius, double d2) {
   return d2 / (radius + std::sqrt(std::max(radius * radius - d2, 0.0)));
 }
 
-// The distance at which a sphere has risen by `height`, at most R.
 double reach_of(double radius, double height) {
   return height >= radius ? radius : std::sqrt(height * (2 * radius - height));
 }
 
-// Indices of nodes along one axis from `from` to `to` about a place in cells.
 struct Nodes {
   std::int64_t from = 0, to = -1;
 };
 
-// Nodes of all cells within `reach` cells of `place`; of a periodic axis those of one period, whose nearer
-// images are the only ones that count.
+// Nodes of all cells within `reach` cells; at most one period.
 Nodes nodes_within(double place, double reach, int n, bool wraps) {
   if (wraps) reach = std::min(reach, 0.5 * n);
   double from = std::floor(place - reach), to = std::floor(place + reach) + 1;
@@ -58,10 +54,10 @@ int wrapped(std::int64_t k, int n) {
   return static_cast<int>(rest < 0 ? rest + n : rest);
 }
 
-// One cell of the map seen from the axis of the tip; lengths along it in the unit of the tip, heights m.
+// Relative to the tip's axis: lengths in the tip's unit, heights in m.
 struct Patch {
-  double x = 0, y = 0;    // of its first node
-  double hx = 0, hy = 0;  // 0 where there is no next node
+  double x = 0, y = 0;    // first node
+  double hx = 0, hy = 0;  // 0 at the last node
   double z00 = 0, z10 = 0, z01 = 0, z11 = 0;
 
   double top() const { return std::max(std::max(z00, z10), std::max(z01, z11)); }
@@ -75,7 +71,7 @@ struct Patch {
   }
 };
 
-// The highest that a sphere must stand over patches, from a first height on.
+// Maximum resting height over patches.
 class Resting {
  public:
   Resting(double radius, int exponent, double height)
@@ -90,7 +86,7 @@ class Resting {
   void touch(const Patch& p) {
     if (p.top() <= height_) return;
     const double nearest = p.nearest_squared();
-    // The parabola lies below the sphere and costs no root.
+    // The parabola is below the sphere and needs no root.
     if (nearest > radius_ * radius_ || p.top() - parabola_ * nearest <= height_ ||
         p.top() - drop(nearest) <= height_)
       return;
@@ -108,7 +104,7 @@ class Resting {
     if (d2 <= radius_ * radius_) height_ = std::max(height_, z - drop(d2));
   }
 
-  // A line from `start`, at distance `aside` from the axis; its ends are nodes of their own.
+  // A line at distance `aside` from the axis; ends count as nodes.
   void touch_edge(double start, double length, double aside, double first, double second, bool along_y) {
     if (aside * aside >= radius_ * radius_) return;
     const double at = rest((second - first) * unit_ / length, aside);
@@ -122,7 +118,7 @@ class Resting {
                         (p.z11 - p.z10 - p.z01 + p.z00) * unit_ / p.hx / p.hy};
     constexpr double gentle = 0.5;
     if (std::abs(saddle.twist) * radius_ < gentle) {
-      // Where the tip would rest on the plane through the middle of the patch.
+      // Start: contact with the plane through the middle.
       const double mx = saddle.gx + saddle.twist * 0.5 * p.hy, my = saddle.gy + saddle.twist * 0.5 * p.hx;
       const double norm = radius_ / std::sqrt(1 + mx * mx + my * my);
       offer_inside(p, newton(p, saddle, {norm * mx, norm * my}));
@@ -133,7 +129,6 @@ class Resting {
     climb(p, saddle, {std::clamp(0.0, p.x, p.x + p.hx), std::clamp(0.0, p.y, p.y + p.hy)});
   }
 
-  // Heights over a patch are linear along both axes, with slopes that the twist changes.
   struct Saddle {
     double gx, gy, twist;
     double slope_x(const Patch& p, double y) const { return gx + twist * (y - p.y); }
@@ -146,12 +141,12 @@ class Resting {
     if (q.x > p.x && q.x < p.x + p.hx && q.y > p.y && q.y < p.y + p.hy) offer(q.x, q.y, p.height(q.x, q.y));
   }
 
-  // Where a line of some slope, at distance `aside` from the axis, meets the tip.
+  // Contact with a sloping line at distance `aside` from the axis.
   double rest(double slope, double aside) const {
     return std::sqrt(std::max(radius_ * radius_ - aside * aside, 0.0)) * slope / std::sqrt(1 + slope * slope);
   }
 
-  // Rests along x and along y in turn, which never goes down, and ends with Newton's method.
+  // Contacts along x and y in turn never lower the height.
   void climb(const Patch& p, const Saddle& saddle, Point q) {
     if (!within(q)) return;
     constexpr int most_turns = 30;
@@ -165,7 +160,7 @@ class Resting {
     offer_inside(p, newton(p, saddle, q));
   }
 
-  // The point near q where the gradients of patch and tip agree; q itself where there is no way up to one.
+  // Equal gradients of patch and tip near q.
   Point newton(const Patch& p, const Saddle& saddle, Point q) const {
     constexpr int most_steps = 12;
     for (int step = 0; step < most_steps && saddle.twist != 0; ++step) {
@@ -182,7 +177,7 @@ class Resting {
       for (double share = 0.5; !within(next) && share > 1e-3; share *= 0.5)
         next = {q.x + share * d.x, q.y + share * d.y};
       q = next;
-      if (std::abs(d.x) + std::abs(d.y) < 1e-9 * radius_) break;  // the height is then right to 1e-18
+      if (std::abs(d.x) + std::abs(d.y) < 1e-9 * radius_) break;  // height error 1e-18
     }
     return q;
   }
@@ -190,7 +185,7 @@ class Resting {
   double radius_, metre_, unit_, parabola_, height_;
 };
 
-// Dilation by the nodes, or with `sign` -1 erosion: -dilation(-z).
+// Dilation by the nodes; `sign` -1: erosion, -dilation(-z).
 Field extremes(const Surface& surface, const Field& z, double sign, double radius, Monitor& monitor,
                const char* what) {
   const Grid& g = surface.grid();
@@ -277,10 +272,10 @@ double SphericalTip::height(Point point) const {
     v -= std::floor(v / g.ny) * g.ny;
   }
   Resting resting(radius_, exponent_, below);
-  // How far off anything can still lift the tip: the higher it stands already, the nearer.
+  // The reach shrinks as the tip rises.
   const auto reach = [&] { return reach_of(radius_, std::ldexp(top_ - resting.height(), -exponent_)); };
   const Nodes rows = nodes_within(v, reach() / hy_, g.ny, wraps);
-  if (rows.from > rows.to) return below;  // the tip stands beside the surface
+  if (rows.from > rows.to) return below;  // outside the surface
   const Field& z = surface_.heights();
   const auto touch_row = [&](std::int64_t j) {
     Patch patch;
@@ -307,7 +302,7 @@ double SphericalTip::height(Point point) const {
       i = next;
     }
   };
-  // From the axis outwards, so that the tip soon stands where the far rows end it.
+  // Near rows first: a high tip shortens the reach.
   const auto middle = std::clamp(static_cast<std::int64_t>(std::floor(v)), rows.from, rows.to);
   for (std::int64_t away = 0; away <= std::max(rows.to - middle, middle - rows.from); ++away) {
     if (middle + away <= rows.to) touch_row(middle + away);

@@ -22,7 +22,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double same = 1e-9;  // relative, of lengths that a script gives twice
+constexpr double same = 1e-9;  // relative tolerance of lengths given twice
 
 double spacing_of(const StylusOptions& o) {
   require_positive("spacing", o.spacing);
@@ -49,8 +49,7 @@ std::int64_t whole_spacings(double length, double spacing) {
 
 double ratio(double with, double without) { return with == without ? 1 : with / without; }
 
-// The angles from x at which a line of some length fits into a rectangle, within one quarter turn; nothing
-// where it fits at none. The diagonal itself fits in spite of rounding.
+// Angles at which a line fits into a rectangle; the tolerance admits the diagonal.
 std::optional<Range> fitting_angles(double length, double width, double height) {
   const double low = length > width ? elementary::acos(width / length) : 0;
   const double high = length > height ? elementary::asin(height / length) : 0.5 * std::numbers::pi;
@@ -96,7 +95,6 @@ std::vector<Traverse> Stylus::lines(const Surface& surface, int count, std::uint
   const Stream stream(seed, "stylus");
   std::vector<Traverse> lines(static_cast<std::size_t>(count));
   const bool wraps = surface.traits().periodic;
-  // From the first sample to the last.
   const double travel = (samples() - 1) * spacing_;
   const double width = (g.nx - 1) * g.hx(), height = (g.ny - 1) * g.hy();
   const std::optional<Range> angles = fitting_angles(travel, width, height);
@@ -114,7 +112,7 @@ std::vector<Traverse> Stylus::lines(const Surface& surface, int count, std::uint
       lines[k] = {{across * g.size_x, along * g.size_y}, 2 * std::numbers::pi * turn};
       continue;
     }
-    // One quarter turn stands for all: the rest is which end is the first, by both axes.
+    // One quarter turn suffices: random bits mirror it.
     const double angle = angles->min + angles->span() * turn;
     const double dx = travel * elementary::cos(angle), dy = travel * elementary::sin(angle);
     const std::uint64_t quarter = stream.below(4 * k + 3, 4);

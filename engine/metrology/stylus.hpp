@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A stylus profiler: straight traverses at random places and angles over a surface, sampled at equal
-// spacing, each height that of a spherical tip resting on the surface (spherical_tip.hpp). The traces are
-// as the tip gives them: nothing is levelled or filtered. Beside them stands what the tip made of
-// the surface, compared with a needle on the same lines. Not modelled: noise, drift, skid, load. On a surface
-// with holes only a needle (tip 0) can be followed; its traces have holes where a node around was not
-// measured.
+// Stylus profiler: straight traverses at random places and angles, sampled at equal spacing by a spherical
+// tip (spherical_tip.hpp), neither levelled nor filtered. Not modelled: noise, drift, skid, load. Surfaces
+// with holes need a needle (tip 0); its traces have holes.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +17,27 @@
 namespace asperity {
 
 struct StylusOptions {
-  double tip = 2e-6;              // m, radius of the tip, >= 0
-  std::optional<double> spacing;  // m between samples; default speed/rate if both are given, else 0.25 µm
-  double length = 2e-3;           // m of a trace
-  std::optional<double> speed;    // m/s along the trace
-  std::optional<double> rate;     // samples a second
+  double tip = 2e-6;              // m, tip radius >= 0
+  std::optional<double> spacing;  // m; default speed/rate if both are given, else stylus_spacing
+  double length = 2e-3;           // m
+  std::optional<double> speed;    // m/s
+  std::optional<double> rate;     // samples per second
 };
 
 inline constexpr double stylus_spacing = 0.25e-6;
 inline constexpr int most_stylus_samples = 1 << 24;
 inline constexpr int most_traces = 100000;
 
-// Where a trace begins and the direction it takes, radians counter-clockwise from x.
+// Angle: radians counter-clockwise from x.
 struct Traverse {
   Point start;
   double angle = 0;
 };
 
-// What the tip did to the traces, against a needle on the same lines. Ratios are sums over all traces,
-// with the tip over without; 1 where both are 0.
+// Ratios of sums with the tip and with a needle on the same lines; 1 if both are 0.
 struct TipEffect {
   double ra_ratio = 1, rms_slope_ratio = 1, amplitude_ratio = 1;
-  double mean_lift = 0, greatest_lift = 0;  // m, of the tip's lowest point above the surface
+  double mean_lift = 0, greatest_lift = 0;  // m, tip above surface
 };
 
 struct StylusScan {
@@ -50,34 +46,31 @@ struct StylusScan {
   TipEffect effect;
 };
 
-// An immutable value.
 class Stylus {
  public:
-  // Throws Error{bad_value} naming the option: a tip below 0, a length under two or over 2^24 samples,
-  // lengths that are not finite and positive, and a `spacing` that is not speed/rate to 1e-9.
+  // Throws Error{bad_value} naming the option: a negative tip, under two or over 2^24 samples, non-positive
+  // or infinite lengths, or `spacing` unlike speed/rate (1e-9).
   explicit Stylus(const StylusOptions& options);
 
   double tip() const { return tip_; }
   double spacing() const { return spacing_; }
   double length() const { return length_; }
-  int samples() const;  // of one trace: whole spacings in the length
-  // The third of spacing = speed/rate follows from two; nothing where only the spacing is known.
+  int samples() const;  // per trace: whole spacings in the length
+  // Follow from spacing = speed/rate; empty if only the spacing is known.
   std::optional<double> speed() const { return speed_; }
   std::optional<double> rate() const { return rate_; }
   std::string digest() const;
 
-  // Line k depends on seed, k and the size of the surface alone, so the same seed goes over the same ground
-  // again after a contact. On a periodic surface start and angle are uniform and the line may
-  // wrap round the tile several times; on any other the angle is uniform among those at which the whole
-  // line fits between the outermost nodes, then the place among those where it does. Throws
-  // Error{bad_value} naming `length` where no line fits, or `count` outside 1 … 100000.
+  // Line k depends only on seed, k and surface size, so lines repeat after a contact. Periodic: uniform start
+  // and angle, possibly wrapping. Otherwise: angle uniform among fitting ones, then place. Throws
+  // Error{bad_value} naming `length` if no line fits, or `count` outside 1 … 100000.
   std::vector<Traverse> lines(const Surface& surface, int count, std::uint64_t seed) const;
 
-  // The heights of one traverse. Cost: samples · cells within reach of the tip. Throws Error{bad_value} for a
-  // surface with holes where the tip is not a needle, or where no sample of the line was measured.
+  // Cost: samples · cells within reach. Throws Error{bad_value} for a positive tip on a surface with holes,
+  // or a line without measured samples.
   Profile trace(const Surface& surface, const Traverse& line) const;
 
-  // Traces along lines(), of measured samples where there are holes. Same bits for any number of threads.
+  // Same bits for any thread count.
   StylusScan scan(const Surface& surface, int count, std::uint64_t seed,
                   Monitor& monitor = Monitor::silent()) const;
 

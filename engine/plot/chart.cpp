@@ -14,8 +14,8 @@ namespace asperity {
 
 namespace {
 
-// Filled and open shapes of gnuplot that stay apart when small and in black: circle, square, triangle,
-// diamond, triangle down, pentagon; then their open forms.
+// Distinct when small and black, filled then open: circle, square, triangle, diamond, triangle down,
+// pentagon.
 constexpr std::array<int, 10> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12};
 constexpr std::array<std::string_view, 5> dashes = {"1", "'-'", "'_. '", "'.'", "'_-'"};
 constexpr std::array<std::string_view, 4> reference_dashes = {"'--'", "'. '", "'-. '", "'-.. '"};
@@ -52,13 +52,12 @@ std::string count_sentence(std::size_t lost, std::size_t all, std::string_view w
          " not drawn: " + std::string(why);
 }
 
-// Counts of omitted values over all series, by reason.
 struct Losses {
   std::size_t all = 0, not_finite = 0, too_large = 0, not_positive_x = 0, not_positive_y = 0;
 
   bool keep(double x, double y, const LineChart& chart) {
     ++all;
-    // The largest doubles would overflow in the sums that place them.
+    // Larger values overflow in the layout.
     constexpr double largest = 1e300;
     if (!std::isfinite(x) || !std::isfinite(y)) {
       ++not_finite;
@@ -147,8 +146,8 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
                        const AxisLayout& y, bool across) {
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) {
-    if (point.after_gap) text += "\n";  // an empty line breaks the line of a plot
-    // The foot of a bar that reaches past zero ends at the rim of a logarithmic axis.
+    if (point.after_gap) text += "\n";  // an empty line breaks the plotted line
+    // Clips bars at the rim of a logarithmic axis.
     const double low = std::max(point.low / y.factor, y.low), high = std::min(point.high / y.factor, y.high);
     text += gnuplot_number(point.x / x.factor) + " " + gnuplot_number(point.y / y.factor) + " " +
             gnuplot_number(low) + " " + gnuplot_number(high);
@@ -159,7 +158,6 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
   return text + "EOD\n";
 }
 
-// The drawn values of a chart, and their range.
 struct Content {
   std::vector<std::vector<Point>> points, clouds;
   Ends ends;
@@ -226,7 +224,7 @@ Axes axes_of(const LineChart& chart, const Content& content) {
       for (const double value : *values)
         x_axis.prefix_for = y_axis.prefix_for = std::max(x_axis.prefix_for.value_or(0), std::abs(value));
   Axes axes{lay_out(x_axis, content.ends.x), lay_out(y_axis, content.ends.y)};
-  // Bars stand on the axis.
+  // Bars start at the axis.
   if (!chart.bars.empty() && !chart.y.logarithmic) axes.y.low = std::max(axes.y.low, 0.0);
   return axes;
 }
@@ -259,8 +257,7 @@ std::string bar_data(const LineChart& chart, const Axes& axes, const std::string
   return text + "EOD\n";
 }
 
-// Pixels from the left to the axis, so that no slanted name begins left of the canvas; 0: gnuplot's default.
-// Measured on text of 16 points.
+// Left margin in pixels for slanted names (16 points); 0: gnuplot's default.
 double left_rim(const LineChart& chart, const AxisLayout& x) {
   constexpr double usual = 125, character = 11.8, share_along = 0.71, reserved = 160;
   if (!x.slanted) return 0;
@@ -272,7 +269,7 @@ double left_rim(const LineChart& chart, const AxisLayout& x) {
   return rim;
 }
 
-// Width in pixels of the numbers along y and their label, with text of 16 points.
+// Pixels for numbers and label along y (16 points).
 double room_for_numbers(const AxisLayout& y) {
   constexpr double label_and_gaps = 74, character = 12.5;
   std::size_t longest = 0;
@@ -280,8 +277,7 @@ double room_for_numbers(const AxisLayout& y) {
   return label_and_gaps + character * static_cast<double>(longest);
 }
 
-// Place of the key: right of the plot, with the same right rim in all panels. The key of a single chart is
-// below the plot if the longest name needs more than a third of the width.
+// Right of the plot, aligned over panels; long names of a single chart move the key below.
 std::string key_command(const LineChart& chart, std::size_t longest_name,
                         const std::optional<double>& right_rim) {
   constexpr double sample = 70, character = 8.5, widest = 1.0 / 3;
@@ -319,7 +315,6 @@ std::string title_of(const std::string& name) {
   return name.empty() ? " notitle" : " title " + gnuplot_text(name);
 }
 
-// Layers behind and in front of the other series.
 struct Layers {
   std::vector<std::string> behind, front;
 };
@@ -360,7 +355,7 @@ void add_series(const ChartSeries& series, int k, int lines, const Content& cont
   layers.front.push_back(layer + title_of(series.name));
 }
 
-// The commands that draw a chart on a canvas that is open. `prefix` keeps the data of panels apart.
+// `prefix` separates the data of panels.
 std::string body_of(const LineChart& chart, const Content& content, const Axes& axes,
                     const std::string& prefix, const std::optional<double>& right_rim) {
   std::string script;
@@ -392,7 +387,6 @@ std::string body_of(const LineChart& chart, const Content& content, const Axes& 
   return script + "plot " + joined(layers.behind, ", ") + "\n";
 }
 
-// As it is, with the names of its key shortened to the room beside a panel.
 LineChart with_short_names(LineChart chart) {
   constexpr std::size_t longest = 30;
   for (ChartSeries& series : chart.series) series.name = shortened(series.name, longest);
@@ -446,21 +440,21 @@ std::string chart_script(std::span<const LineChart> given, PictureFormat format,
     axes.push_back(axes_of(panels[k], contents[k]));
     left = std::max({left, left_rim(panels[k], axes.back().x), room_for_numbers(axes.back().y)});
   }
-  // Names are written once, below the last panel that has them.
+  // Only the last of adjacent panels shows shared names.
   for (std::size_t k = 0; k + 1 < panels.size(); ++k)
     if (!panels[k].x.names.empty() && share_x(panels[k], panels[k + 1])) {
       axes[k].x.label.clear();
       axes[k].x.slanted = false;
       for (Tic& tic : axes[k].x.tics) tic.label = " ";
     }
-  // Room for the longest name and its sample of a line, for all panels, so that their axes stand in one line.
+  // Room for the longest name and its sample, equal for all panels.
   const double beside = 100 + 12.0 * static_cast<double>(longest);
   const double right = longest == 0 ? 0.97 : 1 - std::min(0.5, beside / width);
   std::string script = gnuplot_terminal(format, width, height, 16);
   script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen " +
             gnuplot_number(left / width) + "\nset rmargin at screen " + gnuplot_number(right) + "\n";
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    // Nothing of the panel above stays.
+    // Reset settings of the panel above.
     if (k > 0)
       script +=
           "unset logscale\nunset label\nunset title\nset size noratio\nset key default\n"

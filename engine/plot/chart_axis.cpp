@@ -25,13 +25,13 @@ std::string superscript(int power) {
 }
 
 struct Scale {
-  std::string unit;  // as printed, "" for none
+  std::string unit;  // as printed, "": none
   double factor = 1;
 };
 
 Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
   if (unit.empty()) {
-    // A plain number that would need many zeros takes a power of ten into the label.
+    // Numbers with many zeros move a power of ten into the label.
     if (!logarithmic && largest > 0 && std::isfinite(largest) && (largest < 1e-3 || largest >= 1e5)) {
       const int power = 3 * static_cast<int>(std::floor(elementary::log10(largest) / 3));
       if (power < -300) return {};
@@ -41,14 +41,14 @@ Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
   }
   try {
     const Quantity one = parse_unit(unit);
-    // A share: plain numbers have no unit to be shown in, and "%" is one that readers know.
+    // Shares stay plain numbers; only "%" is shown.
     if (one.dimension == dimension::number)
       return one.value == 1 ? scale_for("", largest, logarithmic) : Scale{printed_unit(unit), 1};
     const DisplayUnit display = display_unit(largest * one.value, one.dimension);
     const double factor = display.factor / one.value;
     if (std::isfinite(factor) && factor > 0) return {printed_unit(display.name), factor};
   } catch (const Error&) {
-    // Not a unit of physics ("cells", "trials"): shown as the script wrote it.
+    // Not a physical unit ("cells", "trials"): shown as given.
   }
   return {printed_unit(unit), 1};
 }
@@ -58,7 +58,6 @@ std::string with_minus_sign(std::string label) {
   return label;
 }
 
-// `value` with the digits that a step of `step` needs.
 std::string tic_label(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-elementary::log10(step) - 1e-9)));
   if (decimals > 6 || std::abs(value) >= 1e7) {
@@ -76,7 +75,7 @@ std::string tic_label(double value, double step) {
 std::vector<Tic> linear_tics(double low, double high, int wanted, bool whole = false) {
   double step = round_below((high - low) / wanted);
   if (whole) step = std::max(step, 1.0);
-  // The next round step up, where this one would crowd.
+  // Too many tics: next round step.
   if ((high - low) / step > 1.5 * wanted) step = round_below(2.6 * step);
   std::vector<Tic> tics;
   const double first = std::ceil(low / step - 1e-9);
@@ -98,7 +97,7 @@ std::vector<Tic> logarithmic_tics(double low, double high) {
   const double decades = elementary::log10(high) - elementary::log10(low);
   const int first = static_cast<int>(std::floor(elementary::log10(low))),
             last = static_cast<int>(std::ceil(elementary::log10(high)));
-  // Less than two thirds of a decade holds too few of 1, 2, 5.
+  // Too short for tics at 1, 2, 5.
   if (decades < 0.67) return linear_tics(low, high, 6);
   const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
   std::vector<Tic> tics;
@@ -177,7 +176,7 @@ namespace {
 
 AxisLayout names_layout(const ChartAxis& axis) {
   constexpr std::size_t longest = 24;
-  constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels, on the usual canvas
+  constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels on the default canvas
   AxisLayout layout;
   layout.label = axis.label;
   layout.low = -0.5;
@@ -211,7 +210,7 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
     low = axis.logarithmic ? 1 : 0;
     high = axis.logarithmic ? 10 : 1;
   }
-  // Room for the sums below: no picture tells 1e300 from more.
+  // Avoids overflow in the sums below.
   constexpr double largest = 1e300, smallest = 1e-300;
   low = std::clamp(low, -largest, largest);
   high = std::clamp(high, -largest, largest);
@@ -220,7 +219,7 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
     high = std::max(high, smallest);
   }
   AxisLayout layout;
-  // Over many decades the middle one should read best, not the last.
+  // On a logarithmic axis the middle decade should read best.
   const double usual =
       axis.logarithmic ? std::sqrt(low) * std::sqrt(high) : std::max(std::abs(low), std::abs(high));
   const double magnitude = axis.prefix_for.value_or(usual);
@@ -232,7 +231,7 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
   low /= scale.factor;
   high /= scale.factor;
   if (axis.logarithmic) {
-    // One value alone gets a third of a decade on each side.
+    // A single value gets a factor of 2 on each side.
     if (high < low * (1 + 1e-9)) margin = 0, low /= 2, high *= 2;
     const double stretch =
         axis.range ? 1 : elementary::exp(margin * (elementary::log(high) - elementary::log(low)));

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Length of the UTF-8 character that begins at `k`, or 0 if none does.
+// Length of the UTF-8 character at `k`; 0 if invalid.
 std::size_t character_length(std::string_view text, std::size_t k) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(k);
@@ -56,8 +56,7 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The environment without variables that could change the picture: the language, the time zone (of the date
-// in a PDF) and gnuplot's own variables.
+// Without variables that change the picture: language, time zone (PDF date), gnuplot's.
 std::vector<char*> plain_environment() {
   static char language[] = "LC_ALL=C.UTF-8", zone[] = "TZ=UTC0";
   std::vector<char*> kept;
@@ -81,7 +80,7 @@ pid_t start(const fs::path& folder) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "messages", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  // In another process group: Ctrl-C goes to the run, which decides about the picture.
+  // Own process group: Ctrl-C reaches only the run, which decides.
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);
@@ -148,7 +147,7 @@ std::string gnuplot_text(std::string_view text) {
     } else if (byte < 0x20 || byte == 0x7F) {
       literal += ' ';
     } else if (byte == '\'') {
-      literal += "’";  // a doubled quote fails where a text begins with it
+      literal += "’";  // a doubled quote fails at the start of a text
     } else {
       literal += text.substr(k, length);
     }
@@ -182,7 +181,7 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
   if (format == PictureFormat::png)
     return "set terminal pngcairo size " + size + look + " background '#ffffff'\n";
   if (format == PictureFormat::pdf) {
-    // Its points are 72 to the inch, and a pixel is a hundredth of one.
+    // 72 points and 100 pixels per inch.
     const std::string inches = format_short(0.01 * width, 6) + "in," + format_short(0.01 * height, 6) + "in";
     return "set terminal pdfcairo size " + inches + look + " fontscale 0.72 background '#ffffff'\n";
   }
@@ -211,7 +210,7 @@ void draw_pictures_by(std::function<GnuplotDrawer> other) { drawer() = std::move
 std::string without_date(std::string picture) {
   if (!picture.starts_with("%PDF")) return picture;
   static constexpr std::string_view mark = "/CreationDate (D:", date = "20000101000000";
-  // Cairo writes it once, in a dictionary of its own near the end, and does not compress that.
+  // Cairo writes one uncompressed date near the end.
   const std::size_t at = picture.rfind(mark);
   if (at == std::string::npos) return picture;
   for (std::size_t k = 0; k < date.size() && at + mark.size() + k < picture.size(); ++k) {
@@ -241,7 +240,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   GnuplotResult result{without_date(content_of(folder.path() / "picture")),
                        without_ends(content_of(folder.path() / "messages"))};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
-  // A shell's convention, for systems where a missing program is found out only by the child.
+  // Shell convention: on some systems only the child detects a missing program.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())
     throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
                 "install the package gnuplot-nox");

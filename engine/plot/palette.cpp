@@ -18,7 +18,7 @@ constexpr unsigned viridis[] = {0x440154, 0x48186a, 0x472d7b, 0x424086, 0x3b528b
 constexpr unsigned cividis[] = {0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173,
                                 0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46};
 constexpr unsigned grey[] = {0x000000, 0xffffff};
-// Inferno from .62 of its way down to its foot: each is 3 to 1 darker than `nothing`, at the least.
+// Inferno from .62 down to 0; contrast to `nothing` at least 3 to 1.
 constexpr unsigned heat[] = {0xdf5337, 0xcb4149, 0xb1325a, 0x932667, 0x751d6c,
                              0x57106e, 0x380962, 0x190c3e, 0x000004};
 constexpr unsigned nothing = 0xe6eaed;
@@ -75,7 +75,7 @@ std::string_view palette_of_field(std::string_view field) {
 
 unsigned line_colour(int k, int lines) {
   if (lines <= static_cast<int>(okabe_ito.size())) return okabe_ito[static_cast<std::size_t>(k)];
-  constexpr double lightest = 0.88;  // the end of viridis is too pale for a line on white
+  constexpr double lightest = 0.88;  // the end of viridis is too pale on white
   return palettes[0].colour(lightest * k / (lines - 1));
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours that can be told apart by eyes with any colour vision and in grey print. For ordered values:
-// viridis and cividis (perceptually uniform; Smith & van der Walt 2015, Nuñez, Anderton & Renslow
-// 2018), grey, heat (for what is nothing over most of a map, such as pressures: light grey at nothing, then
-// from orange over purple to black, the lower part of inferno, each at 3:1 or more to that grey), balance
-// (two-sided about the middle) and contact (light grey: apart, dark blue: touching). The page has the same
-// colours (bindings/web/page/src/palettes.ts). For lines: the qualitative set of Okabe & Ito (2008).
+// Colour maps readable with any colour vision and in grey: viridis, cividis (Smith & van der Walt 2015;
+// Nuñez, Anderton & Renslow 2018), grey, heat (light grey for none, then dark inferno at contrast 3:1),
+// balance (two-sided), contact. Lines: Okabe & Ito (2008). Same colours in bindings/web/page/src/palettes.ts.
 #pragma once
 
 #include <optional>
@@ -17,10 +14,10 @@ namespace asperity {
 
 struct Palette {
   std::string_view name;
-  std::span<const unsigned> colours;  // 0xRRGGBB at equal steps, first for the lowest value
-  std::optional<unsigned> none = {};  // of the lowest value itself, where that is nothing
+  std::span<const unsigned> colours;  // 0xRRGGBB at equal steps, lowest value first
+  std::optional<unsigned> none = {};  // colour of the lowest value, if it means none
 
-  // Linear between the two nearest steps; `at` is held to [0, 1].
+  // Linear interpolation; `at` is clamped to [0, 1].
   unsigned colour(double at) const;
 };
 
@@ -28,11 +25,10 @@ std::vector<std::string> palette_names();
 // Throws Error{unknown_name} with the nearest name.
 const Palette& palette(std::string_view name);
 
-// What a field is drawn in, on the page too: "gap" in cividis, "pressure" and "plastic" in heat, "contact" in
-// contact, all others in viridis.
+// Also on the page.
 std::string_view palette_of_field(std::string_view field);
 
-// Colour of line `k` of `lines`: the qualitative set while it suffices, else steps of viridis.
+// Okabe & Ito while the set suffices, else viridis.
 unsigned line_colour(int k, int lines);
 
 }  // namespace asperity

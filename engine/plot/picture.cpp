@@ -19,10 +19,9 @@ namespace asperity {
 
 namespace {
 
-constexpr int most_relief_cells = 240;  // a side of a relief: more would only be moiré
+constexpr int most_relief_cells = 240;  // per side; more gives moiré
 constexpr double longest_aspect = 20;
 
-// How much of cell k of `cells` lies in each patch it touches.
 struct Share {
   int patch;
   double weight;
@@ -41,7 +40,7 @@ std::vector<std::vector<Share>> shares(int cells, int patches) {
   return all;
 }
 
-// gnuplot draws images of two cells a side at least.
+// gnuplot needs two cells a side.
 Field at_least_two(const Field& field) {
   if (field.nx() > 1 && field.ny() > 1) return field;
   Field doubled(std::max(field.nx(), 2), std::max(field.ny(), 2));
@@ -99,7 +98,7 @@ std::string range_command(std::string_view axis, const AxisLayout& layout) {
          gnuplot_number(layout.high) + "]\n";
 }
 
-// Place of a map on its canvas, in pixels from the lower left corner.
+// Pixels from the lower left corner.
 struct Canvas {
   double width, height, font;
   double left, bottom, map_width, map_height;
@@ -116,7 +115,7 @@ Canvas canvas_of(const Grid& grid, const PictureOptions& options) {
   Canvas canvas{};
   canvas.width = options.width;
   canvas.font = 15.0 * options.width / 1000;
-  const double text = 4.0 / 3.0 * canvas.font;  // height of a line of text
+  const double text = 4.0 / 3.0 * canvas.font;  // line height
   const double aspect = fits_to_scale(grid)         ? grid.size_y / grid.size_x
                         : grid.size_y > grid.size_x ? 2.0
                                                     : 0.2;
@@ -127,9 +126,9 @@ Canvas canvas_of(const Grid& grid, const PictureOptions& options) {
     canvas.map_width = std::max(2.0, std::round(canvas.map_height / aspect));
   }
   canvas.left = std::round(0.125 * options.width);
-  // A tall map leaves its canvas narrower.
+  // Tall maps narrow the canvas.
   canvas.width = std::round(canvas.left + canvas.map_width + beside * options.width);
-  canvas.bar_height = std::max(canvas.map_height, 6 * text);  // beside a flat strip it keeps room for tics
+  canvas.bar_height = std::max(canvas.map_height, 6 * text);  // room for tics of flat strips
   canvas.bar_bottom = std::round(4 * text);
   canvas.bottom = canvas.bar_bottom + std::round((canvas.bar_height - canvas.map_height) / 2);
   canvas.height =
@@ -141,8 +140,7 @@ std::string screen(double x, double y, const Canvas& canvas) {
   return "screen " + format_short(x / canvas.width, 8) + ", screen " + format_short(y / canvas.height, 8);
 }
 
-// A white bar with its length, on a dark veil so that it reads on any colour; left out where the map
-// is too low or narrow to hold it.
+// White on a dark veil, readable on any colour; omitted on small maps.
 std::string scale_bar(const AxisLayout& x, const Canvas& canvas) {
   const double text = 4.0 / 3.0 * canvas.font;
   const double length = round_below((x.high - x.low) / 4);
@@ -167,7 +165,7 @@ std::string scale_bar(const AxisLayout& x, const Canvas& canvas) {
 
 struct Frame {
   AxisLayout x, y, colour;
-  double step_x, step_y;  // of a drawn cell, displayed
+  double step_x, step_y;  // of a drawn cell, displayed unit
 };
 
 int tics_along(double pixels, double font) { return std::clamp(static_cast<int>(pixels / (4 * font)), 1, 6); }
@@ -233,8 +231,7 @@ std::string map_body(const Frame& frame, const Field& cells, const PictureOption
   return text + "\n";
 }
 
-// Beside the numbers of a map's bar. Beside those of a relief gnuplot takes them for narrower than they may
-// be, and there is no more room: its title stands above the bar, up to the edge of the canvas.
+// In a relief, gnuplot underestimates the bar's numbers; the title is above the bar.
 std::string bar_title(const std::string& label, bool relief) {
   if (!relief) return "\nset cblabel " + gnuplot_text(label);
   return "\nset label 1 " + gnuplot_text(label) + " at screen 0.985, screen 0.8 right front";
@@ -291,7 +288,7 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
     canvas.width = options.width;
     canvas.height = std::round(0.7 * canvas.width);
   }
-  // A cell a pixel is the most that can be seen.
+  // At most one cell per pixel.
   const Field cells = at_least_two(
       relief ? reduced(field, most_relief_cells, most_relief_cells)
              : reduced(field, static_cast<int>(canvas.map_width), static_cast<int>(canvas.map_height)));
@@ -307,11 +304,11 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
   PictureOptions resolved = options;
   if (options.palette == "contact" && !options.range) resolved.range = Range{0, 1};
   if (options.palette == "balance" && !options.range) {
-    // Two-sided: nothing is in the middle.
+    // Centre zero.
     const double most_apart = std::max(std::abs(values.min), std::abs(values.max));
     values = {-most_apart, most_apart};
   }
-  // A scale that begins with nothing begins there.
+  // Palettes with a colour for none start at zero.
   if (colours.none && values.min > 0) values.min = 0;
   const Frame frame = frame_of(grid, cells, values, resolved, canvas);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a field on a grid, as PNG: seen from above, true to scale, y upwards, with a scale bar of
-// round length and a colour bar with unit; or in relief. Grids larger than the picture are reduced by
-// area-weighted averages first, so nothing depends on how a viewer scales. Drawn by gnuplot.
+// PNG pictures of a field by gnuplot: maps to scale, y upwards, with scale bar and colour bar; or reliefs.
+// Large grids are reduced first, so viewers need not scale.
 #pragma once
 
 #include <filesystem>
@@ -18,34 +17,32 @@ struct PictureOptions {
   std::string title;
   std::string label = "height";     // of the colour bar
   std::string unit = "m";           // of the values; "" for plain numbers
-  std::string palette = "viridis";  // see palette.hpp; "contact" shows a mask of 0 and 1 with a key
+  std::string palette = "viridis";  // "contact": a mask of 0 and 1 with a key
   std::optional<Range> range;       // of the colours, in `unit`; default: of the values
-  int width = 1000;                 // pixels, 200 … 4000; a tall map takes less
+  int width = 1000;                 // pixels, 200 … 4000; tall maps take less
   enum class View { map, relief } view = View::map;
 };
 
-// The gnuplot script of a picture and the name of the data file it reads ("cells": 32-bit floats).
+// The script, and the bytes of its data file `cells` (32-bit floats).
 struct PictureScript {
   std::string script;
   std::string cells;
 };
 
-// Non-finite values are left blank. A strip (one cell wide, or longer than 20 times its width) is drawn
-// out of scale so that it can be seen. Throws Error{bad_value} for a field that does not fit the grid,
-// no finite value, a bad `width` or `range`; Error{unknown_name} for a palette that is not known.
-// Cost: one pass over the field; memory of a value a pixel.
+// Non-finite values stay blank; strips (aspect above 20) are not to scale. Throws Error{bad_value} for a
+// field unlike the grid, no finite value, a bad `width` or `range`; Error{unknown_name} for the palette.
+// Cost: one pass; a value per pixel.
 PictureScript picture_script(const Grid& grid, const Field& field, const PictureOptions& options);
 
-// Draws into `file` (.png), replaced atomically. Returns warnings: what gnuplot complained of. Throws as
-// picture_script, run_gnuplot and write_atomically do.
+// Replaces `file` (.png) atomically; returns gnuplot's complaints. Throws like picture_script, run_gnuplot,
+// write_atomically.
 std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
                               const std::filesystem::path& file);
-// Points that were not measured are left blank.
+// Holes stay blank.
 std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
                               const std::filesystem::path& file);
 
-// Means of the field over columns × rows equal patches, none more than the field has; cells that straddle
-// patches count by area. Non-finite values do not count; a patch without any other is nan.
+// Area-weighted means over columns × rows equal patches or fewer, of finite values; else NaN.
 Field reduced(const Field& field, int columns, int rows);
 
 }  // namespace asperity

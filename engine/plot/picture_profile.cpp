@@ -13,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-constexpr int most_stretches = 2000;  // about two a pixel
+constexpr int most_stretches = 2000;  // about two per pixel
 
 void add_trace(const Profile& profile, ChartSeries& series) {
   const auto heights = profile.measured_heights();
@@ -22,7 +22,7 @@ void add_trace(const Profile& profile, ChartSeries& series) {
     series.x.push_back(at(k));
     series.y.push_back(heights[k]);
   };
-  // The highest and the lowest that were measured, and the gap where it begins.
+  // Adds the extremes and the start of a gap.
   const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from) {
     std::size_t low = part.size(), high = part.size(), gap = part.size();
     for (std::size_t k = 0; k < part.size(); ++k) {
@@ -59,7 +59,7 @@ void add_trace(const Profile& profile, ChartSeries& series) {
 void add_outline(const Profile& profile, ChartSeries& series) {
   const auto heights = profile.measured_heights();
   const double radius = *profile.closed_radius();
-  // The first point again at the end closes the line.
+  // Repeats the first point.
   for (std::size_t k = 0; k <= heights.size(); ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(heights.size());
     const double r = radius + heights[k % heights.size()];

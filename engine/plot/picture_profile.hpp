@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of profiles: heights along the trace, or for a closed outline its shape in the plane, true to
-// scale. Several profiles may share a picture. Long traces are drawn by the least and greatest height of
-// each stretch, so that no peak is lost.
+// Pictures of profiles: heights along the trace, or closed outlines to scale. Long traces keep the extremes
+// of stretches.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +14,14 @@
 namespace asperity {
 
 struct NamedProfile {
-  std::string name;  // in the key; "" keeps it out
+  std::string name;  // in the key; "": not in the key
   Profile profile;
 };
 
-// Throws Error{bad_value} for no profile, or for open and closed ones together.
+// Throws Error{bad_value} for no profile, or open and closed ones mixed.
 LineChart profile_chart(std::span<const NamedProfile> profiles, std::string title = {});
 
-// Draws into `file` (.svg or .png). Returns the warnings. Throws as profile_chart and draw(LineChart) do.
+// Writes `file` (.svg or .png); returns the warnings. Throws like profile_chart and draw(LineChart).
 std::vector<std::string> draw(const Profile& profile, const std::string& title,
                               const std::filesystem::path& file);
 

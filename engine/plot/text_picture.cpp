@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-// From nothing to full, as ink on a screen of either kind reads best.
+// Light to dense.
 constexpr std::string_view densities = " .:-=+*#%@";
 
 std::string_view variable(const char* name) {
@@ -26,7 +26,7 @@ std::string_view variable(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
-// The nearest of xterm's 6 x 6 x 6 colours.
+// Nearest of xterm's 6 x 6 x 6 colours.
 int indexed(unsigned rgb) {
   constexpr std::array<int, 6> steps = {0, 95, 135, 175, 215, 255};
   const auto nearest = [&](unsigned value) {
@@ -93,7 +93,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
                      const TextCanvas& canvas) {
   const Palette& colours = palette(options.palette);
   const bool coloured = canvas.colours != TextColours::none;
-  // A character is twice as high as wide: in colours it holds two marks, one above the other.
+  // Characters are twice as high as wide; with colours, each holds two marks.
   const double ratio = grid.size_y / grid.size_x;
   const int most_rows = std::max(4, canvas.rows - 4) * (coloured ? 2 : 1);
   const double mark_height = coloured ? 1 : 2;  // in widths
@@ -103,7 +103,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
     width *= most_rows / height;
     height = most_rows;
   }
-  // Small grids are drawn with several marks a cell.
+  // Small grids get several marks per cell.
   const int columns = std::max(1, static_cast<int>(std::lround(width)));
   const int rows = std::max(1, static_cast<int>(std::lround(height)));
   const Field marks = reduced(field, std::min(columns, grid.nx), std::min(rows, grid.ny));
@@ -118,7 +118,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
     throw Error(ErrorCode::bad_value, "there is no finite value to show", "look at the values themselves");
   if (options.range) range = *options.range;
   if (!options.range && colours.none && range.min > 0) range.min = 0;
-  const auto share = [&](int column, int row) {  // row 0 is the lowest
+  const auto share = [&](int column, int row) {  // row 0: lowest
     const int i = std::min(static_cast<int>((column + 0.5) * marks.nx() / columns), marks.nx() - 1);
     const int j = std::min(static_cast<int>((row + 0.5) * marks.ny() / rows), marks.ny() - 1);
     const double value = marks(i, j);
@@ -208,12 +208,11 @@ std::string text_chart(const LineChart& chart, const TextCanvas& canvas, std::ve
   };
   script += "set border 3\n" + axis("x", x, chart.x.logarithmic) + axis("y", y, chart.y.logarithmic);
   script += "set xlabel " + gnuplot_text(x.label) + "\n";
-  // Down the side its letters would stand one below the other.
+  // As a ylabel, the letters would be stacked.
   script += "set title " + gnuplot_text(chart.title.empty() ? y.label : chart.title + ": " + y.label) + "\n";
   script += keyed ? "set key top right\n" : "set key off\n";
   if (keyed && !chart.key_title.empty()) script += "set key title " + gnuplot_text(chart.key_title) + "\n";
   std::string drawn = run_gnuplot(script + "plot " + joined(layers, ", ") + "\n").picture;
-  // Without the empty lines around it, and blanks at the ends of lines.
   std::string text;
   for (std::size_t at = drawn.find_first_not_of('\f'); at < drawn.size();) {
     const std::size_t end = std::min(drawn.find('\n', at), drawn.size());

@@ -19,7 +19,7 @@ namespace asperity {
 
 namespace {
 
-// A value made when it is first asked for; an exception leaves it unmade.
+// Computed on first use; after an exception, the next use tries again.
 template <class T>
 class MadeOnce {
  public:
@@ -45,8 +45,7 @@ Surface prepared_map(const Surface& surface, const ArealPreparation& preparation
   return result;
 }
 
-// Whether what is left of the map by its preparation is rounding: taking a plane away leaves some units in
-// the last place of the heights that were there.
+// Subtracting a plane leaves a few units in the last place of the original heights.
 bool rounding_alone(const Surface& before, const Surface& after, const ArealPreparation& preparation) {
   if (!preparation.F && !preparation.S && !preparation.L) return after.peak_to_valley() == 0;
   const Range r = before.height_range();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The areal parameters of ISO 25178-2 of one map, each group computed when it is first asked for and kept.
-// The map is prepared first by what was asked for and by nothing else: F, a least-squares polynomial taken
-// away; S, the Gaussian low-pass of the small nesting index; L, less the Gaussian low-pass of the large one.
-// Heights count from the mean.
+// Areal parameters of ISO 25178-2, in groups computed on first use and cached. Optional preparation: F
+// subtracts a polynomial, S is a Gaussian low-pass, L subtracts one. Heights are about the mean.
 #pragma once
 
 #include <memory>
@@ -20,26 +18,24 @@
 namespace asperity {
 
 struct ArealPreparation {
-  std::optional<int> F;        // degree of the polynomial
+  std::optional<int> F;        // polynomial degree
   std::optional<double> S, L;  // nesting indices, m
-  double pruning = 0.05;       // of Sz, what a hill must rise above its saddle
+  double pruning = 0.05;       // share of Sz that a hill must rise above its saddle
 };
 
-// Copies share what was computed. Thread-safe; the same bits for any number of threads.
+// Copies share the cache. Thread-safe; same bits for any thread count.
 class ArealParameters {
  public:
-  // Prepares the map. Throws as `levelled` and `gaussian_filtered` do.
+  // Throws like `levelled` and `gaussian_filtered`.
   ArealParameters(const Surface& surface, const ArealPreparation& preparation = {});
 
   const Surface& prepared() const;
   const ArealPreparation& preparation() const;
-  // Whether all heights of the prepared map are equal, or differ by the rounding of its preparation alone, as
-  // those of a plane once its plane is taken away: moments, ratios, hills and texture are then not defined.
+  // Heights differ by rounding at most: moments, ratios, hills and texture are undefined.
   bool flat() const;
-  // Whether the map has nodes that are not at its rim; without them it has no hills.
+  // True if some node is not at the rim; hills need one.
   bool has_inside() const;
-  // "mean removed", or what else was: "F-operation of degree 1, S-filter 2.5 um, L-filter 0.8 mm; mean
-  // removed".
+  // For example "F-operation of degree 1, S-filter 2.5 um, L-filter 0.8 mm, mean removed".
   std::string how() const;
 
   const Roughness& heights() const;
@@ -48,17 +44,15 @@ class ArealParameters {
   const CoreOfCurve& core() const;
   const VolumesOfCurve& volumes() const;
   const Hills& hills() const;
-  // None where heights are equal or the map is one node wide.
+  // Empty for a flat map or one node of width.
   const std::optional<TextureAspect>& texture() const;
-  // None where heights are equal, where the map is under six cells wide, and where no wave lies in the band.
+  // Empty for a flat map, below six cells of width, or without waves in the band.
   const std::optional<TextureDirection>& direction() const;
   const ArealUncertainty& uncertainty() const;
 
-  // Why a parameter is not defined on this map, by its name; empty where it is. Computes its group.
+  // Why a parameter is undefined; empty if it is defined. Computes the group.
   std::string why_not(const std::string& parameter) const;
-  // How many groups were computed so far.
   int groups_computed() const;
-  // Of the prepared map and what it was prepared by.
   std::string digest() const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 enum Term { edges_x, edges_y, crosses, cells, terms };
 
-// A sum and how many entered it, of each kind of difference.
+// Sum and count per kind of difference.
 struct SlopeSums {
   std::array<double, terms> sum{}, count{};
   void add(Term term, double value) {
@@ -25,7 +25,7 @@ struct SlopeSums {
   }
 };
 
-// √(1 + s²) - 1 without the loss of digits at small slopes.
+// √(1 + s²) - 1 without cancellation.
 double excess(double squared) { return squared / (1 + std::sqrt(1 + squared)); }
 
 class SlopesOfRows {
@@ -59,7 +59,7 @@ class SlopesOfRows {
       for (int i = 3; i + 3 < z_.nx(); ++i) {
         const double x = seven([&](int k) { return z_(i + k, j); }) / hx_,
                      y = seven([&](int k) { return z_(i, j + k); }) / hy_;
-        sums.add(crosses, x * x + y * y + 0 * z_(i, j));  // the middle of the cross must be measured too
+        sums.add(crosses, x * x + y * y + 0 * z_(i, j));  // NaN if the middle is missing
       }
     return sums;
   }

@@ -21,7 +21,7 @@ struct TileValues {
   std::vector<std::optional<double>> Sa, Sq, Ssk, Sku, Sdq, Sdr;
 };
 
-// s/√n; none where some tile gave no value.
+// s/√n; empty if a tile has no value.
 std::optional<double> standard_uncertainty(const std::vector<std::optional<double>>& values) {
   const auto n = static_cast<double>(values.size());
   double mean = 0, squares = 0;
@@ -33,7 +33,7 @@ std::optional<double> standard_uncertainty(const std::vector<std::optional<doubl
   return std::sqrt(squares / (n - 1) / n);
 }
 
-// The tile whose first node is (i0, j0); none of which less than half was measured.
+// Tile from node (i0, j0); empty if less than half is measured.
 std::optional<Surface> tile(const Surface& map, int i0, int j0, int nx, int ny) {
   const Field& z = map.measured_heights();
   Field heights(nx, ny);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a map itself says of the uncertainty of its parameters (type A): s/√16 of their values on 4 x 4 tiles,
-// as s/√5 of the sections of a profile (ISO 21920-3). Tiles say so only where each is like the map and they
-// are independent: a side of ten autocorrelation lengths (Sal) and more. For 95 % times Student's t of 15
-// degrees, 2.13. It holds nothing of the instrument: noise, calibration, tip.
+// Type A uncertainty of areal parameters: s/√16 over 4 x 4 tiles, as ISO 21920-3 uses s/√5 over sections.
+// Independence needs tiles of ten autocorrelation lengths (Sal). For 95 %, multiply by 2.13 (Student, 15
+// degrees). The instrument (noise, calibration, tip) is not included.
 #pragma once
 
 #include <optional>
@@ -13,14 +12,13 @@
 namespace asperity {
 
 struct ArealUncertainty {
-  // Standard uncertainties, m or none; all missing where `why_not` says why. A single one is missing where
-  // some tile does not define the parameter.
+  // m or 1. All empty if `why_not` is set; one empty if a tile does not define it.
   std::optional<double> Sa, Sq, Ssk, Sku, Sdq, Sdr;
   std::string why_not;
 };
 
-// Of a map as it was prepared for its parameters; `Sal` [m] of that map, none where it is not defined. Nodes
-// past the last whole tile are left out. A tile of which less than half was measured makes all missing.
+// Prepared map, `Sal` in m. Incomplete tiles are ignored. If a tile is less than half measured, all are
+// empty.
 ArealUncertainty areal_uncertainty(const Surface& map, std::optional<double> Sal);
 
 }  // namespace asperity

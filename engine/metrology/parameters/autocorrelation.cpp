@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-// Sums of products over all pairs at each lag, of a field padded with zeros.
+// Sums of products over all pairs per lag; the padding avoids wrapping.
 Field sums_over_pairs(Field padded) {
   HalfSpectrum spectrum = fourier_forward(padded);
   padded = Field();
@@ -35,19 +35,19 @@ double wrapped(const Field& sums, int i, int j) {
   return sums(i < 0 ? i + sums.nx() : i, j < 0 ? j + sums.ny() : j);
 }
 
-// In place, the coefficients of the cubic B-spline through values at whole places, mirrored at both ends;
-// values are `count` apart by `stride`, for `lanes` neighbours at once.
+// Cubic B-spline coefficients in place, values mirrored at both ends, `stride` apart, `lanes` neighbours at
+// once.
 void to_spline(double* values, int count, std::size_t stride, std::size_t lanes) {
   if (count == 1) return;
   const double pole = std::sqrt(3.0) - 2;
   const auto at = [=](int k) { return values + static_cast<std::size_t>(k) * stride; };
-  // The causal start: the sum over the mirrored values, cut where it is below rounding.
+  // Causal start: sum over mirrored values, cut below rounding.
   const int reach = std::min(count - 1, 40), period = 2 * (count - 1);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     double sum = 0, power = 1;
     if (reach < count - 1) {
       for (int k = 0; k <= reach; ++k, power *= pole) sum += power * at(k)[lane];
-    } else {  // the whole period, whose sum repeats
+    } else {  // whole period
       double last = 1;
       for (int k = 0; k < period; ++k, power *= pole)
         sum += power * at(k < count ? k : period - k)[lane], last = power * pole;
@@ -119,8 +119,7 @@ double Autocorrelation::operator()(int i, int j) const {
   return j < 0 ? half_(lags_x_ - i, -j) : half_(lags_x_ + i, j);
 }
 
-// f between the lags: on the rows of lags along y from -3 on, which is as far as a cubic spline is felt to
-// the digits that matter, so that the upper half alone is kept.
+// Rows from lag -40 on suffice: farther rows change the spline below rounding.
 class Autocorrelation::Spline {
  public:
   explicit Spline(const Autocorrelation& f)
@@ -133,8 +132,7 @@ class Autocorrelation::Spline {
     for (int j = -below_; j <= lags_y_; ++j)
       for (int i = -lags_x_; i <= lags_x_; ++i) {
         const double value = f(i, j);
-        coefficients_(i + lags_x_, j + below_) =
-            std::isnan(value) ? 1 : value;  // no pairs: not known to have fallen
+        coefficients_(i + lags_x_, j + below_) = std::isnan(value) ? 1 : value;  // no pairs: not fallen
       }
     const auto stride = static_cast<std::size_t>(coefficients_.nx());
     parallel_for(coefficients_.ny(), [&](std::int64_t j) {
@@ -147,7 +145,7 @@ class Autocorrelation::Spline {
     });
   }
 
-  // At (x, y) metres, y >= 0, within the lags.
+  // At (x, y) in m, y >= 0.
   double operator()(double x, double y) const {
     const double u = x / hx_ + lags_x_, v = y / hy_ + below_;
     const int i = std::clamp(static_cast<int>(std::floor(u)), 0, coefficients_.nx() - 1),
@@ -167,10 +165,10 @@ class Autocorrelation::Spline {
   }
 
   struct Ray {
-    double length = 0;  // to where f has fallen, or to the rim of the lags
+    double length = 0;  // up to the fall or to the last lag
     bool fell = false;
   };
-  // From the origin at an angle of 0 to π.
+  // From the origin at an angle from 0 to π.
   Ray ray(double angle, double level) const {
     const double dx = elementary::cos(angle), dy = elementary::sin(angle);
     const double to_x = dx == 0 ? INFINITY : lags_x_ * hx_ / std::abs(dx),
@@ -235,7 +233,7 @@ TextureAspect Autocorrelation::texture(double level) const {
     if (r.fell && (shortest < 0 || r.length < ray[static_cast<std::size_t>(shortest)].length)) shortest = k;
   }
   if (shortest < 0) return result;
-  // The least between the neighbours of the shortest, by golden sections.
+  // Golden-section search between the neighbours of the shortest ray.
   double low = shortest - 1, high = shortest + 1, best = ray[static_cast<std::size_t>(shortest)].length;
   double best_place = shortest;
   const double golden = (std::sqrt(5.0) - 1) / 2;

@@ -20,20 +20,20 @@ namespace {
 
 using NodeNumber = std::uint32_t;
 
-// Hills by descending flood, with the parts of the land above the water in a forest (union–find).
+// Descending flood with a union–find forest of land parts.
 class Flood {
  public:
-  // `sign` is 1 for hills and -1 for dales.
+  // 1: hills, -1: dales.
   Flood(const Field& z, double sign) : z_(z), sign_(sign), parent_(z.size()), flooded_(z.size(), false) {}
 
-  // Nodes of the summits that rise by `rise` above the saddle to a higher one, the highest first.
+  // Summits at least `rise` above the saddle to a higher one, highest first.
   std::vector<NodeNumber> summits(double rise) {
     const Array<NodeNumber> order = downwards();
     std::iota(parent_.begin(), parent_.end(), NodeNumber{0});
     std::vector<NodeNumber> kept;
     for (const NodeNumber node : order) {
       flooded_[node] = true;
-      NodeNumber own = node;  // the part that the node is in; its root is its summit, which came first
+      NodeNumber own = node;  // the part's root is its summit
       around(node, [&](NodeNumber other) {
         if (!flooded_[other]) return;
         const NodeNumber root = find(other);
@@ -42,14 +42,14 @@ class Flood {
           parent_[node] = own = root;
           return;
         }
-        // Two hills meet: the lower summit ends here. Of equal ones that of the later node.
+        // At a saddle the lower summit ends; ties: the later node.
         const bool other_is_lower = height(root) < height(own) || (height(root) == height(own) && root > own);
         const NodeNumber lower = other_is_lower ? root : own, higher = other_is_lower ? own : root;
         if (height(lower) - height(node) >= rise && height(lower) > height(node)) kept.push_back(lower);
         parent_[lower] = own = higher;
       });
     }
-    // What never met a higher one ends at the lowest node of its part; a part all of one height is no hill.
+    // Remaining summits end at the lowest node of their part; flat parts are no hills.
     Array<double> lowest(z_.size());
     for (const NodeNumber node : order) lowest[find(node)] = height(node);
     for (const NodeNumber node : order)
@@ -91,7 +91,6 @@ class Flood {
           visit(static_cast<NodeNumber>(b) * static_cast<NodeNumber>(nx) + static_cast<NodeNumber>(a));
   }
 
-  // At the rim of the map or beside a hole.
   bool at_the_rim(NodeNumber node) const {
     int measured = 0;
     around(node, [&](NodeNumber other) { measured += !std::isnan(z_[other]); });
@@ -104,7 +103,7 @@ class Flood {
   std::vector<bool> flooded_;
 };
 
-// How far the first five stand from the mean, upwards or (-1) downwards.
+// Mean distance from the mean of the first five, upwards or (-1) downwards.
 std::optional<double> mean_of_five(const Field& z, const std::vector<NodeNumber>& summits, double mean,
                                    double sign) {
   if (summits.size() < 5) return {};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double window_width = 0.4;
 
-// Sorted values are the same whatever the threads: runs of fixed length, then merged two by two.
+// Fixed runs, merged pairwise: same result for any thread count.
 void sort_downwards(std::span<double> values) {
   constexpr std::size_t run = std::size_t{1} << 17;
   const std::size_t n = values.size();
@@ -71,7 +71,6 @@ double MaterialRatioCurve::height(double ratio) const {
 }
 
 double MaterialRatioCurve::ratio(double height) const {
-  // The samples that are not below it come first.
   const auto below =
       std::partition_point(heights_.begin(), heights_.end(), [=](double h) { return h >= height; });
   if (below == heights_.begin()) return 0;
@@ -81,7 +80,7 @@ double MaterialRatioCurve::ratio(double height) const {
   return place / last_place();
 }
 
-// A part of a segment at either end, whole segments between them.
+// Partial segments at both ends, whole ones between.
 double MaterialRatioCurve::integral(double first, double last) const {
   if (!(last > first)) return 0;
   const double whole_first = std::ceil(first), whole_last = std::floor(last);
@@ -106,7 +105,7 @@ double MaterialRatioCurve::void_volume(double p) const {
   return (1 - p) * c - integral(p * last_place(), last_place()) / last_place();
 }
 
-// Windows begin at samples. Of those that tie (a sine has two, a triangle all) the first.
+// Ties (two windows of a sine, all of a triangle): the first.
 double MaterialRatioCurve::window() const {
   const double width = window_width * last_place(), span = heights_.front() - heights_.back();
   const auto windows = static_cast<std::size_t>(std::floor(last_place() - width)) + 1;
@@ -123,7 +122,7 @@ CoreOfCurve MaterialRatioCurve::core() const {
   if (heights_.front() == heights_.back()) return core;
   const double width = window_width * last_place();
   const double first = window(), last = first + width, middle = first + width / 2;
-  // ∫ (u - middle) c du, exact on each straight piece.
+  // ∫ (u - middle) c du, exact on straight pieces.
   const auto moment = [&](double a, double b) {
     const double ca = at(a), cb = at(b);
     return (b - a) / 6 * ((a - middle) * (2 * ca + cb) + (b - middle) * (ca + 2 * cb));

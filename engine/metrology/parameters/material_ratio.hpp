@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The material ratio curve (Abbott–Firestone, bearing curve) of a surface or a profile, ISO 25178-2 and
-// ISO 21920-2: c(p) is the height above which the share p of the measured samples lies. Heights are sorted
-// downwards and joined by straight lines through (k/(N - 1), h_k), and everything below is exact on that
-// curve: nothing is binned, for bins move Sk by a hundredth. Heights count from the mean.
+// Material ratio curve (Abbott–Firestone), ISO 25178-2 and ISO 21920-2: the share p of measured samples is
+// above c(p). Falling heights about the mean are joined through (k/(N - 1), h_k); results are exact on this
+// curve (bins change Sk by 1 %).
 //
-// Sk and its kin: of the windows [p, p + 0.4] that begin at a sample the one over which c falls least; the
-// least-squares line of c in it, in the direction of heights (not the secant, which gives 2.622 for 2.574 σ
-// of Gaussian heights).
-//   Sk = its fall over 0 … 1        Smr1, Smr2 = the ratios at which c passes its ends
-//   Spk = 2 A1/Smr1, Svk = 2 A2/(1 - Smr2), with A1, A2 the areas between the curve and the line's ends.
-// Volumes: Vm(p) = ∫₀ᵖ (c - c(p)), Vv(p) = ∫ₚ¹ (c(p) - c), per area, hence lengths.
+// Sk: least-squares line of c over the flattest window [p, p + 0.4] that starts at a sample (a secant gives
+// 2.622 σ for 2.574 σ).
+//   Sk = its fall over 0 … 1; Smr1, Smr2 = ratios of c at its ends
+//   Spk = 2 A1/Smr1, Svk = 2 A2/(1 - Smr2); A1, A2: areas between curve and line ends
+// Volumes per area: Vm(p) = ∫₀ᵖ (c - c(p)), Vv(p) = ∫ₚ¹ (c(p) - c).
 #pragma once
 
 #include <span>
@@ -18,13 +16,13 @@
 
 namespace asperity {
 
-// Ratios are shares, 0 … 1; lengths in m.
+// Ratios 0 … 1; lengths in m.
 struct CoreOfCurve {
   double Sk = 0;
-  double Spk = 0, Svk = 0;    // reduced peak height and dale depth; 0 where nothing rises above the line
+  double Spk = 0, Svk = 0;    // reduced peak height and dale depth
   double Smr1 = 0, Smr2 = 1;  // ratios at the ends of the line
-  double Spkx = 0, Svkx = 0;  // from the ends of the line to the highest and lowest sample; may be negative
-  double window = 0;          // where the window begins; near a knee Sk, Spk and Smr1 hang on it
+  double Spkx = 0, Svkx = 0;  // line ends to extreme samples; may be negative
+  double window = 0;          // start of the window; near a knee Sk, Spk and Smr1 depend on it
 };
 
 struct VolumesOfCurve {
@@ -34,20 +32,19 @@ struct VolumesOfCurve {
   double Vvc = 0;  // Vv(0.1) - Vv(0.8), core void
 };
 
-// Immutable; takes 8 bytes a measured sample. Thread-safe.
+// Immutable; 8 bytes per measured sample. Thread-safe.
 class MaterialRatioCurve {
  public:
-  // NaN is a sample that was not measured. Sorts: n log n. Throws Error{bad_value} where none is measured.
+  // NaN: not measured. Cost n log n. Throws Error{bad_value} without measured samples.
   explicit MaterialRatioCurve(std::span<const double> heights);
 
   std::size_t measured() const { return heights_.size(); }
-  double mean() const { return mean_; }  // m, what heights of the curve count from
+  double mean() const { return mean_; }  // m
 
-  // c(p), for p within 0 … 1. Throws Error{bad_value} outside.
+  // c(p), 0 <= p <= 1. Throws Error{bad_value} outside.
   double height(double ratio) const;
-  // The greatest p with c(p) >= height: equal heights count as a whole; 0 above all, 1 below all.
+  // Greatest p with c(p) >= height; 0 above all, 1 below all.
   double ratio(double height) const;
-  // c(p) - c(q).
   double height_difference(double p, double q) const { return height(p) - height(q); }
 
   double material_volume(double p) const;  // Vm(p), m³/m²
@@ -57,12 +54,12 @@ class MaterialRatioCurve {
   VolumesOfCurve volumes() const;
 
  private:
-  double at(double place) const;                     // c at a place 0 … N - 1 of the order
+  double at(double place) const;                     // c at place 0 … N - 1
   double integral(double first, double last) const;  // of c over places
   double last_place() const { return static_cast<double>(heights_.size() - 1); }
   double window() const;
 
-  Array<double> heights_;  // above the mean, downwards
+  Array<double> heights_;  // above the mean, falling
   double mean_ = 0;
 };
 

@@ -17,7 +17,7 @@ namespace asperity {
 
 namespace {
 
-// A sum over the samples that are numbers, and how many these are.
+// Ignores NaN.
 struct Mean {
   double sum = 0;
   std::size_t count = 0;
@@ -32,7 +32,7 @@ struct Mean {
   }
 };
 
-// A moving greatest (or least) of the last `width` samples, NaN left out.
+// Extreme of the last `width` samples, ignoring NaN.
 template <class Before>
 class MovingExtreme {
  public:
@@ -65,14 +65,13 @@ double greatest_height_in_a_section(std::span<const double> v, std::size_t width
   return greatest;
 }
 
-// A hill or a dale of the crossing rule.
 struct Feature {
   bool hill = false;
-  std::size_t last = 0;  // its last sample
-  double extreme = 0;    // m, how far it goes from the mean line
+  std::size_t last = 0;  // last sample
+  double extreme = 0;    // m, greatest distance from the mean line
 };
 
-// Hills over `high` and dales under -`low` by turns.
+// Alternating hills above `high` and dales below -`low`.
 std::vector<Feature> features(std::span<const double> v, double high, double low) {
   std::vector<Feature> found;
   for (std::size_t first = 0; first < v.size();) {
@@ -95,7 +94,7 @@ std::vector<Feature> features(std::span<const double> v, double high, double low
 
 struct Elements {
   Mean width, height;
-  // From a pair of neighbours `left` and `left + 1`, by the crossings that end the features.
+  // Adds features `left` and `left + 1`, between the crossings at their ends.
   void add(const std::vector<Feature>& f, const std::vector<double>& ends, std::size_t left) {
     width.add(ends[left + 1] - ends[left - 1]);
     height.add(f[left].extreme + f[left + 1].extreme);
@@ -106,18 +105,18 @@ Elements elements_of(std::span<const double> v, double high, double low) {
   Elements elements;
   const std::vector<Feature> f = features(v, high, low);
   if (f.size() < 4) return elements;
-  std::vector<double> ends;  // where the line is crossed after each feature but the last, in samples
+  std::vector<double> ends;  // crossing after each feature, in samples
   for (std::size_t k = 0; k + 1 < f.size(); ++k) {
     const double a = v[f[k].last], b = v[f[k].last + 1];
     ends.push_back(static_cast<double>(f[k].last) + a / (a - b));
   }
-  const std::size_t first = 1, last = f.size() - 2;  // the features that are whole
+  const std::size_t first = 1, last = f.size() - 2;
   for (std::size_t k = first; k + 1 <= last; k += 2) elements.add(f, ends, k);
   for (std::size_t k = last; k >= first + 1; k -= 2) elements.add(f, ends, k - 1);
   return elements;
 }
 
-// Mean and standard uncertainty of the mean of one number a section.
+// Mean over sections, and its standard uncertainty.
 template <class Of>
 SectionedValue over_sections(int sections, const Of& of) {
   double sum = 0;
@@ -131,7 +130,7 @@ SectionedValue over_sections(int sections, const Of& of) {
   return result;
 }
 
-// What subtraction leaves of a trace that is all form has no shape of its own.
+// A trace of form only leaves rounding errors.
 void refuse_rounding(const Profile& trace, std::span<const double> left, const std::string& once) {
   const Range before = trace.height_range();
   const double span = known_range(left).span();
@@ -144,7 +143,7 @@ void refuse_rounding(const Profile& trace, std::span<const double> left, const s
 }  // namespace
 
 std::optional<ProfilePreparation> setting_class(std::string_view name) {
-  // Limits of Rz in um: to 0.16, 0.8, 16, 80, above; sections in mm: 0.08, 0.25, 0.8, 2.5, 8.
+  // Rz limits (µm): 0.16, 0.8, 16, 80; sections (mm): 0.08, 0.25, 0.8, 2.5, 8.
   struct Class {
     std::string_view name;
     double S, section;
@@ -241,9 +240,8 @@ ProfileParameters profile_parameters(const Profile& profile, const ProfileSettin
 
   Array<double> v(z.begin(), z.end());
   for (double& h : v) h -= curve.mean();
-  // Of a section, or of all.
   struct Moments {
-    double abs = 0, square = 0;  // about the mean line, or of a section about its own
+    double abs = 0, square = 0;  // about the mean line, or the section's own
     double high = 0, low = 0;    // from the mean line
   };
   const auto moments = [&](std::size_t first, std::size_t last, bool about_its_own) {
@@ -309,7 +307,7 @@ ProfileParameters profile_parameters(const Profile& profile, const ProfileSettin
   for (std::size_t k = 3; k + 3 < n; ++k) {
     const double slope =
         (45 * (v[k + 1] - v[k - 1]) - 9 * (v[k + 2] - v[k - 2]) + (v[k + 3] - v[k - 3])) / (60 * h);
-    seven_squares.add(slope * slope + 0 * v[k]);  // its middle must be measured too
+    seven_squares.add(slope * slope + 0 * v[k]);  // NaN if the middle is missing
   }
   const auto root = [](std::optional<double> square) { return square ? std::sqrt(*square) : square; };
   result.Rdq = root(seven_squares.value());

@@ -23,8 +23,7 @@ struct Stencils {
   }
 };
 
-// Along x the neighbours of a sample are in its row, along y in others: rows are gone through in either case,
-// so that memory is read in order.
+// Runs over rows for both axes, to read memory in order.
 Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis, int cells) {
   const Field& z = surface.measured_heights();
   const Grid& grid = surface.grid();
@@ -32,7 +31,7 @@ Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis
   const bool along_x = axis == ScaleAxis::x;
   const double l = cells * (along_x ? grid.hx() : grid.hy());
   const int reach = along_x ? cells : 0, rise = along_x ? 0 : cells;
-  // A slope needs the sample ahead, a curvature the one behind too.
+  // A slope uses two samples, a curvature three.
   const auto one = [&](double behind, double here, double ahead) {
     return slope ? (ahead - here) / l : ((ahead - here) - (here - behind)) / l / l;
   };
@@ -63,7 +62,7 @@ Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis
   return {block_sum(squares), block_sum(count), *std::min_element(least.begin(), least.end())};
 }
 
-// The residuals of the least-squares plane of a block, by sums about the middle of its measured samples.
+// Residuals of a block's least-squares plane.
 void add_residuals(const Field& z, int i0, int i1, int j0, int j1, double& squares, double& count) {
   double n = 0, x = 0, y = 0, h = 0;
   for (int j = j0; j < j1; ++j)
@@ -78,7 +77,7 @@ void add_residuals(const Field& z, int i0, int i1, int j0, int j1, double& squar
         xx += (i - x) * (i - x), xy += (i - x) * (j - y), yy += (j - y) * (j - y);
         xh += (i - x) * (v - h), yh += (j - y) * (v - h);
       }
-  // Where the samples lie on one line, the slope across it is 0.
+  // Collinear samples: no slope across.
   const double determinant = xx * yy - xy * xy;
   double p = 0, q = 0;
   if (determinant > 1e-12 * xx * yy) {
@@ -131,7 +130,7 @@ double height_in_blocks(const Surface& surface, int blocks) {
   require(blocks >= 1 && blocks <= std::min(grid.nx, grid.ny), "blocks", blocks, "",
           "give a number of blocks a side, from 1 to the cells");
   const Field& z = surface.measured_heights();
-  // Node i is in block i·s/n, so block b begins at the least i with i·s >= b·n.
+  // Node i is in block i·s/n: block b starts at the smallest i with i·s >= b·n.
   const auto begin = [blocks](int b, int n) {
     return static_cast<int>((static_cast<std::int64_t>(b) * n + blocks - 1) / blocks);
   };

@@ -17,7 +17,7 @@ namespace asperity {
 namespace {
 
 constexpr int half_degrees = 360;
-constexpr double least_cycles = 3;  // of the shortest waves along the shorter side
+constexpr double least_cycles = 3;  // shortest waves along the shorter side
 
 Array<double> hann(int n) {
   Array<double> window(static_cast<std::size_t>(n));
@@ -28,8 +28,7 @@ Array<double> hann(int n) {
   return window;
 }
 
-// Which bin a wave (x, y) with y >= 0 is in, without an arc tangent a wave: the middles between bins are
-// angles whose sines and cosines are kept, and a wave is past those to whose left it lies.
+// Bin of a wave (x, y), y >= 0, by cross products with the borders, without arc tangents.
 class Bins {
  public:
   Bins() {
@@ -40,7 +39,7 @@ class Bins {
     }
   }
   int of(double x, double y) const {
-    int low = 0, high = half_degrees;  // the number of middles passed
+    int low = 0, high = half_degrees;  // borders passed
     while (low < high) {
       const int k = (low + high) / 2;
       const auto m = static_cast<std::size_t>(k);
@@ -79,13 +78,13 @@ TextureDirection texture_direction(const Surface& surface) {
   const HalfSpectrum spectrum = fourier_forward(windowed);
 
   const Bins bins;
-  // Rows of waves by themselves, so that the sums have one order.
+  // Row by row: fixed order of sums.
   Field of_rows(half_degrees, grid.ny);
   parallel_for(grid.ny, [&](std::int64_t row) {
     const int b = static_cast<int>(row), wave_y = spectrum.wave_y(b);
     const std::span<double> power = of_rows.row(b);
     for (int a = 0; a < spectrum.bins_x(); ++a) {
-      if (a == 0 && wave_y < 0) continue;  // the same wave as its opposite
+      if (a == 0 && wave_y < 0) continue;  // same as its opposite
       const double fx = a / grid.size_x, fy = wave_y / grid.size_y;
       if (a * a + static_cast<double>(wave_y) * wave_y <= 1.5 * 1.5 || fx * fx + fy * fy >= nyquist * nyquist)
         continue;

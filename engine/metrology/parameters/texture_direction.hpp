@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The direction of a texture, Std of ISO 25178-2: the angle at which the power of the waves is greatest, in
-// bins of half a degree. Heights about their mean, holes at the mean, a Hann window, frequencies in cycles a
-// metre, those of more than 1.5 cycles along the map and below the smaller of the two Nyquist frequencies.
-// That is the direction of the wave vector, at right angles to the lay; both are given. Resolution is about
-// 57°/(cycles in the map); where the texture has no direction (Str near 1) the number means nothing.
+// Texture direction Std of ISO 25178-2: the angle of maximum wave power, in half degrees. Mean in holes; Hann
+// window; waves of over 1.5 cycles per map, below the smaller Nyquist frequency. Std is the wave vector,
+// normal to the lay. Resolution about 57°/(cycles in the map); meaningless for Str near 1.
 #pragma once
 
 #include "engine/surface/surface.hpp"
@@ -11,14 +9,13 @@
 namespace asperity {
 
 struct TextureDirection {
-  double wave = 0;  // rad from x towards y, 0 … π: of the wave vector
-  double lay = 0;   // rad, 0 … π: wave ± π/2
-  double share =
-      0;  // of the power that counts, the part within the one bin; 1/360 where there is no direction
+  double wave = 0;   // rad from x towards y, 0 … π
+  double lay = 0;    // rad, 0 … π: wave ± π/2
+  double share = 0;  // power in the bin of `wave`; 1/360 if isotropic
 };
 
-// One transform, two copies of the grid. Throws Error{bad_value} for equal heights, for a map under six of
-// its longer cells along a side, and where no wave lies in the band.
+// One transform, two grid copies. Throws Error{bad_value} for equal heights, under six longer cells along a
+// side, or no wave in the band.
 TextureDirection texture_direction(const Surface& surface);
 
 }  // namespace asperity

@@ -21,7 +21,7 @@ constexpr double short_sigma = 1, greatest_long_sigma = 15, least_long_sigma = 3
 constexpr double clip = 1.2;                                                       // root mean squares
 constexpr int peak_radius = 3;                                                     // nodes
 
-// Zero where nothing was measured.
+// Holes are zero.
 Field band_passed(const HeightMap& map, double long_sigma) {
   const SmoothMap fine = smoothed_map(map, short_sigma * map.hx);
   const SmoothMap broad = smoothed_map(map, long_sigma * map.hx);
@@ -38,8 +38,7 @@ Field band_passed(const HeightMap& map, double long_sigma) {
   return band;
 }
 
-// The map turned about its centre onto nodes of the same spacing, in the middle of a field of zeros whose
-// node (cx, cy) is the centre; by bilinear interpolation.
+// Turns the map about its centre, bilinearly, to centre (cx, cy); zeros outside.
 void turn_into(const Field& band, double angle, double cx, double cy, Field& out) {
   const auto [sine, cosine] = elementary::sincos(angle);
   const int nx = band.nx(), ny = band.ny();
@@ -61,7 +60,7 @@ void turn_into(const Field& band, double angle, double cx, double cy, Field& out
   }
 }
 
-// How far centres may lie apart, and the shift from where they stand, in nodes.
+// Limits of the centres' distance and of the shift, in nodes.
 struct Reach {
   double x, y, radius, from_x, from_y;
   bool holds(double dx, double dy) const {
@@ -76,10 +75,9 @@ struct Search {
   int period_x, period_y;
   double middle_x, middle_y;  // of the before-map, from its node (0, 0)
   Reach reach;
-  std::size_t peaks;  // that are kept of an angle
+  std::size_t peaks;  // per angle
 };
 
-// Peaks within reach, highest first.
 std::vector<Candidate> peaks(const Search& search, double angle) {
   const int px = search.period_x, py = search.period_y;
   Field turned(px, py);
@@ -102,7 +100,7 @@ std::vector<Candidate> peaks(const Search& search, double angle) {
   const double unit = std::sqrt(squares / static_cast<double>(correlation.size()));
   std::vector<Candidate> found;
   if (!(unit > 0)) return found;
-  // Lag (a, b) puts node (cx, cy) of the turned map on node (cx + a, cy + b) of the before-map.
+  // Lag (a, b) shifts node (cx, cy) of the turned map to (cx + a, cy + b) of the before-map.
   for (int b = 0; b < py; ++b)
     for (int a = 0; a < px; ++a) {
       const double dx0 = cx - search.middle_x + a, dy0 = cy - search.middle_y + b;
@@ -146,12 +144,12 @@ std::vector<double> angles(const CoarseOptions& options) {
 
 std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMap& after,
                                          const CoarseOptions& options, Monitor& monitor) {
-  // Waves much longer than the smaller map is wide are told there from its mean alone.
+  // Narrow maps show only the mean of long waves.
   const int narrowest = std::min({before.nx(), before.ny(), after.nx(), after.ny()});
   const double long_sigma = std::clamp(narrowest / 6.0, least_long_sigma, greatest_long_sigma);
   const Field before_band = band_passed(before, long_sigma), after_band = band_passed(after, long_sigma);
   const double spacing = before.hx;
-  // The box around the turned after-map: of the greatest turn for few degrees, its diagonal for more.
+  // Box of the turned after-map; large angles: its diagonal.
   const double quarter = std::min(options.greatest_turn, 0.5 * std::numbers::pi);
   const double diagonal = elementary::hypot(after.nx(), after.ny());
   const elementary::SineCosine of_quarter = elementary::sincos(quarter);
@@ -161,13 +159,13 @@ std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMa
                                                                               : diagonal);
   };
   const double box_x = box(after.nx(), after.ny()), box_y = box(after.ny(), after.nx());
-  // Further apart than this, less than a tenth of the maps overlaps.
+  // Larger shifts overlap less than a tenth.
   const double most = options.greatest_shift / spacing, longer = std::max(after.nx(), after.ny());
   const double from_x = options.from_x / spacing, from_y = options.from_y / spacing;
   const Reach reach{std::min(most + std::abs(from_x), 0.4 * (before.nx() + std::min(box_x, longer))),
                     std::min(most + std::abs(from_y), 0.4 * (before.ny() + std::min(box_y, longer))), most,
                     from_x, from_y};
-  // Lags beyond the reach may wrap onto each other, not into it.
+  // Wrapped lags stay outside the reach.
   const auto period = [](int n, double turned, double reached) {
     const double least = std::max({0.5 * (n + turned) + reached, turned, static_cast<double>(n)});
     return good_fourier_length(static_cast<int>(std::ceil(least)) + 2);

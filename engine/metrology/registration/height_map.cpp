@@ -18,7 +18,7 @@ namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-// Sums by which the plane through the measured nodes is found; x and y run from -1 to 1.
+// Sums of the plane fit; x and y from -1 to 1.
 std::array<double, 9> plane_sums(const Field& z, double middle) {
   const auto nx = static_cast<std::size_t>(z.nx());
   const double half_x = std::max(0.5 * (z.nx() - 1), 0.5), half_y = std::max(0.5 * (z.ny() - 1), 0.5);
@@ -41,7 +41,7 @@ std::vector<double> gaussian_weights(double sigma) {
   return weights;
 }
 
-// Values before and after a rim count as zero.
+// Zero beyond the rim.
 Field convolved_rows(const Field& in, const std::vector<double>& weights) {
   const int reach = static_cast<int>(weights.size() / 2), nx = in.nx();
   Field out(nx, in.ny());
@@ -76,7 +76,7 @@ HeightMap levelled_map(const Surface& surface, double cell, Plane& plane) {
   HeightMap map{surface.measured_heights(), grid.hx() / cell, grid.hy() / cell};
   Field& z = map.heights;
   plane = {};
-  // The second pass takes what rounding left of a plane much greater than the roughness.
+  // The second pass removes the rounding of a steep plane.
   for (int pass = 0; pass < 2; ++pass) {
     const double middle = known_mean(z.values());
     const auto [n, x, y, xx, xy, yy, v, vx, vy] = plane_sums(z, middle);
@@ -114,7 +114,7 @@ double rms_height(const HeightMap& map) {
 HeightMap without_spikes(const HeightMap& map) {
   const int nx = map.nx(), ny = map.ny();
   const Field& z = map.heights;
-  // Magnitude of the distance from the neighbours' median; NaN where that is not known.
+  // Distance from the neighbours' median, else NaN.
   Field apart(nx, ny, not_measured);
   for_each_row(ny, [&](int j) {
     std::array<double, 8> around{};  // sorted

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A node's height is (c[k-1] + 4 c[k] + c[k+1])/6. Without a second derivative at the rim the coefficient
-// there is the height itself, and that beyond it continues the line through the two next to it.
+// Height: (c[k-1] + 4 c[k] + c[k+1])/6. The rim coefficient is the height; the one beyond continues linearly.
 #include "engine/metrology/registration/natural_spline.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace asperity::registration {
 
 namespace {
 
-// Pivots of the elimination of (1, 4, 1), the same for every line.
+// Pivots of the elimination of (1, 4, 1).
 std::vector<double> pivots(int n) {
   std::vector<double> inverse(static_cast<std::size_t>(std::max(n - 2, 0)));
   double below = 0;
@@ -52,7 +51,7 @@ NaturalSpline::NaturalSpline(const Field& heights) : coefficients_(heights.nx() 
       line[nx] = 2 * line[nx - 1] - line[nx - 2];
     }
   });
-  // Columns side by side: a block of them stays in the cache from row to row.
+  // Blocks of columns stay in the cache.
   constexpr int columns = 64;
   parallel_for((nx + 2 + columns - 1) / columns, [&](std::int64_t turn) {
     const int first = static_cast<int>(turn) * columns, last = std::min(nx + 2, first + columns);

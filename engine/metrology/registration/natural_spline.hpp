@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bicubic spline through the nodes of a map, natural at the rim (no second derivative across it), with
-// its gradient. Exact for planes; between nodes far from the rim its error is of fourth order in the cell.
-// Coefficients of B-splines by a banded elimination along rows, then columns. Thread-safe once it is made.
+// Natural bicubic spline through a map, with gradient. Exact for planes; fourth order far from the rim.
+// Thread-safe once made.
 #pragma once
 
 #include "engine/core/grid.hpp"
@@ -11,10 +10,10 @@ namespace asperity::registration {
 class NaturalSpline {
  public:
   struct Value {
-    double height, along_x, along_y;  // derivatives per node
+    double height, along_x, along_y;  // per node
   };
 
-  // Through finite heights, at least 2 x 2 nodes. O(nodes), as much memory as the map.
+  // Finite heights, 2 x 2 nodes or more. O(nodes); memory of a map.
   explicit NaturalSpline(const Field& heights);
 
   int nx() const { return coefficients_.nx() - 2; }
@@ -23,7 +22,7 @@ class NaturalSpline {
   Value at(double x, double y) const;
 
  private:
-  Field coefficients_;  // one more beyond each rim
+  Field coefficients_;  // B-splines, one more beyond each rim
 };
 
 }  // namespace asperity::registration

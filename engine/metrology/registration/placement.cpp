@@ -20,14 +20,13 @@ namespace {
 constexpr int least_coarse_cells = 16, usual_coarse_cells = 256, most_coarse_cells = 2048;  // along a side
 constexpr double degree = std::numbers::pi / 180;
 constexpr double least_overlap = 0.1;    // of the smaller map
-constexpr double least_explained = 0.5;  // of the variance of the heights
+constexpr double least_explained = 0.5;  // of the variance
 constexpr double firmly_explained = 0.9;
 constexpr double gaussian_reach = 3;  // standard deviations
-// A second placement is as good where it leaves less than this many times the variance unexplained.
+// A second placement is as good below this multiple of the best's unexplained variance.
 constexpr double clearly_worse = 1.5, least_difference = 5e-4;
 
-// The share of a Gaussian that has to fall on measured nodes for its middle to count: nearly all, unless so
-// many points are missing one by one that little would be left.
+// Required measured share of the Gaussian; lower if scattered holes would exclude most nodes.
 double share_that_counts(const SmoothMap& before, const SmoothMap& after, const HeightMap& before_raw,
                          const HeightMap& after_raw) {
   const auto counting = [](const SmoothMap& map, const HeightMap& raw, double share) {
@@ -41,7 +40,6 @@ double share_that_counts(const SmoothMap& before, const SmoothMap& after, const 
   return 0.7;
 }
 
-// Both maps smoothed by the same Gaussian.
 MapPair smoothed_alike(const HeightMap& before, const HeightMap& after, double sigma) {
   const SmoothMap smooth_before = smoothed_map(before, sigma);
   SmoothMap smooth_after = smoothed_map(after, sigma);
@@ -51,8 +49,8 @@ MapPair smoothed_alike(const HeightMap& before, const HeightMap& after, double s
 
 struct Judged {
   Refined best;
-  double second = 0;  // explained by the best placement elsewhere
-  double moved = 0;   // explained a few cells away, along what the heights tell least about
+  double second = 0;  // variance explained elsewhere
+  double moved = 0;   // variance explained a few cells away, in the weakest direction
 };
 
 bool elsewhere(const Pose& a, const Pose& b, double way, double turn) {
@@ -60,9 +58,8 @@ bool elsewhere(const Pose& a, const Pose& b, double way, double turn) {
          std::abs(std::remainder(a.turn - b.turn, 2 * std::numbers::pi)) > turn;
 }
 
-// All candidates, refined on the coarse maps; and the best one moved both ways along what the heights tell
-// least about: along a ridge, or where a sphere is turned about its top, that is as good as before.
-// Refinement would bring it back, to where rim and noise of the two maps happen to agree.
+// Refines candidates, then shifts the best both ways along its weakest direction. On ridges or spheres the
+// shifted placement fits as well. Its pose stays fixed: refinement would follow rim and noise.
 Judged judged(const HeightMap& before, const HeightMap& after, const std::vector<Candidate>& candidates,
               const CoarseOptions& search, Monitor& monitor) {
   const double spacing = before.hx;
@@ -78,7 +75,7 @@ Judged judged(const HeightMap& before, const HeightMap& after, const std::vector
     const Refined one = refined(maps, candidate.pose, options);
     relief = relief && one.relief;
     const double shift = elementary::hypot(one.pose.x - search.from_x, one.pose.y - search.from_y);
-    // The search is as coarse as its cells.
+    // The search resolves its cells only.
     if (one.possible && shift <= search.greatest_shift + 2 * spacing) found.push_back(one);
     task.advance();
   }
@@ -136,7 +133,7 @@ void refuse_what_is_not_decided(const Refined& found, const Judged& coarse) {
            "narrow the search with `angle` and `at_most`, or measure ground with features of its own");
 }
 
-// Every how many nodes are sampled: heights smoothed over a cell tell little more by being sampled in full.
+// Smoothed heights need few samples.
 int stride_of(const HeightMap& map) {
   constexpr double most_samples = 1 << 19;
   return std::max(
@@ -152,8 +149,7 @@ std::string extent_of(const HeightMap& map, double cell) {
 
 Placement find_placement(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits,
                          Monitor& monitor) {
-  // Coarse maps of half the cells and some 256² nodes, more where one map is small beside the other or
-  // narrow.
+  // Coarse maps: twice the cells, about 256² nodes; more for small or narrow maps.
   const double widest = std::max({after.hx, after.hy, before.hx, before.hy});
   const double longest = std::max({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
   const double shortest =
@@ -182,7 +178,7 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   search.from_x = 0.5 * (after.extent_x() - before.extent_x());
   search.from_y = 0.5 * (after.extent_y() - before.extent_y());
   search.step = limits.greatest_turn >= std::numbers::pi ? degree : 0.75 * degree;
-  // A small map is like more places of a large one.
+  // A small map resembles more places.
   const double smaller = std::min(after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y());
   if (smaller < 0.25 * area) {
     search.candidates = 32;
@@ -191,7 +187,7 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   const std::vector<Candidate> candidates = coarse_candidates(coarse_before, coarse_after, search, monitor);
   const Judged coarse = judged(coarse_before, coarse_after, candidates, search, monitor);
 
-  // Of large maps, in steps: what a coarse map tells may be further off than the shortest waves are long.
+  // On large maps the coarse error may exceed the shortest waves.
   RefinementOptions options;
   options.least_overlap = least_overlap;
   Pose start = coarse.best.pose;
@@ -215,7 +211,7 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   if (!u.possible)
     refuse("too little of the maps overlaps to say how sure the placement is",
            "measure more of the same ground");
-  // Few features are soon explained by chance; then the tiles do not agree.
+  // Chance can explain few features; then the tiles disagree.
   const double radius = 0.5 * std::max(after.extent_x(), after.extent_y());
   const double loose = std::max({u.pose.x, u.pose.y, u.pose.turn * radius});
   if (found.explained < firmly_explained && loose > 0.25 * widest)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums are taken row by row of the after-map and added in the order of rows, so that they are the same bits
-// for any number of threads; each row keeps those of its four tiles apart.
+// Sums over rows in fixed order: same bits for any thread count. Each row keeps four tiles apart.
 #include "engine/metrology/registration/refinement.hpp"
 
 #include <algorithm>
@@ -19,10 +18,10 @@ namespace asperity::registration {
 namespace {
 
 constexpr int parameters = 6;  // x, y, turn, height, slope_x, slope_y
-constexpr int tiles = 4;       // along x and along y
+constexpr int tiles = 4;       // along each axis
 using Vector6 = std::array<double, parameters>;
 
-// Lower triangle, row by row.
+// Lower triangle by rows.
 struct Normal {
   std::array<double, 21> entries{};
   Normal& operator+=(const Normal& other) {
@@ -35,8 +34,7 @@ struct Normal {
   }
 };
 
-// By Cholesky's factors; false where the matrix, its rows and columns scaled to a diagonal of ones, is not
-// positive definite to 1e-10.
+// Cholesky; false unless the matrix, scaled to a unit diagonal, is positive definite to 1e-10.
 bool solve(const Normal& normal, const Vector6& right, Vector6& x) {
   const auto at = [](int i, int j) { return static_cast<std::size_t>(i * (i + 1) / 2 + j); };
   const auto of = [](int i) { return static_cast<std::size_t>(i); };
@@ -68,7 +66,7 @@ bool solve(const Normal& normal, const Vector6& right, Vector6& x) {
   return true;
 }
 
-// Such that the first three parameters stay.
+// Fixes the first three parameters.
 void hold_pose(Normal& normal, Vector6& right) {
   for (std::size_t i = 0, k = 0; i < parameters; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k)
@@ -81,7 +79,7 @@ struct Sample {
   double along_x = 0, along_y = 0, turned = 0;                 // derivatives of the model
 };
 
-// What is summed over a tile.
+// Per tile.
 struct Sums {
   Normal weighted;   // Σ w J J'
   Normal curvature;  // Σ ψ' J J'
@@ -113,7 +111,7 @@ class Problem {
 
   double radius() const { return radius_; }
 
-  // Residuals and derivatives at this pose; how many samples count.
+  // Returns the number of counting samples.
   std::size_t sample(const Pose& pose, const Plane& plane) {
     const HeightMap& after = maps_.after();
     const NaturalSpline& before = maps_.before();
@@ -147,8 +145,7 @@ class Problem {
     return count;
   }
 
-  // Leaves out what lies further than `far` from zero, to either side so that noise does not pull, and all
-  // within `reach` of it. How many samples still count.
+  // Excludes samples within `reach` of |residual| > `far`, both signs to avoid bias; returns the number left.
   std::size_t leave_out(double far, double reach) {
     const HeightMap& after = maps_.after();
     const double step_x = after.hx * stride_, step_y = after.hy * stride_;
@@ -171,7 +168,7 @@ class Problem {
     return count;
   }
 
-  // Of the residuals above zero, as a standard deviation.
+  // Standard deviation from the positive residuals.
   double upper_scale() {
     sorted_.clear();
     for (const Sample& s : samples_)
@@ -180,8 +177,7 @@ class Problem {
     return 1.4826 * upper_median(sorted_);
   }
 
-  // Middle of the shortest interval that holds two fifths of the residuals: where unworn ground stands, as
-  // long as this share is left.
+  // Middle of the shortest interval of two fifths of the residuals: the unworn level.
   double mode() {
     sorted_.clear();
     for (const Sample& s : samples_)
@@ -221,7 +217,7 @@ class Problem {
             to.curvature.entries[k] += curved * j[b];
           }
         }
-        // The before-map's height would do as well; that of the after-map is at hand.
+        // Either map's heights would do.
         const double height = after.heights(column * stride_, row * stride_);
         to.weight += weight;
         to.squares += weight * s.residual * s.residual;
@@ -245,7 +241,7 @@ class Problem {
 
   const MapPair& maps_;
   int stride_, columns_, rows_;
-  double radius_;  // scale of turn and slopes, for parameters of equal size
+  double radius_;  // scales turn and slopes
   Array<Sample> samples_;
   Array<double> sorted_;
 };
@@ -296,7 +292,7 @@ Refined refined(const MapPair& maps, const Pose& start, const RefinementOptions&
       problem.sample(found.pose, found.plane);
     }
     found.residual = problem.upper_scale();
-    // Equal maps: the least scale keeps every sample that agrees to rounding.
+    // Equal maps: keeps samples that agree to rounding.
     const double scale = std::max(found.residual, 1e-9);
     Sums total = total_of(problem.sums(scale, options.tuning));
     if (options.plane_alone) hold_pose(total.weighted, total.right);
@@ -318,8 +314,7 @@ Refined refined(const MapPair& maps, const Pose& start, const RefinementOptions&
   return found;
 }
 
-// The smallest eigenvector of what the sums tell of shift and turn once the plane is fitted (the Schur
-// complement of the plane's three entries), by Jacobi's rotations.
+// Smallest eigenvector of the Schur complement of shift and turn (plane eliminated), by Jacobi rotations.
 Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementOptions& options,
                     double length) {
   Problem problem(maps, options.stride);
@@ -365,8 +360,7 @@ Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementO
 
 namespace {
 
-// One Newton step from the solution with the tile's share of the sums taken out, by the true curvature ψ' of
-// the biweight: what leaving the tile out and refining again would give, to first order.
+// One Newton step without the tile, with the biweight's curvature ψ': a new refinement to first order.
 PoseUncertainty jackknifed(const Problem& problem, double scale, double tuning) {
   const TileSums of_tiles = problem.sums(std::max(scale, 1e-9), tuning);
   const Sums total = total_of(of_tiles);
