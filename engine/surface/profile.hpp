@@ -24,7 +24,7 @@ class Profile {
   static Profile with_holes(double spacing, Array<double> heights, std::optional<double> closed_radius = {});
 
   double spacing() const;  // m between samples
-  // m. Throws Error{bad_value} for holes.
+  // m. Throws Error{bad_value} if there are holes.
   std::span<const double> heights() const;
   // m; NaN in holes.
   std::span<const double> measured_heights() const;

@@ -35,7 +35,7 @@ class Surface {
   static Surface with_holes(const Grid& grid, Field heights, SurfaceTraits traits = {});
 
   const Grid& grid() const;
-  // Throws Error{bad_value} for holes.
+  // Throws Error{bad_value} if there are holes.
   const Field& heights() const;
   // NaN in holes.
   const Field& measured_heights() const;
@@ -51,11 +51,11 @@ class Surface {
 
   Surface with_material(Material material) const;
 
-  // Shared nodes of two grids agree to rounding or as the generator documents. The recipe affects neither
-  // digest nor equality. Changing heights drops the recipe unless documented otherwise.
+  // Nodes shared by two grids agree to rounding or as the generator documents. The recipe affects neither
+  // digest nor equality. Operations on heights drop the recipe unless documented otherwise.
   Surface made_by(SurfaceRecipe recipe) const;
   const std::shared_ptr<const SurfaceRecipe>& recipe() const { return recipe_; }  // or null
-  // With this material; none without a recipe or for unsuitable cells.
+  // Runs the recipe, with this material; none without a recipe or for unsuitable cells.
   std::optional<Surface> remade(int nx, int ny, Monitor& monitor = Monitor::silent()) const;
 
   // Covers grid, heights and holes, not material and traits. Computed once, thread-safe.

@@ -106,7 +106,7 @@ class Ground {
   Field take() && { return std::move(heights_); }
 
  private:
-  // Sums both results of act(height, r²) within radii · radius of the centre, first by rows.
+  // Sums both results of act(height, r²) within radii · radius of the centre, by rows, then over the rows.
   template <class Act>
   std::array<double, 2> visit(const Dent& dent, double radii, const Act& act) {
     const double hx = grid_.hx(), hy = grid_.hy(), far = radii * dent.radius;
@@ -132,7 +132,7 @@ class Ground {
       }
       sums_[static_cast<std::size_t>(k)] = sum;
     };
-    // In parallel for enough work and distinct rows.
+    // Parallel only with enough work, and if no row occurs twice.
     constexpr double worth_sharing = 1 << 16;
     if (rows <= grid_.ny && static_cast<double>(rows) * far / hx > worth_sharing) {
       constexpr std::int64_t rows_a_block = 32;

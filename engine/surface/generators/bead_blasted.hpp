@@ -22,7 +22,7 @@ struct BlastTexture {
   double hurst = 0.8;         // H, in (0, 1]
   double roll_off = 40e-6;    // m, flat above, up to the longer side
   double short_wave = 16e-6;  // m, at least two cells
-  double share = 0.12;        // Ra, relative to `ra`
+  double share = 0.12;        // Ra of the texture, relative to `ra`
 };
 
 struct BeadBlastedOptions {

@@ -18,7 +18,7 @@ struct SelfAffineOptions {
   double hurst = 0;  // H, in (0, 1]
   // Exactly one of the three.
   std::optional<double> rms_height;  // m, population rms of the nodes
-  std::optional<double> rms_slope;   // √(Σ |q|² |z_q|²)
+  std::optional<double> rms_slope;   // √(Σ |q|² |z_q|²), spectral
   std::optional<double> ra;          // m, mean absolute height
   std::optional<double> long_wave;   // m; default the longer side
   std::optional<double> roll_off;    // m; default long_wave

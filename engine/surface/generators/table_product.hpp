@@ -8,7 +8,7 @@
 
 namespace asperity::table_product {
 
-// Widest vectors; columns processed together.
+// Multiples: the widest vectors, and the columns processed together.
 inline constexpr int row_step = 24, column_step = 4;
 
 // sum(i, j) += Σ left(i, k) right(k, j) over `depth` terms. Rows of `left` and `sum`, and columns of

@@ -19,7 +19,7 @@ namespace asperity {
 enum class WavePhases { seeded, golden, function };
 enum class WaveBand {
   all,       // as published; waves past Nyquist alias, nearly white noise
-  resolved,  // up to half a turn per cell
+  resolved,  // only waves of at most half a turn per cell
 };
 
 struct WeierstrassMandelbrotOptions {
@@ -28,9 +28,9 @@ struct WeierstrassMandelbrotOptions {
   double span = 1;     // x side in units of L
   double L = 50;       // sample length, m
   double G = 5;        // height scale, m
-  double gamma = 1.5;  // ratio of wave numbers, > 1
+  double gamma = 1.5;  // ratio of neighbouring wave numbers, > 1
   int M = 10;          // directions
-  int n_max = 100;     // n_max·log2 γ ≤ 2048 and n_max ≤ 4096
+  int n_max = 100;     // last order; n_max·log2 γ ≤ 2048 and n_max ≤ 4096
   std::uint64_t seed = 1;
   WavePhases phases = WavePhases::seeded;
   std::function<double(int m, int n)> phase_function;  // rad; if phases = function

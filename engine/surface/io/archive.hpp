@@ -45,9 +45,10 @@ class Archive {
   std::string folder_of(std::string_view name) const;
   // For errors: `the entry "main.xml"`.
   std::string entry_text(std::int64_t index) const;
-  // Unpacked bytes. Throws Error{bad_file} for an impossible compression ratio or an unknown method.
+  // Unpacked bytes, from the directory. Throws Error{bad_file} for an impossible compression ratio or an
+  // unknown method.
   std::uint64_t claimed_size(std::int64_t index) const;
-  // At most `limit` bytes.
+  // Throws Error{bad_file} above `limit` bytes.
   Array<char> contents(std::int64_t index, std::uint64_t limit) const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// In our maps y points up: j = 0 is the lowest line.
+// Place of the first line of a file. In our maps y points up: j = 0 is the lowest line.
 enum class FirstLine { bottom, top };
 struct LineOrder {
   FirstLine first = FirstLine::bottom;
@@ -26,7 +26,7 @@ struct HeightMap {
   Field heights;                         // numbers as stored; NaN: missing
   std::optional<double> unit;            // m per number
   std::optional<double> size_x, size_y;  // nodes times spacing; m, or numbers if size_in_units
-  bool size_in_units = false;            // positions: lengths are in position_unit
+  bool size_in_units = false;            // lengths are in position_unit
   std::optional<double> position_unit;   // m per number of a position
   bool named_columns = false;            // units from the line of column names
   bool pairs = false;                    // columns position and height
@@ -45,12 +45,13 @@ struct FormatAccount {
 
 struct Format {
   std::string_view name;   // as in `format = "npy"`
-  std::string_view marks;  // for errors
+  std::string_view marks;  // as errors show them
   FormatAccount account;
   LineOrder lines;
   std::vector<std::string_view> extensions;    // lower case, no dots
   bool (*recognises)(const SourceFile& file);  // by content; throws only for a stop
-  // Throws Error{bad_file}. Allocates at most a fixed multiple of the file's size.
+  // Throws Error{bad_file} for violations of the format. Allocates at most a fixed multiple of the file's
+  // size.
   HeightMap (*read)(const SourceFile& file, Monitor& monitor);
   // Replaces `read` if files hold several maps; reads the map `channel`, or the default if empty.
   HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField
-// "/N/data", with sizes, units and heights as doubles. Source: "Format of Gwyddion Files", Gwyddion user
-// guide. A mask "/N/mask" is applied only if "/N/meta", written by this program, declares its points as not
-// measured; users mask arbitrary points. Masked heights are the mean, because Gwyddion has no missing
-// height.
+// GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data",
+// with sizes, units and heights as doubles. Source: "Format of Gwyddion Files", Gwyddion user guide. A mask
+// "/N/mask" is applied only if "/N/meta", written by this program, declares its points as not measured;
+// users mask arbitrary points. Masked heights are the mean, because Gwyddion has no missing height.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -22,7 +22,7 @@ namespace asperity {
 
 namespace {
 
-// At most 65536^2 nodes, one of them measured.
+// 32 bits suffice for at most 65536^2 nodes, at least one measured.
 using Index = std::uint32_t;
 
 // Missing nodes, row by row. Absent neighbours have the index size(); vectors hold zero there.

@@ -11,7 +11,7 @@ namespace asperity {
 
 // Replaces every NaN; cells are hx by hy metres. Conjugate gradients with multigrid to 1e-12 of the height
 // range. Returns the number of iterations: ten to twenty for any width of holes. Cost: proportional to the
-// missing points, about 150 bytes each. The bits do not depend on the number of threads. Reports progress;
+// missing points, about 150 bytes each. Same bits for any number of threads. Reports progress;
 // can be stopped. Throws Error{bad_value} if all heights are missing or their range overflows, and
 // Error{not_converged}.
 int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor);

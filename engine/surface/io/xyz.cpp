@@ -288,7 +288,7 @@ std::optional<double> lattice_lines(const LatticeAxis& axis, double most) {
   return {};
 }
 
-// Like the slow axis of a scan.
+// Monotonic, like the slow axis of a scan.
 bool goes_one_way(const TextTable& table, std::size_t column) {
   bool rises = true, falls = true;
   for (std::size_t k = 1; k < static_cast<std::size_t>(table.rows); ++k) {

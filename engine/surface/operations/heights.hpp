@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operations that keep the grid: scaling, sums, differences, multiples, cutting of peaks. Holes remain.
+// Operations that keep the grid: scaling, sums, differences, multiples, cutting of peaks. Holes remain holes.
 // Pure; O(n); throw only Error. Recipes are kept, with the factors and levels found here.
 #pragma once
 

@@ -28,7 +28,7 @@ struct BandWeights {
   std::vector<double> weight;
 };
 
-// Mean of the piecewise linear line over [place - half, place + half] (cells, 0 <= place < n). Near a rim
+// Mean of the piecewise linear profile over [place - half, place + half] (cells, 0 <= place < n). Near a rim
 // the interval shrinks symmetrically, which preserves planes.
 BandWeights mean_weights(double place, double half, int n);
 

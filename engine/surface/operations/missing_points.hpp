@@ -43,9 +43,9 @@ Array<double> mask_of(const Profile& profile);
 Surface masked(const Surface& surface, const Field& mask);
 Profile masked(const Profile& profile, std::span<const double> mask);
 
-// Rule "mad". Residual: height minus the median in a square of `window` nodes a side (periodic, or clipped
-// at the rim). Outliers differ from the median residual by more than `factor` times 1.4826 MAD, the
-// standard deviation of Gaussian residuals.
+// Rule "mad". Residual: height minus the median of the measured heights in a square of `window` nodes a side
+// (periodic, or clipped at the rim). A point is an outlier if its residual differs from the median residual
+// by more than `factor` times 1.4826 MAD, the standard deviation of Gaussian residuals.
 struct OutlierRule {
   double factor = 6;  // > 0; 6 Gaussian deviations: one point in 5e8
   int window = 5;     // nodes a side, odd, 3 … 31

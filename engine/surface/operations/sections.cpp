@@ -61,7 +61,7 @@ Between between(double place, int n, bool wraps) {
   return {below, (below + 1) % n, place - std::floor(place)};
 }
 
-// Keeps a flat exactly flat. NaN of no share is ignored.
+// The clamp keeps a flat exactly flat. A NaN of no share is ignored.
 double mixed(double a, double b, double share) {
   if (std::isnan(a) || std::isnan(b)) return share == 0 ? a : share == 1 ? b : std::nan("");
   return std::clamp((1 - share) * a + share * b, std::min(a, b), std::max(a, b));
@@ -105,7 +105,7 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
   const double length = elementary::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0))
     throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
-  // Tolerates rounding of n cells.
+  // Rounding must not turn n cells into n + 1.
   const double count = points.value_or(std::ceil(length / std::min(g.hx(), g.hy()) - 1e-9) + 1);
   if (!(count >= 2 && count <= most_profile_points && count == std::floor(count)))
     throw Error(ErrorCode::bad_value, "`points` is " + format_short(count, 10),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // OPDx of Bruker's Vision64 (Dektak stylus profilometers): nested items of name, type and value. A profile
 // is the container /1D_Data/NAME; `Extent` spans the first to the last sample. Non-finite numbers are
-// missing samples. Layout: SurfaceTopography's reader. Maps (`2D_Data`) are refused for lack of a test
-// file.
+// missing samples. Layout: SurfaceTopography's reader. Maps (`2D_Data`) are refused for lack of a test file.
 #include <cmath>
 #include <map>
 

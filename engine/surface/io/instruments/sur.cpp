@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SUR of Digital Surf (MountainsMap): header, comment, private zone, then 16- or 32-bit integers, in
-// several pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A
-// missing point is the least number minus 2. Only the first object is read. Layout: the software's
-// reference as restated by Gwyddion's and RosettaSciIO's readers; compression: RosettaSciIO's and
-// surfalize's.
+// SUR of Digital Surf (MountainsMap): header, comment, private zone, then 16- or 32-bit integers, in several
+// pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A missing
+// point is the least number minus 2. Only the first object is read. Layout: the software's reference as
+// restated by Gwyddion's and RosettaSciIO's readers; compression: RosettaSciIO's and surfalize's.
 #include <array>
 #include <cmath>
 
