@@ -69,7 +69,7 @@ struct ForeignEnding {
   const char* what;
 };
 
-// Without an unambiguous mark.
+// Formats without an unambiguous mark.
 constexpr std::array foreign_endings{
     ForeignEnding{"mnt", "a document of MountainsMap (.mnt)"},
     ForeignEnding{"stp", "a scan of Molecular Imaging (.stp)"},

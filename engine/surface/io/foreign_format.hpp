@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recognises unsupported files of instruments and offices, so that an error can name format and way of
-// export. By content; by extension only for binary formats without a mark.
+// Recognises unsupported files of instruments and office programs, so that an error can name the format and
+// its export. By content; by extension only for binary formats without a mark.
 #pragma once
 
 #include <optional>

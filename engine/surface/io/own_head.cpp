@@ -266,7 +266,7 @@ std::optional<OwnHead> own_head(const SourceFile& file) {
   head.lines = begins - 1;
   for (const std::string_view setting : settings) take_head_line(head, setting);
   if (auto names = column_head(last)) {
-    // A sentence of as many words looks the same.
+    // A sentence with the same number of words looks alike.
     const bool parted = last.find_first_of(";,\t") != std::string_view::npos;
     const bool have_units =
         std::ranges::any_of(*names, [](const HeadColumn& column) { return !column.word.empty(); });

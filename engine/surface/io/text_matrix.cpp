@@ -117,7 +117,7 @@ std::optional<std::vector<HeadColumn>> units_of_pair(std::string_view line) {
   return {};
 }
 
-// Up to the first row of numbers.
+// Reads up to the first row of numbers.
 Header read_header(LineReader& lines, const SourceFile& file) {
   Header header;
   std::string_view line;

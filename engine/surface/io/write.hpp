@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The extension selects the format: .npy (float64, shape (ny, nx)), .x3p (ISO 25178-72, double, MD5), .h5
 // .hdf5 (plus an .xdmf for ParaView), .gwy (Gwyddion), .sdf (ISO 25178-71, double), .sur (Digital Surf),
-// .txt .asc (blanks) and .csv (commas). Heights and holes read back bit for bit; .sur rounds heights. NPY
-// stores no size or unit; material and periodicity are never written. The format decides the order of lines
-// (Format::lines). Files are replaced atomically.
+// .txt .asc (blanks) and .csv (commas) with a header of size and unit. Heights and holes read back bit for
+// bit; .sur rounds heights. NPY stores no size or unit; material and periodicity are never written. The
+// format decides the order of lines (Format::lines). Files are replaced atomically.
 #pragma once
 
 #include <string>

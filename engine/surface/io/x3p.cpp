@@ -104,7 +104,7 @@ std::uint64_t count_of(const SourceFile& file, pugi::xml_node dimension, const c
 struct Map {
   std::uint64_t nx = 0, ny = 0;
   std::array<X3pAxis, 3> axes;
-  Array<double> x, y;  // if absolute
+  Array<double> x, y;  // coordinates, if absolute
   Field heights;
 
   std::size_t stored_axes() const {

@@ -15,14 +15,14 @@ namespace asperity {
 // Same path, extension .xdmf.
 std::filesystem::path xdmf_path(const std::filesystem::path& hdf5);
 
-// By the HDF5 extension.
+// True for an HDF5 extension.
 bool has_xdmf_beside(const std::filesystem::path& file);
 
 // For arrays of shape (ny, nx); `hdf5` is their file in the same folder.
 std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,
                       const std::filesystem::path& hdf5);
 
-// HDF5 file first: the description never names missing data. Throws as write_hdf5().
+// Writes the HDF5 file first, so the description never names missing data. Throws as write_hdf5().
 void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
                          const Hdf5Content& content);
 

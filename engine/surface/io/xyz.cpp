@@ -25,7 +25,7 @@ struct LatticeAxis {
   double first = 0, spacing = 0;
   int lines = 0;      // distinct coordinates
   bool even = false;  // within a quarter of the spacing
-  double odd = 0;     // uneven coordinate
+  double odd = 0;     // an uneven coordinate
   Array<double> distinct;
   std::uint64_t rank(double coordinate) const {
     return static_cast<std::uint64_t>(std::upper_bound(distinct.begin(), distinct.end(), coordinate) -
