@@ -11,7 +11,7 @@
 namespace asperity {
 
 std::span<const Material> named_materials() {
-  // Representative engineering values; a script that needs better gives its own.
+  // Representative engineering values; scripts can give better ones.
   static const std::vector<Material> materials = {
       {"Al-2011", 70e9, 0.33, 1.1e9, 2830.0,
        "the alloy of the source paper; hardness from its Brinell number"},
@@ -65,7 +65,7 @@ double plane_strain_modulus(const Material& m) {
                   "the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
                       quoted(key),
                   "give it in lab.material{...}");
-  return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding near -1 too
+  return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding, also near -1
 }
 
 }  // namespace asperity

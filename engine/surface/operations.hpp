@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be made of a surface: other heights, another place, another grid, lines through it. All
-// are pure functions that return new values. Levelling and filtering are metrology's.
+// Operations on surfaces: heights, placement, grid, sections. All are pure functions. Levelling and
+// filtering belong to metrology.
 #pragma once
 
 #include "engine/surface/operations/heights.hpp"

@@ -45,7 +45,7 @@ Profile::Profile(double spacing, Array<double> heights, std::optional<double> cl
       throw Error(ErrorCode::bad_value,
                   "the height of sample " + std::to_string(k) + " is " + format_short(heights[k]),
                   "every height must be a finite number of metres");
-    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one pattern of bits, for the digest
+    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern for the digest
     ++missing;
   }
   if (missing == heights.size())

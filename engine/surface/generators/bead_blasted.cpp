@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A dent is visited in coordinates that are not wrapped, so that one which reaches across the rim of the
-// tile, or around a tile smaller than itself, needs no case of its own.
+// Dents use unwrapped coordinates, so rims and small tiles are no special cases.
 #include "engine/surface/generators/bead_blasted.hpp"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ namespace {
 
 constexpr double floor_reach = 2.2;  // of r²/a²
 constexpr double rim_radius = 1.15, rim_width = 0.2, rim_share = 0.5;
-// Past 4.3 widths the rim is 1e-8 of its crest.
+// At 4.3 widths the rim has decayed to 1e-8.
 constexpr double rim_reach = rim_radius + 4.3 * rim_width;
 
 void check_pair(const char* key, double low, double high) {
@@ -63,7 +62,7 @@ Grid check(const BeadBlastedOptions& o) {
 }
 
 struct Dent {
-  double x = 0, y = 0;   // m, of its centre
+  double x = 0, y = 0;   // m
   double radius = 0;     // m
   double curvature = 0;  // 1/R of the bead, 1/m
 };
@@ -75,7 +74,6 @@ Dent draw(const Stream& stream, std::uint64_t k, const BeadBlastedOptions& o, co
           .curvature = 2 / stream.uniform(4 * k + 3, o.bead_low, o.bead_high)};
 }
 
-// The ground, and what a dent does to it.
 class Ground {
  public:
   explicit Ground(const Grid& grid) : grid_(grid), heights_(grid.nx, grid.ny) {}
@@ -108,8 +106,7 @@ class Ground {
   Field take() && { return std::move(heights_); }
 
  private:
-  // Two sums of what act(height, r²) returns over the nodes within radii · radius of the centre. Sums
-  // are taken row by row and then over the rows.
+  // Sums both results of act(height, r²) within radii · radius of the centre, by rows, then over the rows.
   template <class Act>
   std::array<double, 2> visit(const Dent& dent, double radii, const Act& act) {
     const double hx = grid_.hx(), hy = grid_.hy(), far = radii * dent.radius;
@@ -135,7 +132,7 @@ class Ground {
       }
       sums_[static_cast<std::size_t>(k)] = sum;
     };
-    // Rows are shared out only where there is work enough, and no row is met twice.
+    // Parallel only with enough work, and if no row occurs twice.
     constexpr double worth_sharing = 1 << 16;
     if (rows <= grid_.ny && static_cast<double>(rows) * far / hx > worth_sharing) {
       constexpr std::int64_t rows_a_block = 32;
@@ -164,7 +161,6 @@ class Ground {
   Array<std::array<double, 2>> sums_;
 };
 
-// z becomes (z - average) · factor.
 struct Scale {
   double average = 0, factor = 1;
 };
@@ -172,7 +168,7 @@ void apply(Field& heights, const Scale& scale) {
   for (double& z : heights.values()) z = (z - scale.average) * scale.factor;
 }
 
-// Mean 0 and mean magnitude `ra`; what was done for it.
+// Mean 0, mean magnitude `ra`.
 Scale scale_to(Field& heights, double ra) {
   const double average = mean(heights.values());
   Array<double> magnitudes(heights.size());
@@ -187,7 +183,7 @@ Scale scale_to(Field& heights, double ra) {
   return {average, ra / now};
 }
 
-// The options of the texture under its own key names, handed to `use`, whose refusals name the texture.
+// Errors of `use` name the texture.
 template <class Use>
 auto with_texture(const BeadBlastedOptions& o, const Grid& grid, const Use& use) {
   SelfAffineOptions fine;
@@ -206,7 +202,6 @@ auto with_texture(const BeadBlastedOptions& o, const Grid& grid, const Use& use)
   }
 }
 
-// Flat ground after every dent.
 Field dented(const BeadBlastedOptions& options, const Grid& grid, Monitor& monitor) {
   const auto dents = static_cast<std::int64_t>(dent_count(options));
   const auto key = [&] {
@@ -226,7 +221,7 @@ Field dented(const BeadBlastedOptions& options, const Grid& grid, Monitor& monit
   return recall_or_make("dents of beads", key, monitor, strike).heights;
 }
 
-// What the first grid decided: the texture, and how ground, and ground with texture, are scaled.
+// Scales of the first grid: dents, and dents with texture.
 struct Decided {
   std::shared_ptr<const SurfaceRecipe> fine;
   Scale of_ground, of_all;
@@ -234,7 +229,7 @@ struct Decided {
 
 Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monitor& monitor) {
   const Grid grid = check(options);
-  // Before the dents, so that a texture which cannot be had is refused at once.
+  // Refuses an invalid texture before the dents.
   std::optional<Surface> fine;
   if (options.fine)
     fine = decided != nullptr ? (*decided->fine)(grid.nx, grid.ny, monitor)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A flat surface: height 0 at every node. It is the smooth counter-body that is given as a surface,
-// and the base to which others are added.
+// Height 0 at every node.
 #pragma once
 
 #include "engine/core/monitor.hpp"

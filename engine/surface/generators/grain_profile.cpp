@@ -30,7 +30,7 @@ void check(const GrainProfileOptions& o) {
   require(o.gamma >= 1.01 && o.gamma <= 1e6, "gamma", o.gamma, "", "give a number from 1.01 to 1e6");
 }
 
-// 2π k i/K with the whole turns taken off in integers.
+// 2π k i/K, reduced to one turn in integers.
 double angle(std::int64_t waves, std::int64_t i, std::int64_t points) {
   return two_pi * static_cast<double>(waves * i % points) / static_cast<double>(points);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outline of a quasi-spherical grain with a fractal surface, as in Fig. 1 of Hanaor, Gan & Einav
-// (2013): r(t) = R[1 + ε(2(w - min w)/(max w - min w) - 1)] at equal angles t = 2πi/K, with the
-// Weierstrass sum w(t) = Σ_n γ^((D-2)n) [cos φ_n - cos(k_n t + φ_n)], k_n = floor(3γⁿ + 1/2) a whole
-// number of waves around the grain. Terms run while k_n < K/2: at exactly half the points the variance
-// of a sampled wave would depend on its phase. A k_n that occurs again (γ below about 1.3) is skipped.
+// Outline of a quasi-spherical fractal grain, Fig. 1 of Hanaor, Gan & Einav (2013):
+//   r(t) = R[1 + ε(2(w - min w)/(max w - min w) - 1)], t = 2πi/K,
+//   w(t) = Σ_n γ^((D-2)n) [cos φ_n - cos(k_n t + φ_n)], a Weierstrass sum, k_n = floor(3γⁿ + 1/2) < K/2.
+// At k_n = K/2 the sampled variance would depend on the phase. A repeated k_n (γ below about 1.3) is
+// skipped.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 namespace asperity {
 
 struct GrainProfileOptions {
-  double radius = 0;       // m, R > 0
-  double D = 0;            // fractal dimension of the outline, 1 < D < 2
-  double amplitude = 0.1;  // ε, a fraction of the radius, 0 <= ε < 1
+  double radius = 0;       // m, > 0
+  double D = 0;            // fractal dimension, 1 < D < 2
+  double amplitude = 0.1;  // ε, relative to R, 0 <= ε < 1
   int points = 0;          // K, 7 … 2²⁴
   double gamma = 1.5;      // γ, 1.01 … 1e6
-  std::uint64_t seed = 1;  // of the phases φ_n
+  std::uint64_t seed = 1;  // phases φ_n
 };
 
 struct GrainTerm {
@@ -30,13 +30,13 @@ struct GrainTerm {
   double phase = 0;      // φ_n, radians
 };
 
-// A closed profile of r - R whose extremes are exactly ±ε R. O(points log points). Throws
-// Error{bad_value} naming the option that is out of range.
+// Closed profile of r - R with extremes of exactly ±ε R. O(points log points). Throws Error{bad_value}
+// naming an option out of range.
 Profile grain_profile(const GrainProfileOptions& options, Monitor& monitor = Monitor::silent());
 
-// The terms of w, those that are kept.
+// The terms of w.
 std::vector<GrainTerm> grain_terms(const GrainProfileOptions& options);
-// w at every point. The heights of the profile are w times 2εR/(max w - min w), less a constant.
+// w at every point; the heights are w · 2εR/(max w - min w), less a constant.
 Array<double> grain_outline(const GrainProfileOptions& options, Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

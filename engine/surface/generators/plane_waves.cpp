@@ -17,8 +17,8 @@ namespace asperity {
 
 namespace {
 
-// All waves of one pair of steps, up to the signs of the steps:
-// cc·cosα·cosβ + cs·cosα·sinβ + sc·sinα·cosβ + ss·sinα·sinβ with α along x and β along y.
+// All waves of one pair of steps, up to signs:
+// cc·cosα·cosβ + cs·cosα·sinβ + sc·sinα·cosβ + ss·sinα·sinβ, with α along x and β along y.
 struct Standing {
   std::uint64_t step_x = 0, step_y = 0;  // at most half a turn
   double cc = 0, cs = 0, sc = 0, ss = 0;
@@ -43,7 +43,7 @@ Standing standing(const PlaneWave& wave) {
   return w;
 }
 
-// Sorted by steps, equal steps added: waves along y first, then along x, then the others.
+// Sorted, duplicates added: waves along y, then x, then the others.
 Array<Standing> standing_waves(std::span<const PlaneWave> waves) {
   Array<Standing> sorted;
   sorted.reserve(waves.size());
@@ -68,13 +68,12 @@ Array<Standing> standing_waves(std::span<const PlaneWave> waves) {
   return sorted;
 }
 
-// One row of a table: `of_cosine`·cos + `of_sine`·sin of the phase.
 struct Mix {
   double of_cosine = 0, of_sine = 0;
 };
 
-// Fills both rows with their mixes at the phases 0, step, 2·step … Index i = coarse + fine: the
-// phases of both are exact, and the sum costs one addition theorem instead of a sine and a cosine.
+// At phases 0, step, 2·step … With i = coarse + fine both phases are exact, and the addition theorem saves
+// a sine and a cosine.
 void fill_rows(std::uint64_t step, int count, Mix first, double* first_row, Mix second, double* second_row) {
   constexpr int longest = 256;
   static_assert(longest * longest >= max_cells);
@@ -104,7 +103,7 @@ void add(Array<double>& sum, const Array<double>& row) {
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += row[k];
 }
 
-// Waves along the axes, which are a function of i or of j alone; returns how many there are.
+// Returns the number of waves along an axis.
 std::size_t sum_axis_waves(std::span<const Standing> waves, Array<double>& along_x, Array<double>& along_y) {
   const std::size_t longer = std::max(along_x.size(), along_y.size());
   Array<double> row(longer), unused(longer);
@@ -124,17 +123,15 @@ constexpr int tile = 240;  // nodes a side
 static_assert(tile % table_product::row_step == 0 && tile % table_product::column_step == 0);
 constexpr std::int64_t tiles_between_looks = 64;
 
-// Waves whose tables are held at a time.
 std::int64_t waves_at_once(int nx, int ny) {
   constexpr std::int64_t table_doubles = std::int64_t{1} << 22;
   constexpr std::int64_t most = 256, fewest = 32;
   return std::clamp(table_doubles / (2 * (std::int64_t{nx} + ny)), fewest, most);
 }
 
-// The least multiple of `step` that holds `count`.
 std::int64_t whole_steps(std::int64_t count, int step) { return (count + step - 1) / step * step; }
 
-// A tile of the product; one that is no whole number of steps by way of a larger one.
+// Partial steps use a larger temporary tile.
 void add_tile(const double* left, std::int64_t left_stride, const double* right, std::int64_t right_stride,
               int depth, double* heights, std::int64_t stride, int rows, int columns) {
   const auto all_rows = static_cast<int>(whole_steps(rows, table_product::row_step)),
@@ -161,7 +158,7 @@ Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monit
   const std::size_t axis_waves = sum_axis_waves(all, along_x, along_y);
   const std::span<const Standing> oblique = std::span(all).subspan(axis_waves);
 
-  // Equal passes, so that the last is not a sliver.
+  // Equal passes avoid a small last pass.
   const auto count = static_cast<std::int64_t>(oblique.size());
   const std::int64_t most = waves_at_once(nx, ny);
   const std::int64_t passes = std::max<std::int64_t>((count + most - 1) / most, 1);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Heights that took a generator over a second to make, taken up from the store of the run where the same ones
-// were made before. What is quicker is made again: that costs less than a file.
+// Reuses heights from the run's store if they took over a second; faster results are cheaper than a file.
 #pragma once
 
 #include <functional>
@@ -14,10 +13,10 @@ namespace asperity {
 
 struct MadeHeights {
   Field heights;
-  double scale = 1;  // a number that the generator found on the way and needs again
+  double scale = 1;  // a number from the generator
 };
 
-// `key` holds everything that the heights depend on; it is asked for only where there is a store.
+// `key` covers all inputs; called only with a store.
 MadeHeights recall_or_make(std::string_view generator, const std::function<std::string()>& key,
                            Monitor& monitor, const std::function<MadeHeights()>& make);
 

@@ -16,13 +16,13 @@ namespace asperity {
 
 namespace {
 
-// The heights, and for a surface of given Ra the rms height that its waves have here.
+// With the rms height for a given Ra.
 MadeHeights heights_of(const SelfAffineOptions& options, const Grid& grid, const SelfAffineBand& band,
                        Monitor& monitor) {
   SelfAffineModes modes(options, grid, band);
   HalfSpectrum spectrum(grid.nx, grid.ny);
   constexpr int rows_a_turn = 64;
-  constexpr int transform_share = 4;  // in turns, for the progress report only
+  constexpr int transform_share = 4;  // in turns, for progress only
   const int turns = (modes.rows() + rows_a_turn - 1) / rows_a_turn;
   Task task(monitor, "self-affine surface", turns + 2 * transform_share);
   for (int first = 0; first < modes.rows(); first += rows_a_turn) {
@@ -46,7 +46,7 @@ MadeHeights heights_of(const SelfAffineOptions& options, const Grid& grid, const
   if (options.ra) {
     Field absolute = made.heights;
     for (double& z : absolute.values()) z = std::abs(z);
-    made.scale = *options.ra / mean(absolute.values());  // of waves scaled to an rms of 1
+    made.scale = *options.ra / mean(absolute.values());  // waves have an rms of 1
     for (double& z : made.heights.values()) z *= made.scale;
   }
   return made;
@@ -68,13 +68,13 @@ Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor) 
         Digester key;
         key.add(grid.nx).add(grid.ny).add(grid.size_x).add(grid.size_y).add(options.hurst);
         for (const std::optional<double>& height : {options.rms_height, options.rms_slope, options.ra})
-          key.add(height.value_or(0));  // above zero where it is given
+          key.add(height.value_or(0));  // positive if given
         key.add(band.long_wave).add(band.roll_off).add(band.short_wave);
         return key.add(static_cast<std::int64_t>(options.seed)).hex();
       },
       monitor, [&] { return heights_of(options, grid, band, monitor); });
 
-  SelfAffineOptions same = options;  // what other cells are filled by: Ra is not met again on each
+  SelfAffineOptions same = options;  // for other cells: their scale is fixed
   if (options.ra) {
     same.rms_height = made.scale;
     same.ra.reset();

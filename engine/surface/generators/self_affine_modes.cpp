@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-// A wave whose length differs from a bound by rounding alone lies on the bound.
+// Relative tolerance for a wave on a bound.
 constexpr double on_the_bound = 1e-12;
 
 void check_scale(const SelfAffineOptions& options) {
@@ -87,7 +87,7 @@ std::complex<double> SelfAffineModes::amplitude(int a, int b, double wave_number
   const std::uint64_t key = (static_cast<std::uint64_t>(a) << 32) | zigzag;
   const double fall =
       wave_number_squared > roll_ ? elementary::pow(wave_number_squared / roll_, -0.5 * (1 + hurst_)) : 1.0;
-  // A complex normal: exponential power, uniform phase.
+  // Complex normal: exponential power, uniform phase.
   const double modulus = std::sqrt(-elementary::log(1.0 - stream_.uniform(2 * key)));
   const elementary::SineCosine phase = elementary::sincos(two_pi * stream_.uniform(2 * key + 1));
   return {fall * modulus * phase.cosine, fall * modulus * phase.sine};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The waves of a self-affine surface before they are scaled, drawn one by one from the seed and their wave
-// numbers, for generators that hold all of the spectrum or a part of it.
+// Unscaled waves of a self-affine surface, drawn from seed and wave numbers.
 #pragma once
 
 #include <algorithm>
@@ -17,23 +16,20 @@ namespace asperity {
 struct SelfAffineBand {
   double long_wave, roll_off, short_wave;  // m
 };
-// The wavelengths with their defaults. Throws Error{bad_value} for an option out of range.
+// Applies defaults. Throws Error{bad_value} for options out of range.
 SelfAffineBand checked_band(const SelfAffineOptions& options, const Grid& grid);
-// Of a band that no wave of the tile lies in.
 [[noreturn]] void refuse_empty(const SelfAffineBand& band);
-// What brings waves of these sums to the height or slope asked for; to an rms of 1 where it is `ra`.
+// Scales to the requested height or slope; for `ra` to an rms of 1.
 double self_affine_scale(const SelfAffineOptions& options, double rms_height, double rms_slope);
 
-// Amplitudes, and their sums.
 class SelfAffineModes {
  public:
   SelfAffineModes(const SelfAffineOptions& options, const Grid& grid, const SelfAffineBand& band);
 
-  // Waves with b in [-most_b, most_b], row b + most_b of rows().
+  // Waves with b in [-most_b, most_b] are in row b + most_b.
   int rows() const { return 2 * most_b_ + 1; }
 
-  // put(a, b or b + ny, amplitude) for the waves of a row with a in [first_a, first_a + count), and their
-  // share of the sums. Rows from several threads.
+  // Calls put(a, b or b + ny, amplitude) for a in [first_a, first_a + count). Rows may run in parallel.
   template <class Put>
   void fill_row(int row, int first_a, int count, Put put) {
     const int b = row - most_b_;
@@ -43,7 +39,7 @@ class SelfAffineModes {
     for (int a = first_a; a <= last; ++a) {
       const double wave_number_squared = square(a / grid_.size_x) + square(b / grid_.size_y);  // 1/m², no 2π
       if (!(wave_number_squared >= low_ && wave_number_squared < high_)) continue;
-      // The column a = 0 holds both waves of each pair; the second is the conjugate of the first.
+      // Column a = 0 holds both waves of a pair, conjugate to each other.
       const std::complex<double> z = a == 0 && b < 0 ? std::conj(amplitude(0, -b, wave_number_squared))
                                                      : amplitude(a, b, wave_number_squared);
       put(a, into, z);
@@ -55,7 +51,7 @@ class SelfAffineModes {
     slopes_[static_cast<std::size_t>(row)] = slopes;
   }
 
-  // Of the waves that were put.
+  // Over all waves put.
   double mean_square_height() const { return block_sum(heights_); }
   double mean_square_slope() const { return square(2 * std::numbers::pi) * block_sum(slopes_); }
   double rms_height() const { return std::sqrt(block_sum(heights_)); }

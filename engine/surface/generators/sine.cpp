@@ -17,14 +17,14 @@ namespace asperity {
 
 namespace {
 
-// cos(2π turns) for turns in [0, 1/2], exact at every eighth where the cosine is.
+// cos(2π turns), turns in [0, 1/2]; exact at every eighth with an exact cosine.
 double cosine_of_turns(double turns) {
   if (turns > 0.25) return -cosine_of_turns(0.5 - turns);
   return turns > 0.125 ? elementary::sin(two_pi * (0.25 - turns)) : elementary::cos(two_pi * turns);
 }
 
 struct Waves {
-  double count;  // wavelengths in the size
+  double count;  // wavelengths per size
   bool whole;
 };
 

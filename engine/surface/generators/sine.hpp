@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A cosine wave, z = A cos(2πx/λ), or the product of two, z = A cos(2πx/λ) cos(2πy/λ), with a crest
-// of height A at node (0, 0). The surfaces of Westergaard (1939) and of Johnson, Greenwood and
-// Higginson (1985), for which contact has known answers.
+// z = A cos(2πx/λ), or z = A cos(2πx/λ) cos(2πy/λ); crest at node (0, 0). Contact has known solutions:
+// Westergaard (1939); Johnson, Greenwood and Higginson (1985).
 #pragma once
 
 #include <optional>
@@ -13,12 +12,12 @@ namespace asperity {
 
 struct SineOptions {
   Grid grid;
-  double amplitude = 0;              // m, A >= 0
+  double amplitude = 0;              // m, >= 0
   std::optional<double> wavelength;  // m, λ; default the size along x
-  int directions = 1;                // 1: along x only; 2: the product
+  int directions = 1;                // 1: along x; 2: product
 };
 
-// z(i, j) = A x[i] y[j]. Throws as sine_surface.
+// z(i, j) = A x[i] y[j]. Throws as sine_surface().
 struct SineFactors {
   Array<double> x, y;
   double wavelength = 0;  // m
@@ -26,10 +25,9 @@ struct SineFactors {
 };
 SineFactors sine_factors(const SineOptions& options);
 
-// The phase is reduced exactly when the size is a whole number of wavelengths (to 1e-12), and the
-// surface is then marked periodic and mirror-symmetric to the bit. O(nodes), of which only nx + ny
-// evaluate a cosine. Throws Error{bad_value} naming `amplitude`, `directions`, or `wavelength` when a
-// wave is shorter than two cells in a direction in which it varies.
+// With whole wavelengths (to 1e-12), phases are exact, and the surface is periodic and mirror-symmetric to
+// the bit. O(nodes), nx + ny cosines. Throws Error{bad_value} naming `amplitude`, `directions`, or
+// `wavelength` below two cells.
 Surface sine_surface(const SineOptions& options, Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

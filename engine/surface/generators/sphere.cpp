@@ -15,14 +15,14 @@ namespace asperity {
 
 namespace {
 
-// The apex at node (apex_i, apex_j), which may lie between nodes.
+// The apex may be between nodes.
 Surface cap_on(const Grid& grid, double radius, bool cap, double apex_i, double apex_j) {
   Field heights(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
       const double r = elementary::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
       const double s = cap ? std::min(r / radius, 1.0) : r / radius;
-      // r²/(R + √(R² - r²)) keeps the digits that √(R² - r²) - R loses near the apex.
+      // Avoids cancellation in √(R² - r²) - R near the apex.
       heights(i, j) = cap ? -r * s / (1 + std::sqrt((1 - s) * (1 + s))) : -r * s / 2;
     }
   return Surface(grid, std::move(heights));

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/generators/table_product.hpp"
 
-// A namespace of its own: the linker must not take for these functions what another source compiled of
-// Eigen's.
+// Keeps the linker from merging these functions with Eigen's from other sources.
 #define Eigen asperity_eigen
-// GCC 12 takes the deliberately undefined registers of its own AVX-512 header for a mistake (GCC bug 105593).
+// GCC 12 misreads undefined registers of its own AVX-512 header (GCC bug 105593).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 #if defined(__x86_64__)
 #include <immintrin.h>
-// Eigen asks for fused operations by these names where the processor has them.
+// Eigen calls fused operations by these names.
 #define _mm512_fmadd_pd(a, b, c) _mm512_add_pd(_mm512_mul_pd(a, b), c)
 #define _mm256_fmadd_pd(a, b, c) _mm256_add_pd(_mm256_mul_pd(a, b), c)
 #endif
@@ -26,7 +25,7 @@ namespace asperity::table_product {
 
 namespace {
 
-// Terms added at a time: fewer than Eigen would ever divide for a first cache of 32 KiB.
+// Shorter than Eigen's choice for a first cache of 32 KiB.
 constexpr int stretch = 128;
 
 using LeftTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>,

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A product of two tables added to a third, by Eigen's kernel and yet the same bits on every processor: each
-// value of the sum receives its terms one after the other. Eigen chooses by the processor how wide its
-// vectors are, how long a stretch of terms it adds at a time, and whether it fuses multiply and add; so
-// vectors are always filled, stretches are short, and nothing is fused.
+// Adds a product of two tables to a third with Eigen's kernel, but the same bits on every processor: each
+// sum receives its terms one by one. Eigen's vector width, stretches and fusing depend on the processor; so
+// vectors are always full, stretches short, and nothing is fused.
 #pragma once
 
 #include <cstddef>
 
 namespace asperity::table_product {
 
-// Rows and columns come in multiples of these: of the widest vectors, and of the columns that are worked on
-// together.
+// Multiples: the widest vectors, and the columns processed together.
 inline constexpr int row_step = 24, column_step = 4;
 
-// sum(i, j) += Σ left(i, k) right(k, j) over `depth` terms. Consecutive rows of `left` and `sum`, and
-// consecutive columns of `right`, are neighbours; strides lead from column to column (of `right` from row to
-// row). rows > 0 is a multiple of row_step, columns > 0 of column_step. On the calling thread; allocates two
-// blocks of some 100 KiB.
+// sum(i, j) += Σ left(i, k) right(k, j) over `depth` terms. Rows of `left` and `sum`, and columns of
+// `right`, are contiguous; strides separate columns (rows of `right`). rows > 0 is a multiple of row_step,
+// columns > 0 of column_step. Single-threaded; allocates two blocks of about 100 KiB.
 void add(int rows, int columns, int depth, const double* left, std::ptrdiff_t left_stride,
          const double* right, std::ptrdiff_t right_stride, double* sum, std::ptrdiff_t sum_stride);
 

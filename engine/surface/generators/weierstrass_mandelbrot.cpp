@@ -43,12 +43,12 @@ Grid check(const WeierstrassMandelbrotOptions& o) {
   return make_grid(o.nx, o.ny, size_x, size_y);
 }
 
-// γ^((D−3)n), never through γⁿ: 0 once it underflows.
+// γ^((D−3)n) without γⁿ; 0 on underflow.
 double relative_amplitude(double D, double log_gamma, int n) {
   return elementary::exp((D - 3.0) * n * log_gamma);
 }
 
-// The last order whose wave, with all that follow it, can still change a bit of the heights.
+// Later waves cannot change a bit of the heights.
 int last_audible_order(const WeierstrassMandelbrotOptions& o) {
   constexpr double inaudible = 0x1p-60;
   const double log_gamma = elementary::log(o.gamma);
@@ -78,7 +78,7 @@ double phase(const WeierstrassMandelbrotOptions& o, int m, int n) {
   return radians;
 }
 
-// The waves of orders up to `kept` to be summed, with amplitudes relative to order 0.
+// Amplitudes relative to order 0.
 Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseIncrements& increments,
                              int kept) {
   const double log_gamma = elementary::log(o.gamma);
@@ -86,7 +86,7 @@ Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseI
   Array<PlaneWave> waves;
   waves.reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(last + 1));
   for (int n = 0; n <= o.n_max; ++n) {
-    // A phase function is asked for every wave, so that what it answers never depends on the grid.
+    // A phase function's results must not depend on the grid.
     if (n > last && o.phases != WavePhases::function) break;
     const double amplitude = relative_amplitude(o.D, log_gamma, n);
     for (int m = 1; m <= o.M; ++m) {
@@ -98,7 +98,7 @@ Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseI
   return waves;
 }
 
-// The phases that a function gave, to be had again when it is gone.
+// Stores the function's phases for the recipe.
 std::function<double(int, int)> remembered(const WeierstrassMandelbrotOptions& o) {
   auto phases = std::make_shared<Array<double>>();
   phases->reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(o.n_max + 1));
@@ -110,7 +110,6 @@ std::function<double(int, int)> remembered(const WeierstrassMandelbrotOptions& o
   };
 }
 
-// Orders up to `kept` on this grid of square cells.
 Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
                const PhaseIncrements& increments, int kept, Monitor& monitor) {
   const Array<PlaneWave> waves = plane_waves(options, increments, kept);
@@ -133,11 +132,11 @@ Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
                       })
                       .heights;
 
-  // L (G/L)^(D−2) without forming G/L, which could overflow where the result does not.
+  // L (G/L)^(D−2) without G/L, which could overflow.
   const double scale = elementary::pow(options.L, 3.0 - options.D) *
                        elementary::pow(options.G, options.D - 2.0) *
                        std::sqrt(elementary::log(options.gamma) / options.M);
-  // Taking Σ a cos φ from the product itself makes z(0, 0) zero exactly.
+  // Makes z(0, 0) exactly zero.
   const double base = heights(0, 0);
   constexpr std::size_t block = 1 << 16;
   const std::span<double> z = heights.values();
@@ -199,7 +198,7 @@ Surface weierstrass_mandelbrot(const WeierstrassMandelbrotOptions& options, Moni
   const int kept =
       options.band == WaveBand::resolved ? std::min(options.n_max, increments.last_resolved) : options.n_max;
   Surface surface = summed(same, grid, increments, kept, monitor);
-  same.material.reset();  // it stays with the surface
+  same.material.reset();
   return surface.made_by([same, grid, kept](int nx, int ny, Monitor& watching) {
     if (std::int64_t{nx} * grid.ny != std::int64_t{ny} * grid.nx)
       throw Error(ErrorCode::bad_value, "the cells would not be square",

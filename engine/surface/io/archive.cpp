@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only file that includes libzip and libmd for reading.
+// The only reader that includes libzip and libmd.
 #include "engine/surface/io/archive.hpp"
 
 #include <md5.h>
@@ -112,7 +112,7 @@ std::uint64_t Archive::claimed_size(std::int64_t index) const {
     refuse_file(file_,
                 "has " + entry_text(index) + " packed by zip method " + std::to_string(stat.comp_method),
                 "pack it again, stored or deflated");
-  // Deflate makes at most 1032 bytes of one; nothing is packed smaller than it is in this file.
+  // Deflate expands by a factor of at most 1032.
   constexpr std::uint64_t greatest_ratio = 1032;
   if (stat.comp_size > file_.bytes().size() || stat.size / greatest_ratio > stat.comp_size)
     refuse_file(file_,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A zip archive held in memory, read entry by entry in pieces, with the MD5 of what was read. Sizes
-// that a directory claims are not believed: a caller states how much it wants, and an entry that
-// holds more or less is an error. Wraps libzip and libmd.
+// A zip archive in memory, read in pieces, with MD5. Sizes claimed by the directory are not trusted: an
+// entry of any other size than the caller's is an error. Wraps libzip and libmd.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@
 
 namespace asperity {
 
-// MD5 of a stream of bytes; a check against damage, not against forgery.
+// Detects damage, not forgery.
 class Md5 {
  public:
   Md5();
@@ -23,7 +22,7 @@ class Md5 {
   Md5(const Md5&) = delete;
   Md5& operator=(const Md5&) = delete;
   void add(std::span<const char> bytes);
-  // 32 lower-case hexadecimal digits; once.
+  // 32 lower-case hexadecimal digits. Call once.
   std::string hex();
 
  private:
@@ -33,24 +32,23 @@ class Md5 {
 
 class Archive {
  public:
-  // `file` must outlive the archive. Throws Error{bad_file} if it is not a whole zip archive.
+  // `file` must outlive the archive. Throws Error{bad_file} if the archive is incomplete.
   explicit Archive(const SourceFile& file);
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
-  // Position of an entry; a leading "./" or "/", backslashes and the case of letters do not count.
-  // -1 if there is none.
+  // -1 if missing. Ignores case, a leading "./" or "/" and the kind of slash.
   std::int64_t find(std::string_view name) const;
-  // The folder, with its stroke, in which the one entry called so lies; empty where it lies at the top,
-  // nowhere, or in several folders.
+  // The folder of the only such entry, with its slash; empty if the entry is at the top, missing or
+  // ambiguous.
   std::string folder_of(std::string_view name) const;
-  // As the directory has it, for errors: `the entry "main.xml"`.
+  // For errors: `the entry "main.xml"`.
   std::string entry_text(std::int64_t index) const;
-  // Bytes of entry `index` unpacked, as the directory says. Throws Error{bad_file} when no packing
-  // could have made so much of so little, or the packing is neither stored nor deflated.
+  // Unpacked bytes, from the directory. Throws Error{bad_file} for an impossible compression ratio or an
+  // unknown method.
   std::uint64_t claimed_size(std::int64_t index) const;
-  // The whole of a small entry, at most `limit` bytes.
+  // Throws Error{bad_file} above `limit` bytes.
   Array<char> contents(std::int64_t index, std::uint64_t limit) const;
 
  private:
@@ -60,16 +58,15 @@ class Archive {
   std::unique_ptr<State> state_;
 };
 
-// One entry being read from its beginning.
 class ArchiveEntry {
  public:
   ArchiveEntry(const Archive& archive, std::int64_t index);
   ~ArchiveEntry();
   ArchiveEntry(const ArchiveEntry&) = delete;
   ArchiveEntry& operator=(const ArchiveEntry&) = delete;
-  // Fills `bytes` wholly. Throws Error{bad_file} if the entry ends before or is damaged.
+  // Throws Error{bad_file} if the entry is too short or damaged.
   void read(std::span<char> bytes);
-  // Throws Error{bad_file} if anything is left, or if the entry's checksum is not that of the bytes.
+  // Throws Error{bad_file} for surplus bytes or a wrong checksum.
   void expect_end();
   Md5& md5() { return md5_; }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and texts out of the little-endian bytes of an instrument's file, one after another and never past
-// their end.
+// Sequential, bounds-checked reader of an instrument's little-endian numbers and texts.
 #pragma once
 
 #include <array>
@@ -36,7 +35,7 @@ T big_endian(const char* at) {
 
 class BinaryCursor {
  public:
-  // `what` names the piece in the error at its end: "its header".
+  // `what` names the piece in errors: "its header".
   BinaryCursor(const SourceFile& file, std::string_view bytes, std::string what)
       : file_(file), bytes_(bytes), what_(std::move(what)) {}
 
@@ -47,9 +46,9 @@ class BinaryCursor {
   // Throws Error{bad_file} past the end.
   std::string_view take(std::size_t count);
   void skip(std::size_t count) { take(count); }
-  // A field of fixed width without what follows its first zero byte, and without blanks at its end.
+  // Up to the first zero byte, without trailing blanks.
   std::string_view text(std::size_t width);
-  // A text that ends with a zero byte, which is taken too.
+  // Skips the zero byte.
   std::string_view ended_text();
   std::size_t left() const { return bytes_.size() - at_; }
   std::size_t position() const { return at_; }
@@ -61,23 +60,21 @@ class BinaryCursor {
   std::string what_;
 };
 
-// Throws Error{bad_file} unless nx by ny numbers of `width` bytes are there and each side has one at least.
+// Throws Error{bad_file} unless nx, ny > 0 and all numbers of `width` bytes are present.
 void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
-// The same, and throws where there are more bytes than these numbers take: a head that is wrong by a column
-// or a line shears the map.
+// Also throws on surplus bytes: with a header wrong by a column, every line would be shifted.
 void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
-// For files that state their own end, after which the heights are whole and nothing is read.
+// For files with a stated end; the heights are complete.
 void warn_of_bytes_over(const SourceFile& file, std::uint64_t over, Monitor& monitor);
 
 struct NoHoles {
   bool operator()(auto) const { return false; }
 };
-// A field of ny rows out of bytes that require_numbers found enough; `is_hole` says which numbers stand for a
-// missing point, by default none.
+// ny rows, checked before by require_numbers(). `is_hole` selects the numbers of missing points.
 template <class T, class IsHole = NoHoles>
 Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, const IsHole& is_hole = {}) {
   Field heights(nx, ny);

@@ -23,7 +23,7 @@ std::string_view without_mark(std::string_view line) {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// Cells of a line parted by blanks: a unit in brackets, or after a stroke, belongs to the name before it.
+// A unit in brackets or after a slash belongs to the preceding name.
 std::vector<std::string> blank_cells(std::string_view line) {
   std::vector<std::string> cells;
   bool open = false;
@@ -52,7 +52,7 @@ std::vector<std::string> head_cells(std::string_view line) {
   return blank_cells(line);
 }
 
-// A unit as it is written, not in any case: the "m" of "x_m", not the "a" of "x_a".
+// Case matters: "m" of "x_m" is a unit, "a" of "x_a" is not.
 std::optional<double> exact_unit(std::string_view text) {
   try {
     const Quantity unit = parse_unit(text);
@@ -89,7 +89,7 @@ HeadColumn head_column(std::string_view cell) {
 
 std::optional<std::vector<HeadColumn>> column_head(std::string_view line) {
   line = without_mark(line);
-  // A setting such as "h=3 w=4" names no columns.
+  // "h=3 w=4" is a setting.
   if (line.empty() || line.size() > longest_head || line.find('=') != std::string_view::npos) return {};
   std::vector<HeadColumn> columns;
   for (const std::string& cell : head_cells(line)) {
@@ -107,7 +107,7 @@ bool are_points(const std::vector<HeadColumn>& columns) {
 std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line) {
   auto columns = column_head(line);
   if (columns && are_points(*columns)) return columns;
-  // Names that no separator parts as expected: "xyz", "x,y,z;".
+  // "xyz", "x,y,z;"
   constexpr std::size_t short_line = 64;
   const std::string text = lower_case(without_mark(line));
   const std::size_t x = text.find('x'), y = text.find('y'), z = text.find('z');

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The line over a table of points that names its columns and says their units of length: "x [mm];y [mm];z
-// [um]", "x (mm), z (um)", "x/mm y/mm z/um". A mark of comments (# or %) may stand before it. What the
-// columns mean is for the readers of x y z files and of profiles in two columns.
+// The line of column names and units over a table of points: "x [mm];y [mm];z [um]", "x (mm), z (um)",
+// "x/mm y/mm z/um". A comment mark (# or %) may precede it.
 #pragma once
 
 #include <optional>
@@ -15,27 +14,25 @@
 namespace asperity {
 
 struct HeadColumn {
-  std::string name;            // lower case, without its unit
-  std::string word;            // its unit as written; empty: none
-  std::optional<double> unit;  // m per number, where the word is a unit of length
+  std::string name;            // lower case
+  std::string word;            // unit as written, or empty
+  std::optional<double> unit;  // m per number
 };
 
-// The columns of such a line, parted by semicolons, tabs, commas or blanks; nothing for a line whose cells do
-// not all begin with a letter. O(length of the line).
+// Separators: semicolon, tab, comma or blank. None unless all cells begin with a letter. O(length of the
+// line).
 std::optional<std::vector<HeadColumn>> column_head(std::string_view line);
 
-// The same of a line that names x, y and z in this order; names without any separator ("xyz") have no unit.
+// Columns x, y, z in this order; unseparated names ("xyz") have no unit.
 std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line);
 
-// The same of a line that names a position and a height: two columns of which one has a unit at least, or "x"
-// and "z" (or "y").
+// Two columns, position and height: at least one with a unit, or "x" and "z" (or "y").
 std::optional<std::vector<HeadColumn>> profile_head(std::string_view line);
 
-// Whether columns are those of points, or of a profile, as xyz_head and profile_head have them.
 bool are_points(const std::vector<HeadColumn>& columns);
 bool are_of_profile(const std::vector<HeadColumn>& columns);
 
-// The unit of a column; a word that is no unit of length is warned of, and then the call has to say.
+// Warns of an unknown unit and returns none; the call must then state the unit.
 std::optional<double> head_unit(const HeadColumn& column, const SourceFile& file, Monitor& monitor);
 
 }  // namespace asperity

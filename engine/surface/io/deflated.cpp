@@ -30,7 +30,7 @@ class GzipStream {
   GzipStream(const GzipStream&) = delete;
   GzipStream& operator=(const GzipStream&) = delete;
 
-  // Fills up to `room` bytes; the status of zlib, and how many came.
+  // Writes up to `room` bytes, in fact `came`; returns zlib's status.
   int fill(char* at, std::size_t room, std::size_t& came) {
     constexpr std::size_t most = std::numeric_limits<uInt>::max();
     const auto given = static_cast<uInt>(std::min(left_, most));

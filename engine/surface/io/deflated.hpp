@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes packed with deflate: a file inside gzip (RFC 1952), and a piece of a file inside zlib (RFC 1950).
-// What comes out is bounded before it is unpacked. Wraps zlib.
+// Gzip files (RFC 1952) and zlib streams (RFC 1950). The output size is bounded before unpacking. Wraps
+// zlib.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,18 @@
 
 namespace asperity {
 
-// Deflate makes at most 1032 bytes of one.
+// Greatest expansion of deflate.
 constexpr std::uint64_t most_of_deflate = 1032;
 
-// The most that unpacking a gzip file gives: 16 MiB, or 128 bytes for each of the file where that is more.
-// Text packs some ten times; a file that packs better is not one of measured heights.
+// Output limit: 16 MiB, or 128 bytes per byte of the file if larger. Text packs about ten times.
 std::uint64_t most_of_gzip(const SourceFile& file);
 
-// What a file packed with gzip holds, under the same name, with the ending before ".gz"; none for any other
-// file. Several pieces one after another are one. Throws Error{bad_file} for a file that is cut short,
-// damaged or unpacks to more than most_of_gzip(), Error{out_of_memory}.
+// The unpacked file, with the extension before ".gz"; none without gzip. Concatenates gzip members. Throws
+// Error{bad_file} for a truncated or damaged file or above most_of_gzip(), and Error{out_of_memory}.
 std::optional<SourceFile> inside_gzip(const SourceFile& file, Monitor& monitor);
 
-// Exactly `wanted` bytes out of a zlib stream. Throws Error{bad_file}, naming the piece as `what`, where the
-// stream is damaged, holds another number of bytes, or could not hold so many.
+// Exactly `wanted` bytes from a zlib stream. Throws Error{bad_file}, naming the piece as `what`, for damage
+// or another size.
 Array<char> inflated(const SourceFile& file, std::string_view packed, std::uint64_t wanted,
                      std::string_view what);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marks as the formats' makers state them, or as Gwyddion's readers do.
+// Marks from the formats' owners or Gwyddion's readers.
 #include "engine/surface/io/foreign_format.hpp"
 
 #include <array>
@@ -24,7 +24,7 @@ constexpr const char* no_heights =
     "a picture holds colours, not heights; export the heights as X3P, SDF, SUR or text";
 
 struct ForeignMark {
-  std::string_view bytes;  // at the start
+  std::string_view bytes;
   const char* what;
   const char* cure;
 };
@@ -69,14 +69,14 @@ struct ForeignEnding {
   const char* what;
 };
 
-// Formats without a mark that is certain.
+// Formats without an unambiguous mark.
 constexpr std::array foreign_endings{
     ForeignEnding{"mnt", "a document of MountainsMap (.mnt)"},
     ForeignEnding{"stp", "a scan of Molecular Imaging (.stp)"},
     ForeignEnding{"tmd", "a TrueMap topography (.tmd)"},
 };
 
-// MountainsMap keeps its maps packed in a stream of this name, in a layout of its own that is not published.
+// Packed in an unpublished layout.
 bool is_mountains_document(std::string_view bytes) {
   constexpr std::string_view compound = "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv,
                              stream = "S\0c\0o\0p\0e\0d\0C\0o\0n\0t\0e\0n\0t\0s\0"sv;
@@ -94,7 +94,7 @@ std::optional<ForeignFormat> archive_format(const SourceFile& file) {
     return ForeignFormat{"a zip archive without main.xml", unpack};
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
-    return {};  // cut short: who reads it says so
+    return {};  // cut short: the reader reports it
   }
 }
 

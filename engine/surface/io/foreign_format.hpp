@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that instruments and offices write and that are not read here: known so that an error can say what a
-// file is and how its heights get into one that is read. Known by content; by extension only where the format
-// has no mark of its own, and then only for files that are no text.
+// Recognises unsupported files of instruments and office programs, so that an error can name the format and
+// its export. By content; by extension only for binary formats without a mark.
 #pragma once
 
 #include <optional>
@@ -11,7 +10,7 @@
 
 namespace asperity {
 
-// What a text in UTF-16 is called: read.cpp reads it where it holds a table.
+// read.cpp reads such a text if it holds a table.
 inline constexpr const char* utf16_text = "UTF-16 text";
 
 struct ForeignFormat {
@@ -19,7 +18,7 @@ struct ForeignFormat {
   std::string cure;  // "save the sheet as CSV (UTF-8)"
 };
 
-// Never throws but for a stop or lack of memory. O(1), and the directory of a zip archive.
+// Throws only for a stop or lack of memory. O(1), plus the zip directory.
 std::optional<ForeignFormat> foreign_format(const SourceFile& file);
 
 }  // namespace asperity

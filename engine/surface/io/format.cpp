@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of formats and the choice among them. A new format is one source file and one line here
+// List of formats, and choice among them. A new format needs one source file and one line here
 // (docs/contributor.md).
 #include "engine/surface/io/format.hpp"
 
@@ -13,7 +13,7 @@
 #include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/own_head.hpp"
 
-// A line for each, in the order in which they are tried: NAME_format() is the record in its source.
+// In the order of trying. NAME_format() returns the record.
 // clang-format off
 #define ASPERITY_FORMATS(format) \
   format(npy)        \

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// GWY, Gwyddion's own files: objects within objects, each a name, a length and named components with a letter
-// for their type. A map is the GwyDataField "/N/data" of the outermost container, with its sizes, units and
-// heights as doubles; "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in
-// Gwyddion's user guide. A mask, "/N/mask", marks whatever its user wanted to mark: it is not applied. Only
-// where the metadata "/N/meta" say, as this program writes them, that the masked points were not measured,
-// the mask is of holes; under it the heights are the mean, because Gwyddion knows no missing height. Offsets
-// and everything else are passed over.
+// GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data",
+// with sizes, units and heights as doubles. Source: "Format of Gwyddion Files", Gwyddion user guide. A mask
+// "/N/mask" is applied only if "/N/meta", written by this program, declares its points as not measured;
+// users mask arbitrary points. Masked heights are the mean, because Gwyddion has no missing height.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -31,9 +28,8 @@ constexpr std::string_view mark = "GWYP";
 struct Component {
   std::string_view name;
   char type;
-  std::string_view
-      data;  // of a text without its zero byte, of an array without its count, of an object all of it
-  std::size_t count = 1;  // of an array
+  std::string_view data;  // without the zero byte of a text, the count of an array
+  std::size_t count = 1;
 };
 
 std::size_t width_of(char type) {
@@ -55,7 +51,6 @@ std::size_t width_of(char type) {
   }
 }
 
-// An object at the start of what is left: its name, and the bytes of its components.
 struct Object {
   std::string_view name, content;
 };
@@ -77,7 +72,7 @@ Component take_component(const SourceFile& file, BinaryCursor& cursor, std::stri
   if (many) component.count = cursor.number<std::uint32_t>();
   const std::size_t before = cursor.position();
   if (const std::size_t width = width_of(type); width != 0) {
-    // The count has 32 bits, so that the product cannot overflow.
+    // 32 bits, so the product cannot overflow.
     component.data = cursor.take(component.count * width);
   } else if (type == 's') {
     component.data = cursor.ended_text();
@@ -93,7 +88,6 @@ Component take_component(const SourceFile& file, BinaryCursor& cursor, std::stri
   return component;
 }
 
-// Goes over the components of an object.
 template <class Visit>
 void for_each(const SourceFile& file, std::string_view content, Visit&& visit) {
   BinaryCursor cursor(file, content, "an object");
@@ -112,7 +106,7 @@ struct DataField {
   std::string_view data;
 };
 
-// The text of a GwySIUnit: "m", or nothing for a plain number.
+// "m"; empty for a plain number.
 std::string_view unit_text(const SourceFile& file, const Component& component) {
   std::string_view text;
   for_each(file, object_of(file, component).content, [&](const Component& part) {
@@ -136,29 +130,28 @@ DataField read_field(const SourceFile& file, std::string_view content) {
   return field;
 }
 
-// Metres in a unit of length; none for another dimension and for texts of no known unit.
+// None for other dimensions and unknown units.
 std::optional<double> metres(std::string_view unit) {
   try {
     const Quantity parsed = parse_unit(unit);
     if (parsed.dimension == dimension::length) return parsed.value;
-  } catch (const Error&) {  // no unit that is known
+  } catch (const Error&) {  // unknown unit
   }
   return {};
 }
 
-// The entry of the metadata by which a mask is known to be one of points that were not measured; its value
-// begins with how many there are.
+// Entry for a mask of holes; its value begins with their number.
 constexpr std::string_view hole_entry = "Not measured";
 
 struct Channel {
-  std::string_view field;  // content of its GwyDataField; null where there is none
+  std::string_view field;  // null if missing
   std::string title;
-  std::string_view mask;             // content of its GwyDataField
-  std::optional<std::string> holes;  // what `hole_entry` says
+  std::string_view mask;
+  std::optional<std::string> holes;  // value of `hole_entry`
   bool masked() const { return mask.data() != nullptr; }
 };
 
-// The maps of the container by their numbers: of "/0/data", "/0/data/title" and "/0/mask".
+// The maps by number.
 std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& monitor) {
   if (!file.bytes().starts_with(mark))
     refuse_file(file, "is not a GWY file: it does not start with GWYP",
@@ -193,7 +186,7 @@ std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& 
   return channels;
 }
 
-// `channel` is a title or a number; without it the first map whose numbers are lengths, else the first.
+// `channel`: title or number. Default: the first map in a unit of length, else the first map.
 std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
                                                         const std::map<std::uint32_t, Channel>& channels,
                                                         const std::string& channel) {
@@ -216,8 +209,8 @@ std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
       "name one by its number or its title with `channel`");
 }
 
-// Takes out the points under a mask of holes. The mask counts as many points as the metadata say, else
-// somebody has drawn another one, and nobody knows which heights were measured.
+// If mask and metadata disagree on the count, the user has changed the mask, and the measured points are
+// unknown.
 void take_out_holes(const SourceFile& file, const Channel& entry, const std::string& name, Field& heights) {
   const DataField mask = entry.masked() ? read_field(file, entry.mask) : DataField{};
   const std::size_t count = heights.size();
@@ -286,7 +279,7 @@ std::string unit_object(std::string_view unit) {
   return object("GwySIUnit", ended("unitstr") + "s" + ended(unit));
 }
 
-// What Gwyddion shows, under the mask, of the points that were not measured.
+// Gwyddion shows this height under the mask.
 double mean_of_measured(const Surface& surface) {
   Array<double> known;
   known.reserve(surface.measured());
@@ -312,16 +305,14 @@ const Format& gwy_format() {
   return format;
 }
 
-// A surface as a file of Gwyddion: one map in metres, bit for bit. Points that were not measured stand under
-// a mask, as Gwyddion has it, and the metadata say so.
-// Throws Error{bad_value} for a surface past 4 GiB, with its mask, which the format cannot hold, and
-// Error{bad_file}.
+// Heights in metres, bit for bit. Missing points get a mask and a metadata entry. Throws Error{bad_value}
+// above 4 GiB including the mask, and Error{bad_file}.
 void write_gwy(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "GWY data are written as they lie in memory");
   const Grid& grid = surface.grid();
   const auto heights = surface.measured_heights().values();
   const bool holes = !surface.complete();
-  // Lengths in the file have 32 bits and count what stands before and after the heights, and the mask.
+  // 32-bit lengths include the text around heights and mask.
   constexpr std::uint64_t most = std::uint64_t{0xFFFFFFFF} - 65536;
   if ((holes ? 2 : 1) * heights.size_bytes() > most)
     throw Error(ErrorCode::bad_value,

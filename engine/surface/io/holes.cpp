@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The five-point Laplacian on the missing nodes only. The system is symmetric and positive definite
-// because every hole of a connected grid touches a measured node. Conjugate gradients are
-// preconditioned by one V-cycle of multigrid: every second node of the lattice, bilinear
-// interpolation that vanishes on measured nodes, Galerkin coarse operators, one Gauss-Seidel sweep
-// down and its mirror up (Trottenberg, Oosterlee & Schueller, Multigrid, 2001, ch. 2 and 7). Where
-// cells are long, only the direction of the stronger coupling is coarsened.
+// Five-point Laplacian on the missing nodes; symmetric positive definite because every hole touches a
+// measured node. Conjugate gradients with one multigrid V-cycle as preconditioner: every second node,
+// bilinear interpolation with zero on measured nodes, Galerkin coarse operators, one Gauss-Seidel sweep
+// down and its mirror up (Trottenberg, Oosterlee & Schueller, Multigrid, 2001, ch. 2 and 7). On elongated
+// cells, only the direction of stronger coupling is coarsened.
 #include "engine/surface/io/holes.hpp"
 
 #include <algorithm>
@@ -23,15 +22,14 @@ namespace asperity {
 
 namespace {
 
-// A lattice has at most 65536^2 nodes and one measured among them, so 32 bits number the holes.
+// 32 bits suffice for at most 65536^2 nodes, at least one measured.
 using Index = std::uint32_t;
 
-// The missing nodes of a lattice, row by row. Absent neighbours have the number size(), where every
-// vector holds a zero.
+// Missing nodes, row by row. Absent neighbours have the index size(); vectors hold zero there.
 struct Nodes {
   int nx = 0, ny = 0;
   Array<std::int32_t> x, y;
-  Array<std::size_t> row;  // first node of each row, and the end
+  Array<std::size_t> row;  // first nodes, and the end
 
   std::size_t size() const { return x.size(); }
   void close_rows() {
@@ -41,7 +39,7 @@ struct Nodes {
   }
 };
 
-// Finds nodes of one row; quick when the questions come from left to right.
+// Fast for calls from left to right.
 class Cursor {
  public:
   void enter(const Nodes& nodes, int j) {
@@ -61,7 +59,7 @@ class Cursor {
   std::size_t begin_ = 0, end_ = 0, at_ = 0;
 };
 
-// Neighbour k stands at (k % 3 - 1, k / 3 - 1).
+// Offset of neighbour k: (k % 3 - 1, k / 3 - 1).
 constexpr std::size_t centre = 4;
 
 struct FivePoints {
@@ -118,8 +116,7 @@ void sweep_back(const Operator& a, Array<double>& u, const Array<double>& b) {
   for (std::size_t k = a.neighbours.size(); k-- > 0;) u[k] = (b[k] + a.pull(k, u)) * a.inverse[k];
 }
 
-// The nodes of the coarser lattice from which each fine one is interpolated. On the rim, where one
-// of two would lie outside, the other counts in full: no slope across the rim.
+// Coarse nodes for interpolation. At the rim, a single parent gets full weight: zero slope.
 struct Parents {
   bool halve_x = false, halve_y = false;
   Array<std::array<Index, 4>> of;
@@ -129,7 +126,7 @@ struct Parents {
 struct Level {
   Nodes nodes;
   NinePoints a;
-  Parents parents;  // on the level below this one in number, which is finer
+  Parents parents;
   Array<double> u, b;
 };
 
@@ -168,7 +165,7 @@ Parents parents_of(const Nodes& fine, const Nodes& coarse, bool halve_x, bool ha
   return parents;
 }
 
-// P' A P, which has nine points again.
+// Galerkin operator P' A P: nine points again.
 template <class Operator>
 void project(const Operator& fine, Level& coarse) {
   const Nodes& nodes = coarse.nodes;
@@ -231,7 +228,6 @@ class Multigrid {
     }
   }
 
-  // u = M^-1 b; M is symmetric and positive definite.
   void apply(const Array<double>& b, Array<double>& u) { cycle(fine_, 0, u, b); }
 
  private:
@@ -274,11 +270,10 @@ double largest(const Array<double>& values) {
   return most;
 }
 
-// The Laplacian of the holes, and in `known` the pull of their measured neighbours, whose heights
-// count from `low` in units of `span`.
+// `known` receives sums over measured neighbours; heights relative to `low`, in units of `span`.
 FivePoints laplacian_of(const Field& heights, const Nodes& nodes, double hx, double hy, double low,
                         double span, Array<double>& known) {
-  // Couplings weaker than this would be lost in the rounding of the others.
+  // Weaker couplings would vanish in rounding.
   constexpr double weakest = 1e-12;
   FivePoints a;
   a.wx = hx > hy ? std::max((hy / hx) * (hy / hx), weakest) : 1.0;
@@ -334,7 +329,7 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
 
   constexpr std::int64_t parts = 1000;
   Task task(monitor, "filling missing points", parts);
-  // Heights relative to the range, so that products neither overflow nor underflow.
+  // Avoids overflow and underflow in products.
   const double span = high - low;
   Array<double> value(n + 1, 0.5), residual(n + 1, 0.0), direction(n + 1, 0.0), scaled(n + 1, 0.0),
       image(n + 1, 0.0), work(n + 1, 0.0);
@@ -347,7 +342,7 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
   laplacian(value);
   for (std::size_t k = 0; k < n; ++k) residual[k] -= image[k];
 
-  // `scaled` is close to the error itself, in units of the height range.
+  // Approximate error, in units of the height range.
   constexpr double enough = 1e-12;
   constexpr int most = 1000;
   multigrid.apply(residual, scaled);

@@ -27,7 +27,7 @@ std::optional<double> length_unit(std::string_view text) {
   try {
     const Quantity unit = parse_unit(last);
     if (unit.dimension == dimension::length) return unit.value;
-  } catch (const Error&) {  // no unit that is known
+  } catch (const Error&) {  // unknown unit
   }
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Units of length as the files of instruments spell them: "um", "\xB5m" of old code pages, "Micrometer".
+// Units of length in instruments' spelling: "um", "\xB5m" of old code pages, "Micrometer".
 #pragma once
 
 #include <optional>
@@ -7,8 +7,7 @@
 
 namespace asperity {
 
-// Metres in the unit that ends a text ("Lateral um", "Raw Micrometers", "Height (nm)"); none if it is no unit
-// of length.
+// Metres per unit at the end of a text, such as "Lateral um" or "Height (nm)"; none if unknown.
 std::optional<double> length_unit(std::string_view text);
 
 }  // namespace asperity

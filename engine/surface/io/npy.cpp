@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy's NPY format, versions 1 to 3: a magic string, a header that is a Python dictionary with
-// descr, fortran_order and shape, then the raw numbers. Shape is (ny, nx) for a surface and (n,) for
-// a trace. The size of the data is checked against the file before anything is allocated. Objects,
-// records and complex numbers are not heights and are refused.
+// NumPy's NPY format, versions 1 to 3. Shape is (ny, nx) for a surface and (n,) for a trace. The data size
+// is checked against the file before any allocation. Objects, records and complex numbers are refused.
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -22,7 +20,7 @@ namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
 
-// What follows "'key':" in the dictionary, blanks skipped; empty if the key is missing.
+// The text after "'key':", or empty.
 std::string_view value_of(std::string_view dictionary, std::string_view key) {
   for (const char quote : {'\'', '"'}) {
     const std::string name = quote + std::string(key) + quote;

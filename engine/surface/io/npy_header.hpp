@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The header of a file in NumPy's NPY format, for readers of all or of a part of its numbers.
+// Header of an NPY file (NumPy).
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ struct NpyHeader {
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
   std::size_t data_at = 0;  // bytes from the beginning of the file
-  bool swapped() const;     // bytes run the other way than on this machine
+  bool swapped() const;     // byte order differs from this machine's
 };
 
-// Of a file, or of its first 64 KiB and more. Throws Error{bad_file}.
+// `file` may hold only the first 64 KiB. Throws Error{bad_file}.
 NpyHeader read_npy_header(const SourceFile& file);
 
-// Takes one number of the file out of its bytes.
+// Converts the bytes of one number.
 using NpyNumber = double (*)(const char* at, bool swap);
 NpyNumber npy_number(const NpyHeader& header);
 

@@ -24,7 +24,7 @@ using Words = std::span<const std::string_view>;
 
 bool is_one_of(std::string_view text, Words words) { return std::ranges::find(words, text) != words.end(); }
 
-// "X-Size_[um]" is "x size", its unit "um".
+// "X-Size_[um]" gives "x size" and "um".
 struct SettingKey {
   std::string name;
   std::string unit;
@@ -51,7 +51,7 @@ SettingKey setting_key(std::string_view text) {
   return key;
 }
 
-// A number, and the word after it; blanks between them may be missing.
+// Blanks between number and word are optional.
 struct Stated {
   double number = 0;
   std::string word;
@@ -90,7 +90,7 @@ std::optional<double> stated_count(const Stated& value) {
   return value.number;
 }
 
-// "10 um x 20 um", "512 × 512": both values.
+// "10 um x 20 um", "512 × 512"
 std::optional<std::array<std::string_view, 2>> two_values(std::string_view text) {
   for (const std::string_view mark : {" x ", " X ", " * ", "\u00D7"})
     if (const std::size_t at = text.find(mark); at != std::string_view::npos)
@@ -102,7 +102,7 @@ std::optional<std::array<std::string_view, 2>> two_values(std::string_view text)
   return {};
 }
 
-// What is stated in two ways is no number until the whole head is read, and then nothing.
+// Contradictory values become NaN, and are dropped after the whole head.
 void settle(OwnHead& head, std::optional<double> OwnHead::*member, const std::optional<double>& value,
             std::string_view what) {
   if (!value) return;
@@ -196,10 +196,10 @@ void take_setting(OwnHead& head, const SettingKey& key, std::string_view value) 
   if (is_one_of(key.name, row_counts)) settle(head, &OwnHead::stated_rows, stated_count(*one), "its rows");
 }
 
-// "X Range: 10 um", "Columns = 3", "\"XY calibration\",\"277\",\"nm\"", "Scan size 10 um".
+// For example "X Range: 10 um", "Columns = 3", "\"XY calibration\",\"277\",\"nm\"", "Scan size 10 um".
 void take_head_line(OwnHead& head, std::string_view line) {
   if (line.size() > longest_setting) return;
-  std::string plain;  // cells of spreadsheets parted by one blank
+  std::string plain;  // cells separated by one blank
   for (const char c : line)
     if (c != '"') plain += c == '\t' || c == ';' ? ' ' : c;
   std::size_t parts = plain.find_first_of(":=");
@@ -218,7 +218,7 @@ void take_head_line(OwnHead& head, std::string_view line) {
                std::string_view(plain).substr(parts + 1));
 }
 
-// Evenly rising numbers, as positions are: within a share of their step.
+// Tolerance: `share` of the mean step.
 bool rises_evenly(std::span<const double> values, double share) {
   const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
   if (!(step > 0) || !std::isfinite(step)) return false;
@@ -266,7 +266,7 @@ std::optional<OwnHead> own_head(const SourceFile& file) {
   head.lines = begins - 1;
   for (const std::string_view setting : settings) take_head_line(head, setting);
   if (auto names = column_head(last)) {
-    // Words parted by blanks may be a sentence of as many.
+    // A sentence with the same number of words looks alike.
     const bool parted = last.find_first_of(";,\t") != std::string_view::npos;
     const bool have_units =
         std::ranges::any_of(*names, [](const HeadColumn& column) { return !column.word.empty(); });
@@ -311,8 +311,8 @@ void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head) {
         "a line such as \"x [mm],z [um]\" below the head says so of a trace; or say `format` = \"text\": "
         "`profile.read` then takes positions and heights, `surface.read` a matrix");
   constexpr std::size_t enough = 4;
-  constexpr double rounded = 0.02;  // of a step: heights of a tilted map scatter by more
-  // The corner, where both meet, may hold anything.
+  constexpr double rounded = 0.02;  // of a step; heights of a tilted map scatter more
+  // The shared corner may hold anything.
   const auto may_be_positions = [&](std::span<const double> values) {
     return values.size() > enough && rises_evenly(values.subspan(1), rounded);
   };

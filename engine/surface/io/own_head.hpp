@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts of numbers under a head of words, as instruments and their programs export them:
+// Tables under a head of words, as instruments export them:
 //   Stylus profiler / Operator Li / Speed 0.5 mm/s / x [mm],z [um] / 0,1 / 0.1,2 / …
-// Of the head only what is certain is taken: counts of columns and rows, lengths that have a unit, the unit
-// of the heights, and a last line that names as many columns as there are. All else in it is passed over. A
-// table under such a head may be positions and heights, points, a log or a matrix that is wrapped: where
-// nothing says which, it is not taken for a map (refuse_uncertain_lattice).
+// Only unambiguous entries are used: counts, lengths with a unit, the unit of heights, and a last line that
+// names every column. The table may hold positions and heights, points, a log or a wrapped matrix;
+// undecided tables are refused.
 #pragma once
 
 #include <cstddef>
@@ -19,27 +18,26 @@
 namespace asperity {
 
 struct OwnHead {
-  std::size_t lines = 0;    // before the first row of the table
-  std::size_t first = 0;    // number of the first of them with words, which are
-  std::string words;        // these, as errors show them
-  std::size_t columns = 0;  // of the first row
-  // The last line before the table, where it names as many columns.
+  std::size_t lines = 0;  // before the table
+  std::size_t first = 0;  // first line of words
+  std::string words;      // this line, for errors
+  std::size_t columns = 0;
+  // From the last line before the table.
   std::optional<std::vector<HeadColumn>> names;
   std::optional<double> stated_columns, stated_rows;
   std::optional<double> size_x, size_y;        // m, nodes times spacing
   std::optional<double> spacing_x, spacing_y;  // m
   std::optional<double> size;                  // m, of a square
   std::optional<double> unit;                  // m per height
-  std::vector<std::string> twice;              // what is stated in two ways, and then not used
+  std::vector<std::string> twice;              // contradictory entries
 };
 
-// The head of a text whose first line, comments apart, is of words, over two rows of numbers or more. Nothing
-// for any other text, for a line that names columns alone (column_head.hpp) and for formats that are known.
-// O(length of the head).
+// The head, if the first line (without comments) has words and two rows of numbers follow. None for a line
+// of column names alone (column_head.hpp) and for known formats. O(length of the head).
 std::optional<OwnHead> own_head(const SourceFile& file);
 
-// Throws Error{bad_file} where the table under such a head may be no map: columns of another kind are named,
-// positions may stand in the first row or column, or the matrix may be wrapped. Says what would tell.
+// Throws Error{bad_file} if other columns are named, if the first row or column may hold positions, or if
+// the matrix may be wrapped.
 void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head);
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the numbers of a file to metres: unit, size, holes. The same for every format, so that a
-// reader only has to take numbers out.
+// Converts the numbers of any format to metres: unit, size, holes.
 #include "engine/surface/io/read.hpp"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ void require_length(const char* key, std::optional<double> value) {
   require_positive(key, value, "m", "give a finite length above zero");
 }
 
-// A call that cannot be right is told so before the file is looked for.
+// Refuses wrong calls before the file is opened.
 void check_call(const ReadOptions& options) {
   require_length("size", options.size_x);
   require_length("size", options.size_y);
@@ -41,8 +40,7 @@ void check_call(const ReadProfileOptions& options) {
   require_length("unit_xy", options.unit_xy);
 }
 
-// A table in UTF-16, as spreadsheets save "Unicode text", in UTF-8. Formats with a head in UTF-16 read it
-// themselves.
+// Spreadsheets save "Unicode text" in UTF-16. Formats with a UTF-16 head decode it themselves.
 std::optional<SourceFile> as_utf8(const SourceFile& file, const std::string& forced) {
   const std::optional<ForeignFormat> foreign = foreign_format(file);
   if (!foreign || foreign->what != utf16_text) return {};
@@ -55,18 +53,17 @@ std::optional<SourceFile> as_utf8(const SourceFile& file, const std::string& for
   return SourceFile(file.path(), Array<char>(text->begin(), text->end()), file.extension());
 }
 
-// What stands in a file that has to be unpacked, or written as UTF-8, before it is read; nothing for all
-// others.
+// After gunzip and conversion to UTF-8; none if not needed.
 std::optional<SourceFile> plain_file(const SourceFile& given, const std::string& forced, Monitor& monitor) {
   std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
   if (std::optional<SourceFile> text = as_utf8(unpacked ? *unpacked : given, forced)) return text;
   return unpacked;
 }
 
-// By more than a file of numbers in four bytes rounds.
+// Tolerance: four-byte rounding.
 bool differ(double asked, double found) { return std::abs(asked - found) > 1e-6 * std::abs(found); }
 
-// The call's value, else the file's; a warning when the call overrules the file.
+// Warns if call and file differ; the call wins.
 std::optional<double> settled(const std::optional<double>& asked, const std::optional<double>& found,
                               const SourceFile& file, const std::string& key, Monitor& monitor) {
   if (!asked) return found;
@@ -82,7 +79,6 @@ std::optional<double> settled(const std::optional<double>& asked, const std::opt
     things.push_back(key == "unit_xy" ? "the unit of its positions" : "its " + key);
     keys.push_back(quoted(key));
   }
-  // "its size and unit"
   for (std::size_t k = 1; k < things.size(); ++k)
     if (things[k].starts_with("its ")) things[k].erase(0, 4);
   const auto lacks = [&](const char* key) {
@@ -96,7 +92,7 @@ std::optional<double> settled(const std::optional<double>& asked, const std::opt
                                      : ": the length of one number of a position, such as \"mm\""));
 }
 
-// A unit that the line over the columns says is not overruled: one of the two is a slip.
+// A contradiction to the line of column names is an error: either may be a mistake.
 std::optional<double> unit_of(const std::optional<double>& asked, const std::optional<double>& found,
                               const HeightMap& map, const SourceFile& file, const std::string& key,
                               Monitor& monitor) {
@@ -110,7 +106,7 @@ std::optional<double> unit_of(const std::optional<double>& asked, const std::opt
   return settled(asked, found, file, key, monitor);
 }
 
-// Sizes of a file of positions in metres, or unknown where nobody says the unit of a position.
+// Sizes remain unknown without a unit of position.
 void positions_into_metres(HeightMap& map, const std::optional<double>& asked, const SourceFile& file,
                            Monitor& monitor) {
   if (!map.size_in_units) {
@@ -126,7 +122,7 @@ void positions_into_metres(HeightMap& map, const std::optional<double>& asked, c
     if (*size) *size = unit ? std::optional<double>(**size * *unit) : std::nullopt;
 }
 
-// Lengths that no instrument measures come from a unit, or a head, that is wrong.
+// Lengths beyond any instrument indicate a wrong unit.
 void warn_of_proportions(const HeightMap& map, const SourceFile& file, double hx, double hy,
                          Monitor& monitor) {
   constexpr double shortest = 1e-12, longest = 1e3, steepest = 1e3, narrowest = 1e5;
@@ -166,7 +162,6 @@ HeightMap read_map(const SourceFile& file, const std::string& forced, const std:
               "leave `channel` out; files of " + joined(several, " and ") + " may hold several maps");
 }
 
-// Turns the numbers into metres, and fills the holes where the call says how.
 void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx, double hy,
                  const HoleFill& fill, Monitor& monitor) {
   if (fill.kind == HoleFill::Kind::value)
@@ -201,7 +196,7 @@ void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx,
   }
 }
 
-// Two columns, position and height, become a trace; positions are evenly spaced.
+// Position and height become a trace.
 void fold_positions(HeightMap& map, const SourceFile& file) {
   const int n = map.heights.ny();
   if (n < 2)
@@ -224,7 +219,7 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
   map.trace = true;
 }
 
-// Puts the lowest line first. A trace keeps its order.
+// Lowest line first; traces are unchanged.
 void stand_upright(HeightMap& map, const Format& format) {
   if (map.trace || map.heights.ny() < 2) return;
   if (map.first_line.value_or(format.lines.first) == FirstLine::bottom) return;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces of stylus profilers as CSV: a header of `key,value` lines, a line `Scan Data`, a line that
-// names columns and units (`Lateral um,Raw Micrometer`), then one line a sample. Positions are
-// written rounded (0.1 um for a spacing of 0.156 um), and so is the `Resolution` of the header;
-// the spacing is therefore the least-squares slope of position against sample number, which is
-// good to about rounding / n^1.5. Unevenly spaced samples are an error, and so are samples that end
-// before the `Length` of the header. `Resolution` alone says nothing of the end and is not used.
+// CSV traces of stylus profilers: lines `key,value`, `Scan Data`, column names with units (`Lateral um,Raw
+// Micrometer`), samples. Positions and `Resolution` are rounded (0.1 um for a spacing of 0.156 um), so the
+// spacing is the least-squares slope of position against sample number; error about rounding / n^1.5.
+// Uneven spacing and samples shorter than `Length` are errors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +34,6 @@ bool recognises_stylus_csv(const SourceFile& file) {
   return false;
 }
 
-// Decimals with which a number is written.
 int decimals(std::string_view text) {
   const std::size_t point = text.find_first_of(".,");
   return point == std::string_view::npos
@@ -44,7 +41,7 @@ int decimals(std::string_view text) {
              : static_cast<int>(std::min<std::size_t>(text.size() - point - 1, 17));
 }
 
-// "1500.0 um", and "1500.0 \xB5m" as instruments write it.
+// Also "1500.0 \xB5m".
 std::optional<double> length_of(std::string_view text) {
   std::string plain(text);
   if (const std::size_t micro = plain.find('\xB5');
@@ -52,12 +49,12 @@ std::optional<double> length_of(std::string_view text) {
     plain[micro] = 'u';
   try {
     return parse_quantity_as(plain, dimension::length);
-  } catch (const Error&) {  // only used for a check
+  } catch (const Error&) {  // optional check
     return {};
   }
 }
 
-// Half a sample is allowed for a length counted between the first and the last.
+// Tolerance: half a sample, because some headers count from first to last sample.
 void check_length(const SourceFile& file, double found, double spacing, double stated, Monitor& monitor) {
   const std::string stated_text = format_quantity(stated, dimension::length),
                     found_text = format_quantity(found, dimension::length);
@@ -73,7 +70,7 @@ struct Line {
   double spacing = 0, first = 0;
 };
 
-// Least squares of position against number, by centred sums.
+// Least squares by centred sums.
 Line fitted(std::span<const double> positions) {
   const auto n = static_cast<double>(positions.size());
   const double middle = 0.5 * (n - 1), average = mean(positions);
@@ -89,7 +86,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   LineReader lines(file.text());
   std::string_view line;
   bool found = false;
-  std::optional<double> length;  // m, as the header says
+  std::optional<double> length;  // m, from the header
   while (!found && lines.next(line)) {
     found = is_scan_mark(line);
     const std::vector<std::string_view> cells = cells_of(line, Separator::comma);
@@ -132,7 +129,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   if (positions.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     refuse_file(file, "has too many samples");
   const Line fit = fitted(positions);
-  // Rounding moves a position by half of its last digit at most.
+  // Rounding moves a position by half of its last digit.
   const double allowed = std::max(0.5 * fit.spacing, 0.6 * elementary::pow(10.0, -places));
   if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
     refuse_file(file, "has positions that do not increase");

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text matrices: one line of numbers is one y, the first line is j = 0, under Gwyddion's head the top.
-// Besides bare tables it knows three headers: the one this program writes (`# asperity surface`, `# asperity
-// profile`), the instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
-// `Height:`, `Value units:`. A header that lies about the number of cells is an error. A profile of
-// this program's own is two columns, position and height, and so is a table over which a line such as
-// "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights. Under a head of words
-// (own_head.hpp) it is the same, with what the head says for certain.
+// Text matrices: one line of numbers per y, j = 0 first; top first under Gwyddion's head. Known headers:
+// our own (`# asperity surface`, `# asperity profile`), `h= w= pixel size= height conversion factor=`, and
+// comments `Width:`, `Height:`, `Value units:`. Two columns are position and height in our own profiles and
+// under a line such as "x [mm],z [um]"; any other table holds heights. Heads of words: own_head.hpp.
 #include <optional>
 
 #include "engine/core/error.hpp"
@@ -25,7 +22,7 @@ struct Header {
   std::optional<double> size_x, size_y, unit, pixel, closed_radius;
   std::optional<std::vector<HeadColumn>> pair;  // position and height
   bool pair_named = false;                      // by a line, not by a comment
-  bool width = false, height = false;           // stated as Gwyddion states those of an image
+  bool width = false, height = false;           // as in Gwyddion's heads
 };
 
 std::optional<double> plain_number(std::string_view text) {
@@ -34,7 +31,7 @@ std::optional<double> plain_number(std::string_view text) {
   return cell.value;
 }
 
-// "3.7e-007 m", "10 um" or a plain number of metres.
+// "3.7e-007 m", "10 um", or metres.
 std::optional<double> length_with_unit(std::string_view text) {
   if (const auto number = plain_number(text)) return number;
   try {
@@ -52,7 +49,7 @@ double needed(const std::optional<double>& value, const SourceFile& file, std::s
   return *value;
 }
 
-// Takes one `key = value` of a header in; keys that say nothing about the grid are passed over.
+// Skips keys unrelated to the grid.
 void take_in(Header& header, const SourceFile& file, std::string_view key_text, std::string_view value) {
   const std::string key = lower_case(trimmed(key_text));
   if (key == "h") {
@@ -78,7 +75,7 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
     header.pixel = needed(plain_number(value), file, key, value);
   } else if (key == "closed radius [m]") {
     header.closed_radius = needed(plain_number(value), file, key, value);
-  } else if (key == "width" || key == "breite") {  // Gwyddion writes heads in its user's language
+  } else if (key == "width" || key == "breite") {  // Gwyddion's head is localised
     header.size_x = needed(length_with_unit(value), file, key, value);
     header.width = true;
   } else if (key == "height" || key == "h\u00F6he") {
@@ -88,7 +85,7 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
     try {
       const Quantity unit = parse_unit(trimmed(value));
       if (unit.dimension == dimension::length) header.unit = unit.value;
-    } catch (const Error&) {  // heights in an unknown unit: the call has to say
+    } catch (const Error&) {  // unknown: the call must state it
     }
   }
 }
@@ -112,14 +109,14 @@ void take_in_line(Header& header, const SourceFile& file, std::string_view line)
   }
 }
 
-// Of a comment: only one that says both units is sure to be meant for the columns.
+// A comment with fewer than two units may be unrelated to the columns.
 std::optional<std::vector<HeadColumn>> units_of_pair(std::string_view line) {
   auto pair = profile_head(line);
   if (pair && (*pair)[0].unit && (*pair)[1].unit) return pair;
   return {};
 }
 
-// Reads to the first row of numbers, which the reader gives next.
+// Reads up to the first row of numbers.
 Header read_header(LineReader& lines, const SourceFile& file) {
   Header header;
   std::string_view line;
@@ -175,7 +172,6 @@ void check_count(const SourceFile& file, const std::optional<double>& said, int 
                 "the file is cut short or its header is wrong");
 }
 
-// Two columns that their head names: the positions are taken out where all traces are (read.cpp).
 HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const SourceFile& file,
                   Monitor& monitor) {
   map.pairs = map.named_columns = true;
@@ -184,7 +180,7 @@ HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const Sour
   return map;
 }
 
-// Nodes times spacing. A length that is stated too may be that from the first node to the last.
+// Nodes times spacing. A stated length may exclude the last cell.
 std::optional<double> size_along(const SourceFile& file, const std::optional<double>& size,
                                  const std::optional<double>& spacing, int nodes, const std::string& axis) {
   if (!spacing) return size;
@@ -222,7 +218,7 @@ HeightMap read_under_own_head(const SourceFile& file, const OwnHead& head, Monit
   if (head.names && table.columns == 2 && are_of_profile(*head.names))
     return pair_of(std::move(map), *head.names, file, monitor);
   if (head.names && table.columns == 1 && head.names->front().unit) map.unit = head.names->front().unit;
-  if (table.columns == 1) {  // a trace, one sample a line
+  if (table.columns == 1) {  // one sample per line
     map.size_y = head.spacing_x ? *head.spacing_x * table.rows : head.size ? head.size : head.size_x;
     return map;
   }

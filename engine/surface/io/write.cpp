@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text and NPY; X3P has its own file. Numbers are written in the shortest form that reads back as
-// the same double.
+// Text and NPY. Numbers are written in the shortest form that reads back as the same double.
 #include "engine/surface/io/write.hpp"
 
 #include <bit>
@@ -15,7 +14,6 @@
 
 namespace asperity {
 
-// Each defined in the source of its format.
 void write_gwy(const Surface& surface, const std::string& path);
 void write_x3p(const Surface& surface, const std::string& path);
 void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor);
@@ -34,7 +32,7 @@ constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
               "use " + known);
 }
 
-// NPY version 1; the header is padded so that the data start at a multiple of 64 bytes.
+// Version 1. Padding aligns the data to 64 bytes.
 void write_npy(const std::string& path, const std::string& shape, std::span<const double> values, int rows,
                Monitor& monitor) {
   static_assert(std::endian::native == std::endian::little, "NPY data are written as they lie in memory");
@@ -105,7 +103,6 @@ void write_trace(const Profile& profile, const std::string& path, char separator
   file.commit();
 }
 
-// The surface with its lines in the order in which the format stores them.
 Surface as_stored(const Surface& surface, std::string_view extension) {
   const Format* const format = format_of_extension(extension);
   if (format == nullptr || format->lines.first == FirstLine::bottom) return surface;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X3P, the XML container of ISO 25178-72 (before: ISO 5436-2): a zip archive of main.xml, which holds
-// axes and matrix dimension, and of the heights, in a binary file or in main.xml itself; all of it may
-// lie in one folder. x runs fastest; z = raw * Increment + Offset, in metres; data types I, L (signed
-// 16 and 32 bits), F and D. An absolute x or y axis stores its coordinate with every point; it must be
-// evenly spaced. NaN, an infinite height (as Alicona writes), an empty datum or a cleared bit of the
-// valid-points file is a hole. The MD5 that main.xml gives of its binary files must be theirs; where that of
-// main.xml itself, in md5checksum.hex as md5sum writes it (Record4), is another, a warning says so: main.xml
-// is edited by hand, and some programs write another sum. Offsets of x and y, rotation, layers and point
-// clouds are not read.
+// X3P, the XML container of ISO 25178-72 (formerly ISO 5436-2): a zip archive of main.xml and heights, in a
+// binary file or in main.xml. x runs fastest; z = raw * Increment + Offset, in metres. Data types: I, L
+// (signed 16 and 32 bits), F, D. An absolute x or y axis must be evenly spaced. Holes: NaN, an infinite
+// height (Alicona), an empty datum, a cleared bit of the valid-points file. A wrong MD5 of data is an
+// error, of main.xml a warning: people edit main.xml, and some programs write another sum. Offsets of x and
+// y and rotation are ignored.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -30,7 +27,6 @@ namespace asperity {
 
 namespace {
 
-// Elements are looked up without their namespace prefix.
 pugi::xml_node child(pugi::xml_node parent, std::string_view name) {
   for (const pugi::xml_node node : parent.children()) {
     const std::string_view whole = node.name();
@@ -49,7 +45,7 @@ std::string_view text_of(pugi::xml_node node) {
   return text;
 }
 
-// More digits than a double holds, so that increment times count rounds to the size that was meant.
+// Extra digits: increment times count must round to the intended size.
 std::optional<long double> number_of(pugi::xml_node node) {
   std::string_view text = text_of(node);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -61,7 +57,7 @@ std::optional<long double> number_of(pugi::xml_node node) {
 }
 
 struct X3pAxis {
-  bool absolute = false;  // its coordinate stands with every point
+  bool absolute = false;  // coordinate stored with every point
   char type = 'D';        // I, L, F, D
   long double increment = 1, offset = 0;
   bool has_increment = false;
@@ -108,13 +104,12 @@ std::uint64_t count_of(const SourceFile& file, pugi::xml_node dimension, const c
 struct Map {
   std::uint64_t nx = 0, ny = 0;
   std::array<X3pAxis, 3> axes;
-  Array<double> x, y;  // coordinates of the first row and column where absolute
+  Array<double> x, y;  // coordinates, if absolute
   Field heights;
 
   std::size_t stored_axes() const {
     return static_cast<std::size_t>(axes[0].absolute) + static_cast<std::size_t>(axes[1].absolute) + 1;
   }
-  // Takes in coordinate `axis` of point k.
   void put(std::size_t axis, std::uint64_t k, double raw) {
     const X3pAxis& a = axes[axis];
     const double value =
@@ -157,16 +152,16 @@ void compare_md5(const SourceFile& file, Md5& md5, std::string_view wanted, cons
               "copy the file again from its source");
 }
 
-// An entry that main.xml names, from the top or from the folder in which main.xml lies.
+// Relative to the top or to the folder of main.xml.
 std::int64_t linked_entry(const Archive& archive, const std::string& folder, std::string_view name) {
   const std::int64_t index = archive.find(folder + std::string(name));
   return index < 0 ? archive.find(name) : index;
 }
 
-// `found` is that of main.xml. An entry that is not there, or holds no sum, says nothing.
+// `found`: MD5 of main.xml. A missing entry or sum is ignored.
 void compare_own_md5(const SourceFile& file, const Archive& archive, const std::string& folder,
                      std::string_view name, const std::string& found, Monitor& monitor) {
-  constexpr std::uint64_t longest = 4096;  // a sum and the name of a file
+  constexpr std::uint64_t longest = 4096;
   const std::int64_t index = linked_entry(archive, folder, name.empty() ? "md5checksum.hex" : name);
   if (index < 0 || archive.claimed_size(index) > longest) return;
   const Array<char> text = archive.contents(index, longest);
@@ -261,7 +256,7 @@ void read_inline(const SourceFile& file, pugi::xml_node list, Map& map) {
   }
 }
 
-// Nodes times spacing of one axis, m.
+// Nodes times spacing, m.
 double size_of(const SourceFile& file, const X3pAxis& axis, std::span<const double> coordinates,
                std::uint64_t count, const char* name) {
   if (!axis.absolute) return static_cast<double>(axis.increment * static_cast<long double>(count));
@@ -275,8 +270,8 @@ double size_of(const SourceFile& file, const X3pAxis& axis, std::span<const doub
   return spacing * static_cast<double>(count);
 }
 
-// Counts, while it lives, the most that the tree of a document can take: pugixml has memory of its own.
-// A tag begins one node and the text after it another, an equals sign one attribute.
+// Accounts an upper bound of pugixml's memory: two nodes per tag (element and text), one attribute per
+// equals sign.
 class TreeMemory {
  public:
   explicit TreeMemory(std::span<const char> xml) {
@@ -314,12 +309,12 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   const std::string folder = archive.folder_of(main_entry);
   const std::int64_t index = archive.find(folder + std::string(main_entry));
   if (index < 0) refuse_file(file, "is a zip archive without main.xml, so it is not X3P");
-  // Text packs no better than some twenty times; more is not a list of numbers.
+  // Text packs about twenty times at most.
   const std::uint64_t limit = (std::uint64_t{1} << 20) + 32 * static_cast<std::uint64_t>(file.bytes().size());
   Array<char> xml = archive.contents(index, limit);
   Md5 md5;
   md5.add(xml);
-  const std::string xml_md5 = md5.hex();  // before it is parsed, in place
+  const std::string xml_md5 = md5.hex();  // before parsing in place
   const TreeMemory tree(xml);
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(

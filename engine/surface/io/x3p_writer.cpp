@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes X3P (ISO 25178-72): incremental x and y, absolute z in double precision, MD5 of the data.
-// No date but a fixed one, so that the same surface gives the same bytes.
-// libzip builds the archive in memory from the heights; only the packed bytes are copied. A point that was
-// not measured is NaN, as the standard has it for floating-point heights; its mask of valid points is for
-// integers, which have no such number.
+// Writes X3P (ISO 25178-72): incremental x and y, absolute z in double precision, MD5. A fixed date makes
+// output deterministic. libzip builds the archive in memory; only packed bytes are copied. Missing points
+// are NaN: the valid-points mask of the standard is for integers.
 #include <zip.h>
 
 #include <array>
@@ -22,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-// size / count, to 21 digits.
+// To 21 digits.
 std::string increment(double size, int count) {
   std::array<char, 64> buffer;
   const auto [end, failure] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
@@ -82,8 +80,8 @@ std::string md5_of(std::span<const char> bytes) {
 
 }  // namespace
 
-// Throws Error{bad_file} when the file cannot be written. Increments carry more digits than a double
-// holds, so that the size reads back exactly.
+// Throws Error{bad_file} if writing fails. Increments have more digits than a double, so the size reads
+// back exactly.
 void write_x3p(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");
   const auto heights = surface.measured_heights().values();
@@ -92,7 +90,7 @@ void write_x3p(const Surface& surface, const std::string& path) {
   const std::string checksum = md5_of(xml) + " *main.xml\n";
 
   AtomicFile file(path, FileWords::data);
-  // libzip would write a file of its own next to the part, and a killed writer would leave it.
+  // A temporary file of libzip would survive a killed process.
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* archive = zip_source_buffer_create(nullptr, 0, 0, &error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// XDMF counts axes as C arrays do, slowest first: (z, y, x).
+// XDMF orders axes slowest first: (z, y, x).
 #include "engine/surface/io/xdmf.hpp"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-// A text inside an attribute of XML.
+// Escapes an XML attribute.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -63,7 +63,7 @@ std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content
       dimensions +
       "\"/>\n"
       "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n";
-  // The width of the one layer of nodes matters to nobody, but must not be 0.
+  // The single layer needs any spacing except 0.
   text += item("0 0 0") +
           item(format_exact(grid.hx()) + " " + format_exact(grid.hy()) + " " + format_exact(grid.hx()));
   text += "      </Geometry>\n";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// XDMF beside HDF5: a few lines of XML that tell ParaView, VisIt and their like where the nodes of the fields
-// of an HDF5 file stand. The tile is a regular grid of nodes (i hx, j hy) at height 0; every field has a
-// value at each node, so that a filter such as ParaView's "Warp By Scalar" raises it to a relief.
+// XDMF describes an HDF5 file for ParaView and VisIt: a regular grid of nodes (i hx, j hy) at height 0,
+// with fields per node. A filter such as ParaView's "Warp By Scalar" raises a relief.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +12,17 @@
 
 namespace asperity {
 
-// The path of the XDMF file that goes with an HDF5 file: the same with the ending .xdmf.
+// Same path, extension .xdmf.
 std::filesystem::path xdmf_path(const std::filesystem::path& hdf5);
 
-// Whether a file of this name is HDF5 by its ending, which is written with an XDMF file beside it.
+// True for an HDF5 extension.
 bool has_xdmf_beside(const std::filesystem::path& file);
 
-// The XML for the arrays of shape (ny, nx) in `content`, which stands or will stand in the file `hdf5` of the
-// same folder.
+// For arrays of shape (ny, nx); `hdf5` is their file in the same folder.
 std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,
                       const std::filesystem::path& hdf5);
 
-// Writes both, the HDF5 file first: a description never speaks of data that are not there. Throws as
-// write_hdf5.
+// Writes the HDF5 file first, so the description never names missing data. Throws as write_hdf5().
 void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
                          const Hdf5Content& content);
 

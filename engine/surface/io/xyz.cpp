@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// x y z triples of a regular grid, in any order: one point a line. The distinct x and y give the
-// lattice; spacing is (last - first)/(n - 1), and every coordinate must lie within a quarter of a
-// cell of its lattice line. A point given twice is an error, one left out is a hole. A line that names
-// the columns, or the last such comment, says their units (column_head.hpp). Scattered points are not
-// gridded here. Three columns whose first two are almost a lattice, or what may be left of one, are
-// neither taken for points nor for a matrix: the caller has to say.
+// x y z triples of a regular grid, one point per line, in any order. Spacing = (last - first)/(n - 1) of
+// the distinct x and y; every coordinate must be within a quarter of a cell of its lattice line. A
+// duplicate point is an error, a missing point is a hole. Units: column_head.hpp. Scattered points are not
+// gridded here. If unnamed columns may or may not be a lattice, the caller must name the format.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,10 +23,9 @@ namespace {
 struct LatticeAxis {
   double first = 0, spacing = 0;
   int lines = 0;      // distinct coordinates
-  bool even = false;  // each within a quarter of the spacing of its place
-  double odd = 0;     // a coordinate that is not
+  bool even = false;  // within a quarter of the spacing
+  double odd = 0;     // an uneven coordinate
   Array<double> distinct;
-  // Which of the distinct coordinates it is.
   std::uint64_t rank(double coordinate) const {
     return static_cast<std::uint64_t>(std::upper_bound(distinct.begin(), distinct.end(), coordinate) -
                                       distinct.begin() - 1);
@@ -68,15 +65,12 @@ bool coordinates_present(const TextTable& table) {
   return true;
 }
 
-// What the lines before the numbers say of the columns.
 struct TriplesHead {
   std::optional<std::vector<HeadColumn>> columns;
-  bool named = false;  // by a line of its own, not by a comment
+  bool named = false;  // not by a comment
 };
 
-// Takes in the comments and the line of names that stand before the numbers. A comment counts where it has
-// units.
-// Under a head of words its last line names them.
+// A comment counts only with units. In a head of words, the last line names the columns.
 TriplesHead take_head(LineReader& lines, const SourceFile& file) {
   TriplesHead head;
   std::string_view line;
@@ -106,13 +100,13 @@ TriplesHead take_head(LineReader& lines, const SourceFile& file) {
 
 struct Triples {
   TextTable table;
-  bool named = false;  // a line says that they are x, y and z
+  bool named = false;
 };
 
-// A table of three columns without holes in the first two; nothing if it is another one.
+// A table of three columns without holes in x and y.
 std::optional<Triples> triples_of(const SourceFile& file) {
   if (!file.looks_like_text()) return {};
-  if (file.text().starts_with("# asperity")) return {};  // a table of this program's own
+  if (file.text().starts_with("# asperity")) return {};
   LineReader lines(file.text());
   const TriplesHead head = take_head(lines, file);
   std::string_view line;
@@ -132,11 +126,11 @@ std::optional<Triples> triples_of(const SourceFile& file) {
   return {};
 }
 
-// How the points of a table stand among all pairs of an x and a y that occur.
+// How often each pair of x and y occurs.
 struct Coverage {
-  double places = 0;          // pairs that could be
-  int points = 0;             // pairs that are
-  bool equally_often = true;  // each as often as the others
+  double places = 0;  // possible pairs
+  int points = 0;     // distinct pairs
+  bool equally_often = true;
 };
 
 Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
@@ -156,8 +150,8 @@ Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const Lattice
   return coverage;
 }
 
-// Three columns that a line names, or whose first two form a lattice, each point once. A full lattice of 2 x
-// 2 or more is never by chance; with points missing only a larger one is believed.
+// Named columns, or a lattice with each point once. A full lattice of 2 x 2 or more is never accidental;
+// with missing points, at least 16 rows are required.
 bool recognises_xyz(const SourceFile& file) {
   const std::optional<Triples> triples = triples_of(file);
   if (!triples) return false;
@@ -171,7 +165,7 @@ bool recognises_xyz(const SourceFile& file) {
   return coverage_of(table, x, y).points == table.rows;
 }
 
-// Comments that only a matrix has.
+// Occurs only in matrices.
 bool names_a_width(const SourceFile& file) {
   LineReader lines(file.text());
   std::string_view line;
@@ -180,7 +174,7 @@ bool names_a_width(const SourceFile& file) {
   return false;
 }
 
-// Takes the units of the head over. x and y may differ: y is then told in the unit of x.
+// y is converted to the unit of x.
 void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const SourceFile& file,
                 Monitor& monitor) {
   const auto x = head_unit(columns[0], file, monitor), y = head_unit(columns[1], file, monitor);
@@ -195,8 +189,8 @@ void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const So
   if (x && map.size_y) map.size_y = *map.size_y * (*y / *x);
 }
 
-// Whether the points come line by line and end within a line, along either axis in either sense. A file that
-// was cut short does, and what is left of its last line looks like points that were not measured.
+// True if the points follow scan lines, along either axis in either direction, and end within a line. In a
+// truncated file, the rest of the last line looks like missing points.
 bool ends_within_a_line(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
   for (const bool along_x : {true, false})
     for (const bool falling_fast : {false, true})
@@ -270,8 +264,8 @@ HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   return map;
 }
 
-// Lines of the smallest regular lattice on which all the coordinates lie, their number at most `most`. Some
-// lines may be empty: the least distance of two coordinates is a whole number of spacings.
+// Lines of the smallest regular lattice through all coordinates, at most `most`; the least distance is a
+// whole number of spacings.
 std::optional<double> lattice_lines(const LatticeAxis& axis, double most) {
   if (axis.lines == 1) return 1;
   const Array<double>& distinct = axis.distinct;
@@ -292,7 +286,7 @@ std::optional<double> lattice_lines(const LatticeAxis& axis, double most) {
   return {};
 }
 
-// Whether one coordinate never turns back, as that of the slow direction of a scan.
+// Monotonic, like the slow axis of a scan.
 bool goes_one_way(const TextTable& table, std::size_t column) {
   bool rises = true, falls = true;
   for (std::size_t k = 1; k < static_cast<std::size_t>(table.rows); ++k) {
@@ -305,9 +299,9 @@ bool goes_one_way(const TextTable& table, std::size_t column) {
 
 }  // namespace
 
-// Heights with few steps make few distinct pairs too, but they meet by chance: of n pairs drawn from
-// m, m (1 - exp(-n/m)) differ, 73 % of n where m is 1.5 n and 79 % at 2 n. Points of a scan differ
-// but for a few, or all come equally often.
+// Coarsely quantised heights repeat pairs too, but by chance: n pairs drawn from m give m (1 - exp(-n/m))
+// distinct pairs, 73 % of n at m = 1.5 n and 79 % at 2 n. Points of a scan are nearly all distinct or
+// equally frequent.
 bool almost_triples(const SourceFile& file) {
   const std::optional<Triples> triples = triples_of(file);
   if (!triples || triples->table.rows < 5 || names_a_width(file)) return false;
@@ -332,10 +326,8 @@ bool many_triples(const SourceFile& file) {
   return 2 * axis_of(table, 0).lines >= table.rows && 2 * axis_of(table, 1).lines >= table.rows;
 }
 
-// A text of three columns says no more than its numbers: two lines of three heights are what is left of a
-// lattice when all but two of its points are taken out, and nobody can tell. So a table is a matrix only
-// where it is no such rest: a place is given twice, the places lie on no small lattice, or none is met again
-// and they jump to and fro.
+// Two lines of three heights could be the rest of a sparse lattice. A table is a matrix only if a place
+// repeats, if the places fit no small lattice, or if no coordinate repeats and neither is monotonic.
 bool may_be_triples(const SourceFile& file) {
   const std::optional<Triples> triples = triples_of(file);
   if (!triples || triples->table.rows < 2 || names_a_width(file)) return false;

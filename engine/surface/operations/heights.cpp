@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain loops over the nodes; sums in fixed blocks.
+// Sums use fixed blocks.
 #include "engine/surface/operations/heights.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double deviation(std::span<const double> heights, double average, ScaleTo measur
     for (std::size_t k = 0; k < heights.size(); ++k) terms[k] = std::abs(heights[k] - average);
     return mean(terms);
   }
-  // Relative to the greatest deviation, so that squares of nanometres do not vanish.
+  // Relative to the greatest deviation, so that squares of nanometres do not underflow.
   double greatest = 0;
   for (const double h : heights) greatest = std::max(greatest, std::abs(h - average));
   if (greatest == 0) return 0;
@@ -36,7 +36,7 @@ std::string key_of(ScaleTo measure) {
   return measure == ScaleTo::amplitude ? "amplitude" : measure == ScaleTo::rms ? "rms" : "ra";
 }
 
-// The recipe of a surface whose heights were changed node by node, with the numbers of the first time.
+// Repeats the change, with its original numbers.
 template <class Change>
 SurfaceRecipe then(std::shared_ptr<const SurfaceRecipe> recipe, Change change) {
   return [recipe, change](int nx, int ny, Monitor& monitor) {
@@ -48,8 +48,7 @@ SurfaceRecipe then(std::shared_ptr<const SurfaceRecipe> recipe, Change change) {
   };
 }
 
-// Times a number or divided by one: what is periodic stays so, and the share of variance past Nyquist with
-// it.
+// Scaling preserves periodicity and the aliased share.
 template <class Change>
 Surface changed(const Surface& surface, bool flat, const Change& change) {
   Field heights = surface.measured_heights();
@@ -64,7 +63,7 @@ Surface changed(const Surface& surface, bool flat, const Change& change) {
 double cut_level(const Range& range, double fraction) {
   require(fraction >= 0 && fraction <= 1, "fraction", fraction, "",
           "give the part of the peak-to-valley height to cut off, from 0 to 1");
-  // At 1 the level is the lowest point itself, not what rounding makes of it.
+  // Exactly the lowest point, without rounding.
   return fraction == 1 ? range.min : range.max - fraction * range.span();
 }
 
@@ -85,7 +84,7 @@ Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbou
                                                      : deviation(measured.values(), average, measure);
   const double fixed = about == ScaleAbout::mean ? average : range.min;
   Field heights = surface.measured_heights();
-  // Multiply, then divide: the quotient alone would overflow for heights near the smallest double.
+  // target / now can overflow or underflow for extreme heights; then deviations are divided first.
   const double factor = target / now;
   const bool direct = std::isfinite(factor) && factor > 1e-290;
   const auto stretch = [=](Field& z) {
@@ -130,7 +129,6 @@ void require_equal_grids(const Grid& a, const Grid& b, const char* done) {
                 "bring both to one size with `cropped`, then to the same cells with `resampled`");
 }
 
-// A sum with either sign; a hole of either is one of the result.
 template <class Combine>
 Surface combined(const Surface& first, const Surface& second, const Combine& combine,
                  Surface (*again)(const Surface&, const Surface&)) {
@@ -170,7 +168,7 @@ Surface cut(const Surface& surface, double fraction) {
   const double level = cut_level(surface.height_range(), fraction);
   Field heights = surface.measured_heights();
   const auto flatten = [level](Field& z) {
-    for (double& h : z.values()) h = std::min(h, level);  // of a hole NaN, its first argument
+    for (double& h : z.values()) h = std::min(h, level);  // keeps NaN: first argument
   };
   flatten(heights);
   SurfaceTraits traits = surface.traits();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A node outside the grid is replaced by what it would be if the last three nodes lay on a parabola
-// (Keys' boundary condition), which folds its weight back onto them.
+// Outside nodes are extrapolated by the parabola through the last three nodes (Keys' boundary condition),
+// folded into their weights.
 #include "engine/surface/operations/interpolation.hpp"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ BandWeights mean_weights(double place, double half, int n) {
     result.weight = {1.0};
     return result;
   }
-  // The line past the last node is that through the last two, so the last stretch is never alone.
+  // Extrapolation needs the last two nodes.
   const int last_stretch = std::max(0, n - 2);
   result.first = std::min(static_cast<int>(low), last_stretch);
   const int last = std::min(static_cast<int>(std::ceil(high)), n - 1);

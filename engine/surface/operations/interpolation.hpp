@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weights of nodes along one axis for a height between them: Keys' cubic convolution (Keys 1981,
-// a = -1/2), which passes through the nodes and is exact for parabolas, up to the rim as well; and
-// means over a stretch of the piecewise linear profile, for coarsening. Thread-safe, O(1).
+// Weights along one axis: Keys' cubic convolution (Keys 1981, a = -1/2), through the nodes and exact for
+// parabolas up to the rim; and means of the piecewise linear profile, for coarsening. Thread-safe, O(1).
 #pragma once
 
 #include <array>
@@ -11,28 +10,26 @@
 
 namespace asperity {
 
-// Height at a place = sum of weight[k] * height[node[k]].
+// Height = sum of weight[k] * height[node[k]].
 struct CubicWeights {
   std::array<int, 4> node{};
   std::array<double, 4> weight{};
 };
 
-// At `place` (in cells) of an axis of n nodes. Wrapping: any finite place. Otherwise 0 <= place < n:
-// between the nodes cubic, past the last one the line through the last two goes on.
+// `place` in cells on an axis of n nodes. Wrapping: any finite place; otherwise 0 <= place < n, linear past
+// the last node.
 CubicWeights cubic_weights(double place, int n, bool wraps);
 
-// Σ over both axes. A node of weight 0 is not touched; with `holes`, where one that is touched is NaN the
-// height is.
+// With `holes`, skips nodes of weight 0; a NaN at another node gives NaN.
 double cubic_height(const Field& heights, const CubicWeights& x, const CubicWeights& y, bool holes);
 
-// A band of weights of any width.
 struct BandWeights {
   int first = 0;
   std::vector<double> weight;
 };
 
-// Mean over [place - half, place + half] (in cells, 0 <= place < n) of the line through the nodes;
-// near a rim the stretch is shortened on both sides alike, so that planes stay planes.
+// Mean of the piecewise linear profile over [place - half, place + half] (cells, 0 <= place < n). Near a rim
+// the interval shrinks symmetrically, which preserves planes.
 BandWeights mean_weights(double place, double half, int n);
 
 }  // namespace asperity

@@ -20,7 +20,7 @@ namespace asperity {
 namespace {
 
 constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
-// The standard deviation of a Gaussian over its median absolute deviation: 1/Φ⁻¹(3/4).
+// Gaussian standard deviation / median absolute deviation: 1/Φ⁻¹(3/4).
 constexpr double deviation_over_mad = 1.4826022185056018;
 
 template <class Heights>
@@ -51,7 +51,7 @@ void check_outlier_rule(const OutlierRule& rule) {
           "give an odd whole number from 3 to 31");
 }
 
-// Heights less the median of the measured ones around them; NaN where nothing was measured.
+// NaN in holes.
 Field median_residuals(const Field& z, int window, bool wraps_x, bool wraps_y, Monitor& monitor) {
   Field residuals(z.nx(), z.ny(), no_height);
   const int half = window / 2;
@@ -237,7 +237,7 @@ Profile filled(const Profile& profile, std::optional<double> height, Monitor& mo
   if (profile.complete()) return profile;
   Field line = line_of(profile);
   if (profile.closed() && !height) {
-    // Begun at a sample that was measured, and closed by it once more, a gap has two sides.
+    // Gaps of an outline have two sides if it starts and ends at one measured sample.
     const auto values = profile.measured_heights();
     const auto start = static_cast<std::size_t>(
         std::find_if(values.begin(), values.end(), [](double z) { return !std::isnan(z); }) - values.begin());

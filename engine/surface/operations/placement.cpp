@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole-cell moves copy rows; fractional shifts multiply the spectrum by a phase, with the Nyquist
-// bins taking its real part so that the result stays real and unshifting undoes shifting for all
-// other waves.
+// Fractional shifts multiply the spectrum by a phase; Nyquist bins take its real part, so the result is
+// real and all other waves shift back exactly.
 #include "engine/surface/operations/placement.hpp"
 
 #include <algorithm>
@@ -75,11 +74,11 @@ Surface quarter_turned(const Surface& surface, int quarters) {
   return remade_with(!surface.complete(), grid, std::move(result), surface.traits());
 }
 
-// For a periodic surface with holes, whose waves are not known.
+// For periodic surfaces with holes: no spectrum.
 Surface shifted_between_nodes(const Surface& surface, double right, double up) {
   const Grid& g = surface.grid();
   Field result(g.nx, g.ny);
-  // Whole cells to rounding touch one node alone.
+  // A nearly whole shift must touch only one node.
   const auto place = [](double at) { return is_whole(at) ? std::round(at) : at; };
   right = place(right);
   up = place(up);
@@ -109,7 +108,7 @@ Surface shifted(const Surface& surface, double x, double y) {
         shifted_by_cells(surface.measured_heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
         surface.traits());
     if (!surface.recipe()) return moved;
-    // Cells that the shift is not a whole number of do not carry a surface with a step.
+    // Throws for cells that make the shift fractional, unless periodic.
     return moved.made_by([recipe = surface.recipe(), x, y](int nx, int ny, Monitor& monitor) {
       return shifted((*recipe)(nx, ny, monitor), x, y);
     });
@@ -125,7 +124,7 @@ Surface shifted(const Surface& surface, double x, double y) {
   }
   if (!surface.complete())
     return shifted_between_nodes(surface, std::fmod(right, grid.nx), std::fmod(up, grid.ny));
-  // Whole turns of the tile are taken off first: phases of large shifts would lose digits.
+  // Large shifts would lose digits of the phase.
   return Surface(grid, shifted_by_waves(surface.heights(), std::fmod(right, grid.nx), std::fmod(up, grid.ny)),
                  surface.traits());
 }
@@ -145,10 +144,10 @@ Surface rotated(const Surface& surface, double angle) {
   const double width = (g.nx - 1) * g.hx(), height = (g.ny - 1) * g.hy();
   int nx = g.nx, ny = g.ny;
   if (!periodic) {
-    // The share of the node rectangle whose corners, turned back, lie in it.
+    // Scale at which the turned-back corners fit into the rectangle.
     const double share = std::min(width / (width * std::abs(c) + height * std::abs(s)),
                                   height / (width * std::abs(s) + height * std::abs(c)));
-    const double kept = share > 0 ? share : 0.0;  // a single node has no rectangle
+    const double kept = share > 0 ? share : 0.0;  // 0 for a single node
     nx = static_cast<int>(kept * (g.nx - 1) + whole_cell) + 1;
     ny = static_cast<int>(kept * (g.ny - 1) + whole_cell) + 1;
     if (nx < 2 || ny < 2)

@@ -1,35 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operations that move a surface: shifts, turns, mirroring, cropping. Those by whole cells or
-// quarter turns move heights without touching them; the others interpolate, and where they touch a point that
-// was not measured there is none. Material stays.
+// Shifts, turns, mirroring, cropping. Whole cells and quarter turns copy heights; other moves interpolate,
+// and a touched hole gives a hole. Material is kept.
 #pragma once
 
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
 
-// Moved by (x, y) metres: result(x) = original(x - shift), cyclic: what leaves at one rim enters at
-// the other, also where the surface is not periodic (there it leaves a step). Whole cells, to 1e-9
-// of one, are exact. A fraction of a cell is exact for the waves that the grid carries (Fourier) on a
-// periodic surface, by cubic interpolation on one with holes, and an Error{bad_value} on any other.
+// Cyclic: result(x) = original(x - shift), in metres; leaves a step if not periodic. Whole cells, to 1e-9,
+// are exact. A fraction is exact for all resolved waves (Fourier) if periodic, cubic if holes are present,
+// else an Error{bad_value}.
 Surface shifted(const Surface& surface, double x, double y);
 
-// Turned by `angle` radians counter-clockwise seen from above (from +z, x to the right, y up), about
-// the centre of the nodes. Quarter turns, to 1e-9 of one, are exact and swap cells and sizes for odd
-// ones. Any other angle interpolates (cubic) on cells of the same size: a periodic surface keeps its
-// grid, filled from its neighbour tiles, and is no longer periodic; of any other the largest centred
-// part of the same proportions that lies inside the turned surface remains. Throws Error{bad_value}
-// for an angle that is not finite or when nothing of the surface, or of what was measured, would remain.
+// `angle` in radians counter-clockwise, seen from +z, about the centre of the nodes. Quarter turns, to
+// 1e-9, are exact; odd ones swap cells and sizes. Other angles interpolate (cubic) on cells of the same size.
+// A periodic surface keeps its grid, filled from neighbour tiles, but not its periodicity; otherwise the
+// largest centred part of the same proportions remains. Throws Error{bad_value} for a non-finite angle or if
+// no measured point remains.
 Surface rotated(const Surface& surface, double angle);
 
-// Node i becomes node nx-1-i.
+// Node i becomes nx-1-i.
 Surface mirrored(const Surface& surface);
 
-// The part of nx by ny cells whose first node is (i, j). Periodic only if it is the whole. Throws
-// Error{bad_value} when it is empty, not a whole number of cells, reaches past the rim, or holds no point
-// that was measured.
+// nx by ny cells from node (i, j). Periodic only if whole. Throws Error{bad_value} for an empty part,
+// fractional cells, a part past the rim or without measured points.
 Surface cropped(const Surface& surface, double i, double j, double nx, double ny);
-// The same in metres: lower corner (x, y) and size, each taken to the nearest node.
+// Lower corner (x, y) and size in metres, rounded to nodes.
 Surface cropped_to(const Surface& surface, double x, double y, double size_x, double size_y);
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Nyquist wave of an even grid is shared equally between its two signs when cells are added and
-// put together again when they are taken away, so that going up and down again is the identity.
+// Refining splits the Nyquist wave equally between its signs; coarsening adds both, which inverts refining.
 #include "engine/surface/operations/resampling.hpp"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Coefficient of wave (a, b), any signs, of the real field; the Nyquist waves halved.
+// Any signs; Nyquist waves are halved.
 Complex coefficient(const HalfSpectrum& s, int a, int b) {
   const int nx = s.nx(), ny = s.ny();
   const bool mirror = a < 0;
@@ -51,7 +50,7 @@ Field through_spectrum(const Field& heights, int nx, int ny) {
 
 std::vector<BandWeights> weights(int from, int to) {
   std::vector<BandWeights> result(static_cast<std::size_t>(to));
-  const double ratio = static_cast<double>(from) / to;  // new cells in old ones
+  const double ratio = static_cast<double>(from) / to;  // old cells per new cell
   for (int k = 0; k < to; ++k) {
     BandWeights& band = result[static_cast<std::size_t>(k)];
     const double place = std::min(k * ratio, static_cast<double>(from));
@@ -69,7 +68,7 @@ std::vector<BandWeights> weights(int from, int to) {
   return result;
 }
 
-// With `holes` a node of weight 0 is not touched, and where one that is touched is NaN the height is.
+// With `holes`, NaN of nonzero weight gives NaN.
 Field along_axes(const Field& heights, int nx, int ny, bool holes) {
   const std::vector<BandWeights> across = weights(heights.nx(), nx), up = weights(heights.ny(), ny);
   Field narrow(nx, heights.ny());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bilinear rather than smoother interpolation on lines: a stylus or a section should never find a
-// peak higher than the highest node.
+// Bilinear interpolation: a section never exceeds the highest node.
 #include "engine/surface/operations/sections.hpp"
 
 #include <algorithm>
@@ -25,7 +24,6 @@ int line_number(double wanted, int count, const char* key) {
   return static_cast<int>(wanted);
 }
 
-// The heights of a line of nodes or of a straight line.
 Profile section(const Surface& surface, double spacing, Array<double> heights, const std::string& what) {
   if (!surface.complete() && known_count(heights) == 0)
     throw Error(ErrorCode::bad_value, "no point of " + what + " was measured",
@@ -46,7 +44,7 @@ Profile row(const Surface& surface, int j) {
                  "row " + std::to_string(j));
 }
 
-// Node below a place along one axis, the next one, and the share of the next.
+// `share` is the weight of `above`.
 struct Between {
   int below = 0, above = 0;
   double share = 0;
@@ -63,8 +61,7 @@ Between between(double place, int n, bool wraps) {
   return {below, (below + 1) % n, place - std::floor(place)};
 }
 
-// Never outside the two by rounding: a flat stays flat to the last bit. One of no share is not touched: what
-// is not known of it does not matter.
+// The clamp keeps a flat exactly flat. A NaN of no share is ignored.
 double mixed(double a, double b, double share) {
   if (std::isnan(a) || std::isnan(b)) return share == 0 ? a : share == 1 ? b : std::nan("");
   return std::clamp((1 - share) * a + share * b, std::min(a, b), std::max(a, b));
@@ -108,7 +105,7 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
   const double length = elementary::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0))
     throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
-  // The slack keeps a line of exactly n cells from becoming n + 1 through rounding.
+  // Rounding must not turn n cells into n + 1.
   const double count = points.value_or(std::ceil(length / std::min(g.hx(), g.hy()) - 1e-9) + 1);
   if (!(count >= 2 && count <= most_profile_points && count == std::floor(count)))
     throw Error(ErrorCode::bad_value, "`points` is " + format_short(count, 10),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NPY files of surfaces in slabs: rows are read where they are needed, and written one block after the other.
+// NPY files in slabs: each process reads its rows; blocks are written in sequence.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -17,7 +17,7 @@ namespace asperity {
 
 namespace {
 
-// The digests of all slabs, one after the other.
+// Combines the digests of all slabs.
 std::string digest_of(Team& team, const Grid& grid, const Array<double>& heights) {
   Digester own;
   std::array<double, 32> letters{};

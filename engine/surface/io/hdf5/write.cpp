@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-hdf5.so: writes arrays by the HDF5 library, in the 1.8 version of the format (whose
-// structure carries checksums), each in one piece, without times. Keeps nothing between calls.
+// The part asperity-hdf5.so: writes arrays with the HDF5 library, format version 1.8, contiguous, without
+// times. Stateless.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -14,9 +14,8 @@
 
 namespace {
 
-// What the library says at the moment of a failure; closing what is open clears it. The innermost entry of
-// its stack says what happened, and with it what the system said, where it was asked: "No space left on
-// device".
+// The library's reason, read before closing objects clears it. The innermost stack entry includes the
+// system's message, such as "No space left on device".
 struct Failure {
   std::string reason = "the HDF5 library gives no reason";
   Failure() { H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason); }
@@ -34,7 +33,6 @@ struct Failure {
   }
 };
 
-// An identifier of the library, closed with what owns it.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*closed_by)(hid_t)) : id_(id), close_(closed_by) {
@@ -48,7 +46,7 @@ class Handle {
     if (id_ >= 0) close_(id_);
   }
   operator hid_t() const { return id_; }
-  // Closing writes what the library still holds, so that it can fail as writing can.
+  // Closing flushes and can fail.
   void close() {
     if (close_(std::exchange(id_, -1)) < 0) throw Failure{};
   }
@@ -62,8 +60,7 @@ void must(herr_t status) {
   if (status < 0) throw Failure{};
 }
 
-// Members and attributes stay in the header, however many there are, where they have checksums and any reader
-// of this format finds them without further structures.
+// Keeps links and attributes in the checksummed object header, readable by any reader of this format.
 constexpr unsigned most_in_header = 60000;
 
 void write_text(hid_t object, const AsperityHdf5Text& text) {
@@ -86,11 +83,11 @@ void write_number(hid_t object, const AsperityHdf5Number& number) {
   attribute.close();
 }
 
-// Groups on the way are made by the library; it must not make them with its defaults.
+// The library would make intermediate groups with times.
 void make_groups(hid_t file, const std::string& name) {
   for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
     const std::string group = name.substr(0, at);
-    // The way there exists, for it was made first.
+    // Parents exist already.
     const htri_t exists = H5Lexists(file, group.c_str(), H5P_DEFAULT);
     must(exists);
     if (exists > 0) continue;
@@ -146,8 +143,7 @@ extern "C" __attribute__((visibility("default"))) int asperity_hdf5_write_1(cons
                                                                             const AsperityHdf5File* file,
                                                                             char* reason, std::size_t room) {
   static_assert(std::is_same_v<decltype(asperity_hdf5_write_1), AsperityHdf5Write>);
-  // A file that could not be written stays open in the library, which would write it once more, and crash, as
-  // the program ends.
+  // At exit, the library would write a failed file again and crash.
   static const herr_t left_alone = H5dont_atexit();
   (void)left_alone;
   H5E_auto2_t print = nullptr;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What passes between the engine and asperity-hdf5.so: plain C data, so that the part shares neither types
-// nor memory nor exceptions with the program that loads it. The name of the function carries the
-// version of these structures.
+// Plain C interface to asperity-hdf5.so: no shared types, memory or exceptions. The function's name
+// contains the version of these structures.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +21,7 @@ struct AsperityHdf5Number {
 };
 
 struct AsperityHdf5Array {
-  const char* name;  // with `/` between the groups
+  const char* name;  // with `/` between groups
   AsperityHdf5Kind kind;
   int rank;
   const std::uint64_t* shape;
@@ -40,7 +39,6 @@ struct AsperityHdf5File {
   std::size_t array_count;
 };
 
-// Writes a file at `path`, replacing one. 0, or 1 with what the library says in `reason` (ends with a zero
-// byte). Not thread-safe.
+// Replaces `path`. Returns 0, or 1 with the library's zero-terminated message in `reason`. Not thread-safe.
 using AsperityHdf5Write = int(const char* path, const AsperityHdf5File* file, char* reason, std::size_t room);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The digest of an array is over its shape and the bytes of its values, so that neither can change unseen.
+// The digest of an array covers its shape and its values.
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::string digest_of(const Hdf5Array& array) {
   return digester.add(bytes_of(array.values)).hex();
 }
 
-// Groups and arrays have parted names; an attribute has one.
+// Only names of groups and arrays contain slashes.
 void check_name(const std::string& name, bool parted) {
   bool good = !name.empty() && name.find('\0') == std::string::npos;
   for (std::size_t start = 0; parted && good && start <= name.size();) {
@@ -80,7 +80,7 @@ void check_array(const Hdf5Array& array) {
                                           std::to_string(count_of(array.values)));
 }
 
-// A name is given once, and what is a group is no array.
+// Names are unique; no group is an array.
 void check_names(const Hdf5Content& content) {
   std::set<std::string> arrays, groups, texts;
   const auto twice = [](const std::string& name) {
@@ -100,14 +100,13 @@ void check_names(const Hdf5Content& content) {
     if (groups.count(name) != 0) twice(name);
 }
 
-// The second of the pair that `name` begins; null where there is none.
+// Null if missing.
 template <class T>
 const T* named(const std::vector<std::pair<std::string, T>>& pairs, std::string_view name) {
   const auto found = std::ranges::find(pairs, name, &std::pair<std::string, T>::first);
   return found == pairs.end() ? nullptr : &found->second;
 }
 
-// The walk over a file's groups.
 class Reader {
  public:
   Reader(const SourceFile& file, Monitor& monitor)
@@ -186,7 +185,7 @@ class Reader {
       if (attribute.name == "_FillValue") array.missing = number_of(file_, attribute);
       if (attribute.name == "digest") digest = text_of(file_, attribute);
     }
-    // Only the digests of this program can be checked, and are known by their length.
+    // Other programs' digests differ in length.
     constexpr std::size_t digits = 32;
     if (digest && digest->size() == digits && *digest != digest_of(array))
       file_.damaged("the numbers of " + quoted(name) + " do not have the digest that they were written with",
@@ -224,7 +223,7 @@ void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
     numbers.push_back({name.c_str(), number});
   }
   check_names(content);
-  // What the arrays point to stands still in a deque.
+  // A deque keeps addresses valid.
   std::deque<std::string> digests;
   std::deque<std::vector<AsperityHdf5Text>> attributes;
   std::deque<std::vector<std::uint64_t>> shapes;

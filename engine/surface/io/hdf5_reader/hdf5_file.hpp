@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named arrays with units, and texts, in an HDF5 file (version 1.8 of the format, which every reader of today
-// knows): arrays lie in one piece, uncompressed, in C order, groups are made from the `/` of their names,
-// texts and single numbers are attributes of the root. What is written carries checksums of its structure
-// (HDF5's own) and of each array (attribute "digest"), so that a damaged file is told from a whole one. Files
-// are written by the HDF5 library, which is loaded at the first of them; they are read by code of this
-// project, other programs' as far as that code knows them.
+// Named arrays with units, and texts, in HDF5 (format version 1.8): contiguous, uncompressed, C order. `/`
+// in names makes groups; texts and single numbers are attributes of the root. Checksums (HDF5's own, and
+// attribute "digest" per array) detect damage. The HDF5 library, loaded on demand, writes; our own code
+// reads our files and a subset of other programs'.
 //
-// Why not by the library (1.10.8) too, in a child process that may fail? Measured on two busy processors by
-// bench/hdf5_by_library.cpp: of 10 000 files with changed bytes 2 killed the child, and 116 gave numbers
-// where this reader finds the file damaged (what is missing of a file that is cut short comes as zeros). A
-// reading takes 19 to 31 ms more for a small map, 28 to 47 ms for 1024², and 37 to 63 ms where the file is
-// in memory, as it is once its format is known. And a confined run may start no process: it could read no
-// file at all.
+// Why not read with the library (1.10.8) in a child process? Measured on two busy processors by
+// bench/hdf5_by_library.cpp: of 10 000 files with changed bytes, 2 killed the child and 116 returned
+// numbers although this reader finds damage (zeros for missing parts of truncated files). Reading takes 19
+// to 31 ms more for a small map, 28 to 47 ms for 1024², and 37 to 63 ms for a file in memory, the usual
+// case. A confined run may start no process at all.
 #pragma once
 
 #include <cstdint>
@@ -35,33 +32,30 @@ class SourceFile;
 using Hdf5Values =
     std::variant<std::span<const double>, std::span<const std::int64_t>, std::span<const std::uint8_t>>;
 
-// One array; copying shares the values.
+// Copies share the values.
 struct Hdf5Array {
-  std::string name;                // "pressure" or "bodies/lower/plastic": no empty part, no "." or ".."
-  std::vector<std::size_t> shape;  // C order: (ny, nx) of a field; empty: one number
-  Hdf5Values values;               // as many as the shape holds
-  std::string unit;                // attribute "unit"; left out where empty
-  // What the values stand in, where the array owns them; null where whoever made it keeps them alive.
+  std::string name;                // "bodies/lower/plastic": no empty part, no "." or ".."
+  std::vector<std::size_t> shape;  // C order: (ny, nx); empty: one number
+  Hdf5Values values;
+  std::string unit;
+  // Owns the storage; null if the caller keeps it alive.
   std::shared_ptr<const void> keeper{};
-  // The number that stands for a value that is not there: the attribute "_FillValue", as netCDF writes it.
-  // Only read; what this program writes has NaN there.
+  // Marks missing values: attribute "_FillValue", as in netCDF. Only read; we write NaN.
   std::optional<double> missing{};
 };
 
 struct Hdf5Content {
-  std::vector<std::pair<std::string, std::string>> texts;  // attributes of the root, each below 60 000 bytes
+  std::vector<std::pair<std::string, std::string>> texts;  // attributes of the root below 60 000 bytes
   std::vector<Hdf5Array> arrays;
-  std::vector<std::pair<std::string, double>> numbers{};  // attributes of the root as well
-  std::vector<std::string>
-      unread{};  // filled by reading: what stands in the file and is not among these, and why
+  std::vector<std::pair<std::string, double>> numbers{};  // attributes of the root
+  std::vector<std::string> unread{};                      // skipped contents and reasons
 
-  // Null where there is none.
+  // Null if missing.
   const Hdf5Array* array(std::string_view name) const;
   const std::string* text(std::string_view name) const;
   const double* number(std::string_view name) const;
 };
 
-// An array that owns its values.
 template <class T>
 Hdf5Array owning_array(std::string name, std::vector<std::size_t> shape, Array<T> values,
                        std::string unit = {}) {
@@ -69,17 +63,15 @@ Hdf5Array owning_array(std::string name, std::vector<std::size_t> shape, Array<T
   return {std::move(name), std::move(shape), std::span<const T>(*kept), std::move(unit), kept};
 }
 
-// Writes the whole file or nothing: under a temporary name, waits for the disk, then renames. The same
-// content gives the same bytes: no times, no names of machines. Thread-safe; two calls take turns. Throws
-// Error{bad_file} when the library or the disk refuses, Error{bad_value} for a name, text or shape that
-// cannot be written.
+// Atomic and durable: temporary name, flush, rename. Deterministic: no times, no machine names.
+// Thread-safe, serialised. Throws Error{bad_file} for failures of library or disk, Error{bad_value} for an
+// invalid name, text or shape.
 void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content);
 
-// Everything in the file that is an array of numbers, or a text or number of the root, in the order that the
-// file keeps. Floating-point numbers come as doubles, bytes and truth values as bytes, all other integers as
-// int64, or as doubles where they are past it. Throws Error{bad_file} for whatever is damaged. Memory: once
-// the file's size where nothing is compressed or narrow, at most some ten thousand times where deflate was at
-// its best. Thread-safe.
+// Returns arrays, texts and numbers in the order of the file. Floating-point numbers become doubles, bytes
+// and booleans bytes, other integers int64, or doubles beyond int64. Throws Error{bad_file} for damage.
+// Memory: the file's size, or more for compression and narrow types, at most about ten thousand times with
+// ideal deflate. Thread-safe.
 Hdf5Content read_hdf5(const std::filesystem::path& path, Monitor& monitor = Monitor::silent());
 Hdf5Content read_hdf5(const SourceFile& file, Monitor& monitor = Monitor::silent());
 

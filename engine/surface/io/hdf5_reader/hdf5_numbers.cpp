@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers of a dataset: laid out in one piece or in chunks, which a tree finds (its first version), each
-// perhaps compressed (deflate, shuffle and fletcher32 are undone), of any width and byte order.
+// Numbers of a dataset: contiguous or chunked (B-tree version 1); deflate, shuffle, fletcher32; any width
+// and byte order.
 #include <zlib.h>
 
 #include <algorithm>
@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::uint64_t most_from_one = 1032;
 
-// Exactly `wanted` bytes out of a zlib stream.
 Array<char> inflated(const Hdf5Bytes& file, std::string_view packed, std::size_t wanted) {
   Array<char> plain(wanted);
   uLongf length = wanted;
@@ -32,7 +31,7 @@ Array<char> inflated(const Hdf5Bytes& file, std::string_view packed, std::size_t
   return plain;
 }
 
-// Bytes of one significance stand together; puts each number's together again.
+// Bytes of equal significance are stored together.
 Array<char> unshuffled(const Array<char>& mixed, std::size_t width) {
   Array<char> plain(mixed);
   const std::size_t count = mixed.size() / width;
@@ -65,7 +64,7 @@ class Chunks {
     const std::vector<std::uint64_t>& chunk = dataset.layout.chunk;
     if (rank_ == 0 || chunk.size() != rank_ + 1 || chunk.back() != width_)
       file.damaged("the chunks of " + quoted(name) + " are not those of its numbers");
-    // Every chunk takes more than 16 bytes of the file, for its place in the tree.
+    // Each chunk needs more than 16 bytes of the file.
     const std::uint64_t size = file.bytes.size(), most = size / 16 + 1;
     std::uint64_t count = 1;
     chunk_bytes_ = width_;
@@ -82,7 +81,7 @@ class Chunks {
       file.damaged("it claims more numbers in " + quoted(name) + " than it can hold");
   }
 
-  // The bytes of all numbers in C order.
+  // In C order.
   Array<char> read(Monitor& monitor) {
     Task task(monitor, "reading", static_cast<std::int64_t>(found_.size()));
     walk(dataset_.layout.address, 0, task);
@@ -117,7 +116,7 @@ class Chunks {
     }
   }
 
-  // The bytes of a chunk with its filters undone, last first.
+  // Undoes the filters, last first.
   Array<char> plain(std::string_view stored, std::uint64_t skipped) {
     const std::string& name = dataset_.name;
     if (stored.size() > room_) file_.damaged("chunks of " + quoted(name) + " lie over each other");
@@ -135,7 +134,7 @@ class Chunks {
         bytes.resize(content.size());
       } else if (filters[k] == Hdf5Filter::deflate) {
         if (chunk_bytes_ / most_from_one > bytes.size()) file_.damaged("a chunk does not unpack to its size");
-        // A checksum made before the compression is in it.
+        // Includes a checksum made before compression.
         const auto here = filters.begin() + static_cast<std::ptrdiff_t>(k);
         const bool summed = std::find(filters.begin(), here, Hdf5Filter::fletcher32) != here;
         bytes = inflated(file_, {bytes.data(), bytes.size()}, chunk_bytes_ + (summed ? sum : 0));
@@ -151,7 +150,7 @@ class Chunks {
     const std::vector<std::uint64_t>& sizes = dataset_.shape.sizes;
     const std::vector<std::uint64_t>& chunk = dataset_.layout.chunk;
     std::uint64_t index = 0, rows = 1;
-    std::vector<std::uint64_t> inside;  // how far the chunk lies in the array
+    std::vector<std::uint64_t> inside;  // position in the array
     for (std::size_t k = 0; k < rank_; ++k) {
       if (place[k] >= sizes[k] || place[k] % chunk[k] != 0)
         file_.damaged("a chunk of " + quoted(dataset_.name) + " lies outside it");
@@ -161,10 +160,10 @@ class Chunks {
     }
     if (found_[index] != 0) file_.damaged("a chunk of " + quoted(dataset_.name) + " is there twice");
     found_[index] = 1;
-    // Made when the first chunk has shown itself to be as large as it claims.
+    // Allocated once the first chunk has its claimed size.
     if (values_.empty()) values_.resize(dataset_.shape.count(file_) * width_);
     const std::size_t last = rank_ - 1;
-    std::vector<std::uint64_t> at(last, 0);  // of a row in the chunk
+    std::vector<std::uint64_t> at(last, 0);  // row in the chunk
     while (rows-- > 0) {
       std::uint64_t from = 0, to = 0;
       for (std::size_t k = 0; k < last; ++k) {
@@ -182,7 +181,7 @@ class Chunks {
   std::uint64_t& room_;
   std::size_t rank_, width_;
   std::uint64_t chunk_bytes_ = 0;
-  std::vector<std::uint64_t> along_;  // chunks along each side
+  std::vector<std::uint64_t> along_;  // per side
   Array<std::uint8_t> found_;
   Array<char> values_;
   std::size_t nodes_ = 0;
@@ -228,7 +227,7 @@ Array<std::int64_t> wide_integers(const Hdf5Type& type, std::string_view raw, bo
   }
 }
 
-// `raw`: the bytes of all numbers in C order.
+// In C order.
 Hdf5Array from_raw(const Hdf5Dataset& dataset, std::string_view raw, Monitor& monitor) {
   std::vector<std::size_t> shape(dataset.shape.sizes.begin(), dataset.shape.sizes.end());
   if (dataset.shape.none) shape = {0};
@@ -243,7 +242,7 @@ Hdf5Array from_raw(const Hdf5Dataset& dataset, std::string_view raw, Monitor& mo
   if (type.width == 1 && !type.is_signed)
     return owning(converted<std::uint8_t, std::uint8_t>(raw, swap, monitor));
   Array<std::int64_t> values = wide_integers(type, raw, swap, monitor);
-  // Those past int64 would have a wrong sign.
+  // Would have a wrong sign.
   if (type.width == 8 && !type.is_signed && std::ranges::any_of(values, [](auto value) { return value < 0; }))
     return owning(converted<std::uint64_t, double>(raw, swap, monitor));
   return owning(std::move(values));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every walk is bounded by the file's size: a structure takes bytes of it, and no more structures are
-// followed than bytes can hold.
+// Walks are bounded by the number of structures that fit into the file.
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
 
-// Where the file begins: at 0, or after a block of the user's of 512 bytes or a power of two times that.
+// At 0, or after a user block of 512 bytes times a power of two.
 std::size_t start_of(std::string_view bytes) {
   for (std::size_t at = 0; at < bytes.size() && bytes.size() - at >= signature.size();
        at = at == 0 ? 512 : 2 * at)
@@ -21,7 +20,7 @@ std::size_t start_of(std::string_view bytes) {
   return std::string_view::npos;
 }
 
-// Bob Jenkins' lookup3 of the bytes with a start of 0, the checksum of the format's structures.
+// Bob Jenkins' lookup3, initial value 0.
 std::uint32_t lookup3(std::string_view bytes) {
   std::array<std::uint32_t, 3> words;
   words.fill(0xdeadbeefU + static_cast<std::uint32_t>(bytes.size()));
@@ -45,7 +44,7 @@ std::uint32_t lookup3(std::string_view bytes) {
   return words[2];
 }
 
-// A piece that ends with its checksum; the piece without it.
+// Returns the piece without its checksum.
 std::string_view checked(const Hdf5Bytes& file, std::string_view piece, const char* what) {
   constexpr std::size_t width = 4;
   if (piece.size() < width) file.damaged(std::string(what) + " is too short");
@@ -57,7 +56,7 @@ std::string_view checked(const Hdf5Bytes& file, std::string_view piece, const ch
   return content;
 }
 
-// Messages of a block of a header of version 1 or 2; blocks that continue it are added to `more`.
+// Header versions 1 and 2; continuation blocks are added to `more`.
 void take_messages(const Hdf5Bytes& file, std::string_view block, int version, bool ordered,
                    std::vector<Hdf5Message>& messages, std::vector<std::string_view>& more) {
   Hdf5Cursor cursor(file, block, "an object header");
@@ -78,7 +77,7 @@ void take_messages(const Hdf5Bytes& file, std::string_view block, int version, b
   }
 }
 
-// Members of a group of the older kind: a tree of nodes, whose names stand in a heap.
+// Older groups: a tree of nodes, names in a heap.
 struct SymbolTable {
   const Hdf5Bytes& file;
   std::string_view names;
@@ -130,7 +129,7 @@ std::string_view heap_of_names(const Hdf5Bytes& file, std::uint64_t heap) {
   return file.piece(cursor.address(), length, what);
 }
 
-// A link message of the newer kind; soft and external links lead to no object of this file.
+// Newer groups; soft and external links are ignored.
 void take_link(const Hdf5Bytes& file, const Hdf5Message& message, std::vector<Hdf5Link>& links) {
   Hdf5Cursor cursor(file, message.body, "a link");
   if (cursor.number(1) != 1) cursor.refuse("has a version that is not known");
@@ -146,7 +145,7 @@ constexpr std::size_t most_dimensions = 32;
 
 std::size_t padded(std::size_t length, bool pad) { return pad ? (length + 7) / 8 * 8 : length; }
 
-// IEEE 754 of 4 or 8 bytes, by the places of sign, exponent and fraction.
+// IEEE 754, 4 or 8 bytes, by positions of sign, exponent and fraction.
 void read_floating(Hdf5Cursor& cursor, std::uint64_t bits, Hdf5Type& type) {
   using Places = std::array<std::uint64_t, 8>;
   Places places{(bits >> 8) & 0xFF};
@@ -173,7 +172,7 @@ void read_integer(Hdf5Cursor& cursor, std::uint64_t bits, Hdf5Type& type) {
     type.word = "integers of " + std::to_string(precision) + " bits";
 }
 
-// The bytes of an object of a heap that several texts share.
+// From a global heap.
 std::string_view heap_object(const Hdf5Bytes& file, std::uint64_t heap, std::uint64_t index) {
   constexpr const char* what = "a heap of texts";
   const std::uint64_t start = 8 + file.length_width;
@@ -268,7 +267,7 @@ Hdf5Bytes open_hdf5(const SourceFile& file) {
   cursor.skip(old ? 2 * bytes.address_width : 0);
   bytes.root = cursor.address();
   if (!old) checked(bytes, bytes.bytes.substr(0, cursor.position() + 4), what);
-  // The end is counted as the base is, from wherever: what matters is how far apart they are.
+  // Base and end share an arbitrary origin; only the difference counts.
   if (end < base) cursor.refuse("ends before it begins");
   const std::uint64_t length = end - base;
   if (length > bytes.bytes.size() || length < cursor.position())
@@ -392,7 +391,7 @@ Hdf5Type read_type(const Hdf5Bytes& file, std::string_view body) {
       type.word = "compound values";
       break;
     case 8: {
-      // Truth values: an enumeration whose values are bytes.
+      // Booleans: an enumeration with byte values.
       const Hdf5Type base = read_type(file, body.substr(cursor.position()));
       type.word = "named values";
       if (base.kind == Hdf5Type::Kind::integer && base.width == 1 && type.width == 1) type.kind = base.kind;

@@ -27,7 +27,6 @@ std::string listed(const Hdf5Content& content) {
   std::vector<std::string> names;
   for (const Hdf5Array& array : content.arrays) names.push_back(shape_text(array));
   for (const std::string& other : content.unread) names.push_back(other);
-  // A file may hold thousands.
   constexpr std::size_t most = 12;
   if (names.size() > most) {
     const std::size_t more = names.size() - most;
@@ -37,7 +36,7 @@ std::string listed(const Hdf5Content& content) {
   return names.empty() ? "nothing" : joined(names, " and ");
 }
 
-// The array that holds the heights: the one asked for; `height`; the only map; the only row of numbers.
+// Order: `channel`; `height`; the only map; the only row of numbers.
 const Hdf5Array& heights_of(const SourceFile& file, const Hdf5Content& content, const std::string& channel) {
   if (!channel.empty()) {
     const Hdf5Array* const asked = content.array(channel);
@@ -93,7 +92,7 @@ HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, 
     try {
       unit = parse_unit(array.unit);
     } catch (const Error&) {
-      // A unit of another program's making; the call may say what it means.
+      // Unknown unit; the call may give one.
       return map;
     }
     if (unit.dimension != dimension::length)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface as an HDF5 file: `height` of shape (ny, nx) in m and `size` (size_x, size_y) in m, with an XDMF
-// file beside it. Reading takes `height` or the only map in the file, whoever wrote it.
+// A surface in HDF5: `height` of shape (ny, nx) in m and `size` (size_x, size_y) in m, plus an XDMF file.
+// Reading takes `height` or the only map.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace asperity {
 
-// The array `size` of a tile, which says in metres what the fields of a file span.
+// `size`, in metres.
 Hdf5Array tile_size(const Grid& grid);
 
-// Throws as write_hdf5.
+// Throws as write_hdf5().
 void write_hdf5_surface(const Surface& surface, const std::filesystem::path& path);
 
 }  // namespace asperity

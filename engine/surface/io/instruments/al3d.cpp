@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// AL3D of Alicona's instruments: a mark, tags of 52 bytes (a name of 20, a value of 30 as text, the end of a
-// line), then at `DepthImageOffset` the heights in metres, single precision, line by line, each line padded
-// to a multiple of 8 bytes. Points that were not measured are NaN or `InvalidPixelValue`, which is rounded in
-// the text. Layout: Alicona's description of the format, as restated by SurfaceTopography's reader. Pictures
-// and the grid of quality are passed over.
+// AL3D of Alicona's instruments: 52-byte tags, then the heights in metres, single precision. Missing points
+// are NaN or `InvalidPixelValue`. Layout: Alicona's description, restated by SurfaceTopography's reader.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -62,8 +59,8 @@ Al3dTags read_tags(const SourceFile& file) {
   return tags;
 }
 
-// Bytes from one line to the next. Lines are padded to 8 bytes; of an odd number of columns some writers pad
-// nothing, which the place of what follows tells.
+// Bytes per line, padded to 8. Some writers do not pad an odd number of columns; the start of the next
+// block decides.
 std::uint64_t bytes_a_line(const Al3dTags& tags, const SourceFile& file, std::uint64_t nx, std::uint64_t ny,
                            std::uint64_t offset) {
   const std::uint64_t plain = nx * sizeof(float), padded = (plain + 7) / 8 * 8;
@@ -93,7 +90,7 @@ HeightMap read_al3d(const SourceFile& file, Monitor& monitor) {
       refuse_file(file, "gives " + format_short(spacing) + " m as the distance of its points");
   double missing = std::numeric_limits<double>::quiet_NaN();
   if (tags.find("InvalidPixelValue") != tags.end()) missing = tag_number(file, tags, "InvalidPixelValue");
-  // Single precision, written with some digits.
+  // The text rounds this single-precision value.
   const double near_missing = 1e-6 * std::abs(missing);
   HeightMap map;
   map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// BCR and BCRF of Image Metrology (SPIP) and of microscopes that write them: a header in text of 2048
-// characters, or of as many as its `headersize` says, lines of `key = value`, then integers of 16 bits
-// (`fileformat = bcrstm`, heights of `bit2nm`) or floating-point numbers of 32 (`bcrf`), line by line, in the
-// unit `zunit`, nanometres without one. A header in UTF-16 says `bcrstm_unicode` or `bcrf_unicode`. Missing
-// points are numbers past 1.7e38, 32767 of 16 bits unless `voidpixels` is 0, and a `voidpixels` that can be
-// no count of them. Layout as restated by Gwyddion's and SurfaceTopography's readers. `zmin` is passed over.
+// BCR and BCRF of Image Metrology (SPIP): a text header, then 16-bit integers (`bcrstm`, unit `bit2nm`) or
+// 32-bit floating-point numbers (`bcrf`, unit `zunit`, default nm). Missing points: above 1.7e38; 32767 in
+// 16 bits unless `voidpixels` is 0; a negative or fractional `voidpixels`. Layout: Gwyddion's and
+// SurfaceTopography's readers.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -27,15 +25,13 @@ constexpr double nanometre = 1e-9;
 
 using Lines = std::map<std::string, std::string>;
 
-// The key and the value of a line; both empty for a comment or a line without `=`.
 std::pair<std::string, std::string_view> statement(std::string_view line) {
   const std::size_t sign = line.find('=');
   if (line.starts_with('%') || line.starts_with('#') || sign == std::string_view::npos) return {};
   return {lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1))};
 }
 
-// The header in single bytes, and where the numbers begin. Characters beyond ASCII become question marks: no
-// key or value that is read has any.
+// In single bytes; non-ASCII characters, irrelevant here, become question marks.
 struct BcrHeader {
   std::string text;
   std::size_t data_at = 0;
@@ -56,7 +52,7 @@ BcrHeader header_of(const SourceFile& file, std::size_t characters) {
   BcrHeader header;
   for (std::size_t k = 0; k + 1 < bytes.size() && header.text.size() < characters; k += 2)
     header.text += bytes[k + 1] == '\0' ? bytes[k] : '?';
-  if (header.text.starts_with('?')) header.text.erase(0, 1);  // the mark of the order of bytes
+  if (header.text.starts_with('?')) header.text.erase(0, 1);  // the byte order mark
   header.data_at = 2 * characters;
   return header;
 }
@@ -77,7 +73,7 @@ std::uint64_t count_of(const SourceFile& file, const Lines& lines, const std::st
   refuse_file(file, "has no count for " + key + " in its header: " + shown(found->second));
 }
 
-// The lines of a header of so many characters; gives the numbers as `data`.
+// Returns the numbers in `data`.
 Lines lines_of(const SourceFile& file, std::size_t characters, std::string_view& data) {
   const BcrHeader header = header_of(file, characters);
   if (file.bytes().size() < header.data_at)
@@ -108,7 +104,7 @@ Lines read_lines(const SourceFile& file, std::string_view& data) {
   return lines_of(file, static_cast<std::size_t>(said), data);
 }
 
-// What stands in the place of a missing point, as `voidpixels` says it; it may be a count of such points too.
+// The number of a missing point; some files state a count of missing points instead.
 double void_number(const SourceFile& file, const Lines& lines) {
   const auto found = lines.find("voidpixels");
   if (found == lines.end()) return 1;
@@ -118,7 +114,7 @@ double void_number(const SourceFile& file, const Lines& lines) {
   return cell.value;
 }
 
-// A length in the unit of another line, in metres; nanometres where there is no such line.
+// In metres; unit from the line `unit_key`, default nanometres.
 std::optional<double> length_of(const SourceFile& file, const Lines& lines, const std::string& key,
                                 const std::string& unit_key) {
   const auto found = lines.find(key);
@@ -172,7 +168,7 @@ HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
     const auto zunit = lines.find("zunit");
     map.unit = zunit == lines.end() ? nanometre : length_unit(zunit->second);
     if (!map.unit) refuse_file(file, "gives no known unit of length as zunit: " + shown(zunit->second));
-    // The format gives this scale to integers alone; one reader multiplies by it all the same.
+    // The format defines bit2nm only for integers, although one reader applies it here.
     if (const auto scale = lines.find("bit2nm"); scale != lines.end()) {
       const TextCell cell = read_cell(scale->second, Separator::blank);
       if (cell.kind != CellKind::number || cell.value != 1)

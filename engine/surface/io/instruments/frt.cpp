@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FRT of MicroProf profilometers: a mark with a version, then blocks, each a number, a length and its bytes.
-// 0x66 holds the numbers of points and the bits of a height, 0x67 the lengths of the sides in metres, 0x6C
-// the metres of one step, 0x0B the heights, integers of 16 or 32 bits, line by line, 0x70 the least and the
-// greatest valid integer of 16 bits. A point that was not measured is 1, or outside these. Layout as restated
-// by SurfaceTopography's and Gwyddion's readers. All other blocks are passed over, maps of other quantities
-// among them.
+// FRT of MicroProf profilometers: numbered blocks of shape, size (m), scale (m per step), heights and their
+// valid range (16 bits only). A missing point is 1 or out of range. Layout: SurfaceTopography's and
+// Gwyddion's readers.
 #include <cmath>
 #include <utility>
 
@@ -59,7 +56,6 @@ FrtBlocks read_frt_blocks(const SourceFile& file) {
   return blocks;
 }
 
-// The least and the greatest integer of 16 bits that is a height.
 std::pair<std::uint32_t, std::uint32_t> valid_range(const SourceFile& file, const FrtBlocks& blocks) {
   if (!blocks.valid) return {0, std::numeric_limits<std::uint16_t>::max()};
   BinaryCursor cursor(file, *blocks.valid, "its range of valid heights");

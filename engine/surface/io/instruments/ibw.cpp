@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IBW, binary waves of Igor Pro, of version 5, as Asylum Research's microscopes write them: a header of 64
-// bytes with the lengths of all parts, one of 320 bytes with dimensions, steps and units, the numbers, a
-// note, units, labels. A wave of two dimensions is a map, of three it is several, whose names are the labels
-// of the third. x runs fastest; the first line is the lowest: j = 0 is at the bottom. A number that is not
-// finite is a missing point. The sum of the first 384 bytes as 192 integers of 16 bits is 0. Source:
-// WaveMetrics' technical note PTN003. Only waves of real floating-point numbers in Intel's order of bytes are
-// read.
+// IBW, binary waves of Igor Pro 5 from Asylum Research's microscopes: two headers, numbers, note, units,
+// labels. A wave of two dimensions is a map; a third dimension holds several maps, named by its labels. x
+// runs fastest. Non-finite numbers are missing points. Source: WaveMetrics' technical note PTN003.
 #include <array>
 #include <cmath>
 
@@ -36,14 +32,14 @@ bool recognises_ibw(const SourceFile& file) {
 }
 
 struct IbwWave {
-  std::array<std::uint32_t, 4> count{};  // along each dimension
+  std::array<std::uint32_t, 4> count{};
   std::array<double, 4> step{};
   std::string_view data_unit, x_unit, y_unit, data;
   std::size_t width = 0;
-  std::vector<std::string> names;  // of the maps; empty where they have none
+  std::vector<std::string> names;  // empty if unnamed
 };
 
-// Labels of 32 bytes: the first is that of the dimension itself.
+// Labels of 32 bytes; the first names the dimension.
 std::vector<std::string> ibw_labels(const SourceFile& file, std::string_view bytes) {
   constexpr std::size_t label_bytes = 32;
   std::vector<std::string> labels;
@@ -63,8 +59,8 @@ IbwWave ibw_wave(const SourceFile& file) {
   const std::uint64_t wave_bytes = head.number<std::uint32_t>();
   std::uint64_t before_labels = wave_bytes;
   for (int k = 0; k < 2; ++k) before_labels += head.number<std::uint32_t>();  // formula, note
-  before_labels += head.number<std::uint32_t>();                              // longer units
-  for (int k = 0; k < 4; ++k) before_labels += head.number<std::uint32_t>();  // longer units of dimensions
+  before_labels += head.number<std::uint32_t>();                              // extended units
+  for (int k = 0; k < 4; ++k) before_labels += head.number<std::uint32_t>();  // extended units of dimensions
   for (int k = 0; k < 2; ++k) before_labels += head.number<std::uint32_t>();  // labels of rows and columns
   const std::uint64_t label_bytes = head.number<std::uint32_t>();
   BinaryCursor wave(file, bytes.substr(ibw_binary_header), "its header");
@@ -97,7 +93,7 @@ IbwWave ibw_wave(const SourceFile& file) {
                 "says that its wave takes " + std::to_string(wave_bytes) + " bytes and has " +
                     std::to_string(bytes.size()) + " in all",
                 "the file is cut short or its header is wrong");
-  // A file's end may be padded, and so may what Igor counts as its wave.
+  // Both the file and Igor's count of its bytes may include padding.
   found.data = bytes.substr(ibw_headers, wave_bytes - wave_header);
   require_numbers(file, found.count[0], found.count[1], found.width, found.data.size());
   const std::uint64_t in_a_map = std::uint64_t{found.count[0]} * found.count[1];
@@ -116,7 +112,7 @@ IbwWave ibw_wave(const SourceFile& file) {
   return found;
 }
 
-// Whether a wave in metres is so in this map too: one unit stands for all maps of a wave, whatever they are.
+// A wave has one unit for all its maps, even for maps of other quantities.
 bool ibw_is_length(const std::string& name) {
   const std::string lower = lower_case(name);
   for (const char* const start : {"height", "zsensor", "map ", "deflection", "amplitude"})

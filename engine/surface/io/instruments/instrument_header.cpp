@@ -27,7 +27,7 @@ std::string listed_names(const std::vector<NamedMap>& maps, bool only_heights) {
   return joined(names, " and ");
 }
 
-// The number at the start of a text, and what follows it. No number: NaN.
+// Returns NaN without a number.
 double leading_number(std::string_view text, std::string_view& rest) {
   double value = 0;
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -54,7 +54,7 @@ double instrument_number(const SourceFile& file, std::string_view key, std::stri
 
 std::optional<double> instrument_length_unit(std::string_view text) {
   text = trimmed(text);
-  // "A" is the ampere of instruments, "1,5 nm" no length with a unit after it.
+  // "A" is ampere here; "1,5 nm" is no unit.
   if (text == "A" || text.find(' ') != std::string_view::npos) return {};
   if (text == "~m" || text == "\xB5m" || text == "\xC2\xB5m" || text == "\xCE\xBCm") return 1e-6;
   if (text == "\xC5" || text == "\xC3\x85") return 1e-10;

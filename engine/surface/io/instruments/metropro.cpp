@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MetroPro of Zygo's interferometers: a header of 834 or 4096 bytes, camera intensities, then phases of 32
-// bits, line by line, all big-endian. Height = phase times interference scale factor, wavelength and
-// obliquity factor, over 4096, 32768 or 131072 as the resolution of the phase (0, 1 or 2) says; where the
-// header says that heights are inverted, less that. A phase of 2147483640 or more was not measured. A lateral
-// resolution of 0 says nothing. Source: the MetroPro Reference Guide, as restated by SurfaceTopography's and
-// Gwyddion's readers, which agree on all of this.
+// MetroPro of Zygo's interferometers, big-endian: header, camera intensities, 32-bit phases. Height = phase
+// · scale factor · wavelength · obliquity factor / R; R = 4096, 32768 or 131072 for a phase resolution of
+// 0, 1 or 2. The header may invert the sign. Phases from 2147483640 on are missing. Source: MetroPro
+// Reference Guide, restated by SurfaceTopography's and Gwyddion's readers.
 #include <array>
 #include <cmath>
 
@@ -115,7 +113,7 @@ const Format& metropro_format() {
        "A file of the public test set of SurfaceTopography (header 1, resolution 1), every height and size; "
        "it has no missing points."},
       {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-      {},  // .dat may be anything
+      {},  // ambiguous
       recognises_metropro,
       read_metropro};
   return format;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MI of Agilent's, once Molecular Imaging's, microscopes: a header of lines whose first 14 characters are a
-// key, the first `fileType      Image`, the last `data          BINARY` or `BINARY_32`; then the numbers of
-// all buffers, each named by a line `bufferLabel`. A number n of b bits is n / 2^(b-1) of `bufferRange`, in
-// `bufferUnit`; `xLength` and `yLength` are in metres. The first line in the file is the lowest, whichever
-// way the scan went: j = 0 is at the bottom. There are no missing points. Layout as restated by Gwyddion's
-// and SurfaceTopography's readers. Spectra, and numbers written as text, are not read.
+// MI of Agilent's (Molecular Imaging's) microscopes: header lines with 14-character keys, then the numbers
+// of all buffers. A number n of b bits is n / 2^(b-1) of `bufferRange`, in `bufferUnit`; lengths are in
+// metres. There are no missing points. Layout: Gwyddion's and SurfaceTopography's readers.
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -23,8 +20,8 @@ constexpr std::size_t mi_key = 14;
 using MiLines = std::map<std::string, std::string_view>;
 
 struct MiHeader {
-  MiLines lines;                 // those before the first buffer
-  std::vector<MiLines> buffers;  // in the order of their numbers
+  MiLines lines;  // before the first buffer
+  std::vector<MiLines> buffers;
   std::string_view kind, data;
 };
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nanoscope files of Digital Instruments, Veeco and Bruker (.spm, .di, .001), version 4.3 and later: a header
-// of lines `\key: value` in sections `\*Name`, ended by `\*File list end`, then the images as integers. Each
-// section `\*Ciao image list` is one image. Its heights are integers of 16 or 32 bits; one unit is
-// V / 256^b · S with V the value at the end of `\@2:Z scale` in volts, b `\Bytes/pixel` and S the sensitivity
-// that this line names (`[Sens. Zsens]`), m/V, of the section of the scanner or of the scan. From version 9.2
-// on integers have 32 bits whatever b says. The first line in the file is the lowest of the image: j = 0 is
-// at the bottom. There are no missing points. The offset in z is not added. Layout as restated by Gwyddion's
-// and SurfaceTopography's readers. Force curves, text files and versions before 4.3 are not read.
+// Nanoscope files of Digital Instruments, Veeco and Bruker (.spm, .di, .001) from version 4.3 on: header
+// lines `\key: value` in sections `\*Name`, then integer images. Height per unit: V / 256^b · S, with V the
+// final value of `\@2:Z scale` in volts, b `\Bytes/pixel`, S the sensitivity in m/V (`[Sens. Zsens]`). From
+// version 9.2 on, integers have 32 bits for any b. There are no missing points. The z offset is ignored.
+// Layout: Gwyddion's and SurfaceTopography's readers.
 #include <cmath>
 #include <map>
 #include <utility>
@@ -24,8 +21,8 @@ namespace {
 constexpr std::string_view nanoscope_mark = "\\*File list", nanoscope_end = "\\*File list end";
 
 struct NanoscopeSection {
-  std::string name;                                 // lower case, without `\*`
-  std::map<std::string, std::string_view> entries;  // by lower-case key
+  std::string name;                                 // without `\*`
+  std::map<std::string, std::string_view> entries;  // by key
 };
 
 std::vector<NanoscopeSection> nanoscope_sections(const SourceFile& file) {
@@ -44,7 +41,7 @@ std::vector<NanoscopeSection> nanoscope_sections(const SourceFile& file) {
       sections.push_back({lower_case(line.substr(2)), {}});
       continue;
     }
-    // Keys such as `@2:Z scale` have a colon of their own.
+    // Keys such as `@2:Z scale` contain a colon.
     const std::size_t colon = line.find(": ", 1);
     if (!line.starts_with('\\') || colon == std::string_view::npos) continue;
     sections.back().entries.emplace(lower_case(line.substr(1, colon - 1)), trimmed(line.substr(colon + 2)));
@@ -60,7 +57,7 @@ std::string_view nanoscope_entry(const SourceFile& file, const NanoscopeSection&
   return found->second;
 }
 
-// `S [Height] "Height Sensor"`: what is in quotes, else in brackets.
+// Text in quotes, else in brackets: `S [Height] "Height Sensor"`.
 std::string nanoscope_title(std::string_view value) {
   for (const auto& [first, last] : {std::pair{'"', '"'}, std::pair{'[', ']'}}) {
     const std::size_t begin = value.find(first);
@@ -71,7 +68,7 @@ std::string nanoscope_title(std::string_view value) {
   return "image";
 }
 
-// What the sections of the scanner and of the scan say of `@Sens. NAME`.
+// `@Sens. NAME` entries.
 using Sensitivities = std::map<std::string, std::string_view>;
 
 Sensitivities nanoscope_sensitivities(const std::vector<NanoscopeSection>& sections) {
@@ -85,11 +82,11 @@ Sensitivities nanoscope_sensitivities(const std::vector<NanoscopeSection>& secti
 
 struct NanoscopeImage {
   int nx = 0, ny = 0;
-  std::size_t width = 0;  // bytes of a number
+  std::size_t width = 0;  // in bytes
   std::string_view data;
   double size_x = 0, size_y = 0;
-  std::optional<double> unit;  // m per number; none where the image is of something else
-  std::string kind;            // for errors, where there is no unit
+  std::optional<double> unit;  // m per number; none for other quantities
+  std::string kind;            // for errors
 };
 
 // `V [Sens. Zsens] (0.005035400 V/LSB) 330.0000 V`
@@ -113,7 +110,7 @@ void scale_nanoscope_image(const SourceFile& file, const Sensitivities& sensitiv
   if (found == sensitivities.end())
     refuse_file(file, "has an image scaled by " + shown(name) + ", which its header does not say");
   const std::vector<std::string_view> parts = cells_of(found->second, Separator::blank);
-  // `V 20.82646 nm/V`; without a unit the image is of volts or of an angle.
+  // `V 20.82646 nm/V`; without a unit: volts or an angle.
   if (parts.size() < 3 || parts[0] != "V") return;
   const std::size_t slash = parts[2].rfind('/');
   if (slash == std::string_view::npos) return;
@@ -184,7 +181,7 @@ NanoscopeImage nanoscope_image(const SourceFile& file, const Sensitivities& sens
   return image;
 }
 
-// A scan that was stopped says so, and its other lines hold what was there before.
+// In a stopped scan, the remaining lines hold old data.
 void warn_of_stopped_scan(const SourceFile& file, const NanoscopeSection& section,
                           const NanoscopeImage& image, Monitor& monitor) {
   const auto valid = [&](const char* key, int whole) {
@@ -197,7 +194,7 @@ void warn_of_stopped_scan(const SourceFile& file, const NanoscopeSection& sectio
                  " x " + std::to_string(image.ny) + " points is valid: crop it to what was measured");
 }
 
-// `2:1` is an image twice as long as it is high. Where the scan size says another, the cells may be wrong.
+// `2:1`: width twice the height. A different scan size suggests wrong cells.
 void warn_of_aspect(const SourceFile& file, const NanoscopeSection& section, const NanoscopeImage& image,
                     Monitor& monitor) {
   const auto found = section.entries.find("aspect ratio");
@@ -230,7 +227,7 @@ HeightMap read_nanoscope_channel(const SourceFile& file, const std::string& chan
     const auto line = section.entries.find("line direction");
     lines.push_back(line == section.entries.end() ? "" : ", " + lower_case(line->second));
   }
-  tell_apart_by(maps, lines);  // trace and retrace of one quantity have one title
+  tell_apart_by(maps, lines);  // shared titles
   const std::size_t found = chosen_map(file, maps, channel);
   const NanoscopeImage& image = images[found];
   if (!image.unit) refuse_no_heights(file, maps[found], image.kind);

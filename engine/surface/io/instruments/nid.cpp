@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NID of Nanosurf's microscopes: a header in text, sections `[Name]` of lines `key=value`, then `#!` and the
-// numbers of all images one after another, in the order of the keys `GrG-ChC` of the section [DataSet]. Each
-// names the section that says of its image: `Points` and `Lines`, `SaveBits` of the signed integers,
-// `Dim0Range` and `Dim1Range` along x and y, and for the heights `Dim2Range` and `Dim2Min`: a number n of b
-// bits is (n / 2^b + 1/2) · range + min. The first line in the file is the lowest: j = 0 is at the bottom.
-// There are no missing points. Layout as told by the headers themselves and restated by Gwyddion's reader of
-// the same layout (EZD). The file that was compared was scanned upwards: its first line shows the start.
+// NID of Nanosurf's microscopes: header sections `[Name]` of lines `key=value`, then `#!` and the numbers
+// of all images in the order of [DataSet]. A number n of b bits has height (n / 2^b + 1/2) · `Dim2Range` +
+// `Dim2Min`. There are no missing points. Layout: the headers, and Gwyddion's reader of the same layout
+// (EZD).
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -24,7 +21,7 @@ using NidSection = std::map<std::string, std::string_view>;
 
 struct NidHeader {
   std::map<std::string, NidSection> sections;
-  std::vector<std::string> images;  // sections of images in the order of the data
+  std::vector<std::string> images;  // in the order of the data
   std::string_view data;
 };
 
@@ -70,7 +67,7 @@ std::string_view nid_entry(const SourceFile& file, const NidSection& section, co
   return found->second;
 }
 
-// Takes the image's numbers off the front of the data.
+// Removes the numbers of the image from `data`.
 NidImage take_nid_image(const SourceFile& file, const NidHeader& header, const std::string& name,
                         std::string_view& data) {
   const auto found = header.sections.find(name);
@@ -99,7 +96,7 @@ NidImage take_nid_image(const SourceFile& file, const NidHeader& header, const s
   return image;
 }
 
-// A range in the unit of its dimension, in metres.
+// In metres.
 double nid_length(const SourceFile& file, const NidSection& section, const std::string& dimension) {
   return instrument_length(file, dimension + "Range",
                            std::string(nid_entry(file, section, dimension + "Range")) + " " +

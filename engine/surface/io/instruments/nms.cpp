@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NMS of NanoFocus' confocal microscopes (usurf): a header of some 3500 bytes, whose length it states, then
-// integers of 16 bits, line by line, and the camera's picture with one byte a point. The least and the
-// greatest integer that the header names stand for its least and greatest height, in micrometres; distances
-// of points are in nanometres. Source: surfalize's and SurfaceTopography's readers; where these differ
-// (millimetres or nanometres, which end of the range is added), the header's own numbers and the field of
-// 160 um of the objective decide. No mark of points that were not measured is known: fill them in the
-// instrument's software, or `masked` makes holes of outliers.
+// NMS of NanoFocus' confocal microscopes (usurf): header, 16-bit integers, camera picture. The header maps
+// its integer range to its height range in micrometres; distances are in nanometres. Source: surfalize's
+// and SurfaceTopography's readers; they disagree on units and range, and the header's numbers and the
+// objective's field (160 um) decide. No mark of missing points is known: fill them in the instrument's
+// software, or use `masked` for outliers.
 #include <cmath>
 
 #include "engine/core/text.hpp"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OPD of Wyko, Veeco and Bruker interferometers: a directory of named blocks, then the blocks in its order.
-// The map is a block of type 3 (columns, lines, bytes a number, then column by column), its heights in
-// wavelengths (`Wavelength`, nm) or, as integers, in parts of one (`Mult`); `Pixel_size` is in mm along x,
-// `Aspect` times that along y. Missing points are 1e38 or more, or 32766 and 32767 of 16 bits. Layout as
-// restated by Gwyddion's and SurfaceTopography's readers.
+// OPD of Wyko, Veeco and Bruker interferometers: a directory of named blocks. The map, column by column, is
+// in wavelengths (`Wavelength`, nm) or, as integers, in fractions of one (`Mult`). `Pixel_size` is in mm
+// along x, `Aspect` times as much along y. Missing points: from 1e38 on; 32766 and 32767 in 16 bits.
+// Layout: Gwyddion's and SurfaceTopography's readers.
 #include <array>
 #include <cmath>
 
@@ -21,7 +20,7 @@ constexpr std::string_view opd_mark(
     "Directory",
     11);
 constexpr std::size_t entry_bytes = 24, name_bytes = 16, start = 2;
-// In the order in which one is chosen.
+// In order of preference.
 constexpr std::array<std::string_view, 5> map_names{"RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA", "Raw"};
 
 struct Block {
@@ -67,7 +66,7 @@ const Block* find(const std::vector<Block>& blocks, std::string_view name) {
   return nullptr;
 }
 
-// A number of any of the types that blocks have; none where there is no such block.
+// Accepts any number type.
 std::optional<double> number_of(const SourceFile& file, const std::vector<Block>& blocks,
                                 std::string_view name) {
   const Block* const block = find(blocks, name);
@@ -116,7 +115,7 @@ const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks,
               maps.empty() ? "" : "name one of them with `channel`");
 }
 
-// Column by column in the file, row by row here; y runs along a column.
+// The file stores columns; y runs along a column.
 template <class T, class IsHole>
 Field turned(std::string_view data, int nx, int ny, Monitor& monitor, IsHole&& is_hole) {
   const Field columns = field_of_numbers<T>(data, ny, nx, monitor, is_hole);

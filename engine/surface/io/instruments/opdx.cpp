@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OPDx of Bruker's Vision64 (Dektak stylus profilometers): after the mark, items one after another: the
-// length of a name in 32 bits, the name, a byte for the type, and the value; containers hold items in turn
-// and end with an item of type 127 and two bytes. A profile is the container /1D_Data/NAME of the name that
-// /MetaData/1D_Channels/Height lists, with `Extent` from the first sample to the last, `NumPoints`,
-// `DataScale` (the length of one number) and `Array`, doubles. Numbers that are not finite are missing
-// samples. Layout as restated by SurfaceTopography's reader. Maps (`2D_Data`) are refused: there was no file
-// to check them with.
+// OPDx of Bruker's Vision64 (Dektak stylus profilometers): nested items of name, type and value. A profile
+// is the container /1D_Data/NAME; `Extent` spans the first to the last sample. Non-finite numbers are
+// missing samples. Layout: SurfaceTopography's reader. Maps (`2D_Data`) are refused for lack of a test file.
 #include <cmath>
 #include <map>
 
@@ -55,7 +51,6 @@ using OpdxItems = std::map<std::string, OpdxItem>;
 
 std::string_view opdx_name(BinaryCursor& cursor) { return cursor.take(cursor.number<std::uint32_t>()); }
 
-// A length in as many bytes as the byte before it says.
 std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
   switch (const int width = cursor.number<std::uint8_t>()) {
     case 1:
@@ -72,7 +67,7 @@ std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
   }
 }
 
-// Goes over the items of a container; those of its containers have its name and a slash before their own.
+// Recursive; the path of an item starts with its container's path.
 void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::string& prefix, int depth,
                      OpdxItems& items) {
   constexpr int deepest = 8;
@@ -82,7 +77,7 @@ void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::
     const std::string_view name = opdx_name(cursor);
     const auto type = static_cast<OpdxType>(cursor.number<std::uint8_t>());
     if (type == OpdxType::end) return;
-    // Longer ones come from damage, and would be copied for each of many items.
+    // Longer paths indicate damage and would be copied for many items.
     constexpr std::size_t longest_path = 256;
     if (prefix.size() + name.size() >= longest_path)
       refuse_file(file, "has an item with a name of " + std::to_string(name.size()) + " bytes",
@@ -126,7 +121,7 @@ void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::
       case OpdxType::array:
       case OpdxType::names:
       case OpdxType::positions:
-        opdx_name(cursor);  // the type's name in its maker's program
+        opdx_name(cursor);
         value = sized();
         break;
       case OpdxType::matrix:
@@ -151,7 +146,7 @@ OpdxItem opdx_item(const SourceFile& file, const OpdxItems& items, const std::st
   return found->second;
 }
 
-// A quantity in metres: its value, the name of its unit and the sign of that.
+// Value, unit name, unit symbol.
 double opdx_metres(const SourceFile& file, const OpdxItems& items, const std::string& path) {
   BinaryCursor cursor(file, opdx_item(file, items, path, OpdxType::quantity).value, path);
   const double value = cursor.number<double>();
@@ -186,7 +181,7 @@ HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, 
   const OpdxItem points = opdx_item(file, items, prefix + "/NumPoints", OpdxType::uint64);
   const auto count = little_endian<std::uint64_t>(points.value.data());
   const std::string_view array = opdx_item(file, items, prefix + "/Array", OpdxType::array).value;
-  // The type of the numbers and the width of one come first.
+  // Number type and width precede the numbers.
   BinaryCursor cursor(file, array, "its heights");
   const int type = cursor.number<std::uint8_t>();
   const std::uint32_t width = cursor.number<std::uint32_t>();

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TIFF of Park Systems' microscopes (once PSIA): a picture with the numbers beside it, in tags of the first
-// directory: 50432 holds the mark 0x0E031301, 50433 the version, 50434 the numbers, 50435 a header of 356
-// bytes (version 1.0.1) or 580 (1.0.2). A number n is (n · scale + offset) · gain, in the unit that the
-// header names; sizes are in micrometres. Numbers are integers of 16 or 32 bits or floating-point numbers
-// of 32. The first line in the file is the lowest: j = 0 is at the bottom. Floating-point numbers that are
-// not finite are missing points. Layout as restated by Gwyddion's and SurfaceTopography's readers.
-// Little-endian only, as the microscopes write.
+// TIFF of Park Systems' microscopes (PSIA): a picture plus private tags. Height = (n · scale + offset) ·
+// gain in the header's unit; sizes are in micrometres. Non-finite numbers are missing points. Layout:
+// Gwyddion's and SurfaceTopography's readers. Little-endian only, as the microscopes write.
 #include <array>
 #include <cmath>
 
@@ -25,8 +21,8 @@ constexpr std::uint16_t park_mark_tag = 50432, park_version_tag = 50433, park_da
 constexpr std::uint32_t park_mark = 0x0E031301;
 
 struct TiffTag {
-  std::uint32_t value = 0;  // of one number of 32 bits
-  std::uint64_t bytes = 0;  // of all its numbers
+  std::uint32_t value = 0;  // first number
+  std::uint64_t bytes = 0;  // of all numbers
   bool there = false;
 };
 
@@ -35,7 +31,7 @@ std::uint64_t tiff_width(std::uint16_t type) {
   return type < widths.size() ? widths[type] : 0;
 }
 
-// The tag of the first directory; not there where the file is cut short. Never throws.
+// From the first directory. Never throws.
 TiffTag tiff_tag(std::string_view bytes, std::uint16_t wanted) {
   if (bytes.size() < 8 || !bytes.starts_with(tiff_mark)) return {};
   const std::size_t directory = little_endian<std::uint32_t>(bytes.data() + 4);
@@ -66,7 +62,7 @@ std::string_view park_tag_bytes(const SourceFile& file, std::uint16_t wanted, co
   return file.bytes().substr(tag.value, tag.bytes);
 }
 
-// A text of UTF-16 in a field of fixed width; characters beyond ASCII are question marks but for the micro.
+// UTF-16; non-ASCII characters become question marks, except micro and angstrom.
 std::string park_text(BinaryCursor& cursor, std::size_t characters) {
   std::string text;
   const std::string_view field = cursor.take(2 * characters);
@@ -110,7 +106,7 @@ ParkHeader park_header(const SourceFile& file) {
   header.offset = cursor.number<double>();
   header.unit = park_text(cursor, 8);
   if (version.value == second_version) {
-    cursor.skip(3 * 4 + 3 * 4 + 2 * 8 + 3 * 16);  // extremes, ways of showing, servo
+    cursor.skip(3 * 4 + 3 * 4 + 2 * 8 + 3 * 16);  // extremes, display modes, servo
     header.number_type = cursor.number<std::uint32_t>();
   }
   return header;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PLU of Sensofar's profilers (PLu 2300, PLu neox): a date as text, a comment, the calibration of the axes in
-// micrometres, the settings of the measurement, then of each layer its numbers of lines and columns and its
-// heights in micrometres, single precision, line by line; pictures of the camera may follow. A point that was
-// not measured is 1000001. Layout as restated by Gwyddion's and SurfaceTopography's readers. The file has no
-// mark of its own: it is known by the form of its date and by numbers of points that its header repeats.
+// PLU of Sensofar's profilers (PLu 2300, PLu neox): date, comment, calibration, settings, then the layers,
+// single precision. All lengths are in micrometres. A missing point is 1000001. Layout: Gwyddion's and
+// SurfaceTopography's readers. The only mark of the format is the form of its date.
 #include <cctype>
 #include <cmath>
 

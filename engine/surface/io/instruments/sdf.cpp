@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SDF, the surface data file of ISO 25178-71 and of its forerunner (EUR 15178, "aBCR-1.0"): a header, in text
-// or in 81 bytes, then the heights profile by profile, in units of Zscale metres. Missing points are BAD in
-// text; in the binary form the least number of a signed type, the greatest of an unsigned one, or NaN.
-// Layout: ISO 25178-71 and the format's page at NIST. Compressed files, which the standard leaves open, are
-// refused.
+// SDF of ISO 25178-71 and its predecessor (EUR 15178, "aBCR-1.0"): a text or 81-byte header, then the
+// heights by profile, in units of Zscale metres. Missing points: BAD in text; in binary NaN, the least
+// signed or the greatest unsigned number. Layout: ISO 25178-71 and NIST's page.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,12 +24,12 @@ struct SdfHeader {
 constexpr int types = 8;  // u8, u16, u32, float, i8, i16, i32, double
 constexpr std::array<std::uint64_t, types> widths{1, 2, 4, 4, 1, 2, 4, 8};
 
-// "aISO-1.0", "bBCR-1.0" and the like: a or b for text or binary, capitals, a version.
+// "aISO-1.0", "bBCR-1.0": a (text) or b (binary), capitals, a version.
 bool is_version(std::string_view mark, char form) {
   return mark.size() >= 8 && mark[0] == form && (mark.substr(1, 4) == "ISO-" || mark.substr(1, 4) == "BCR-");
 }
 
-// Other makers' texts begin otherwise; the first name of the header follows in the next lines.
+// Some texts begin differently, with a header name a few lines below.
 bool is_text_form(const SourceFile& file) {
   if (!file.looks_like_text()) return false;
   LineReader lines(file.text());
@@ -60,7 +58,7 @@ void check_header(const SourceFile& file, const SdfHeader& header) {
       refuse_file(file, "gives " + format_short(scale) + " as the distance of its points");
 }
 
-// A scale of 0 says nothing: one profile has no distance to the next.
+// A scale of 0 is unknown: a single profile has no distance to the next.
 HeightMap described(const SdfHeader& header, Field heights) {
   HeightMap map;
   map.heights = std::move(heights);
@@ -98,7 +96,7 @@ HeightMap read_binary(const SourceFile& file, Monitor& monitor) {
   const std::string_view data = file.bytes().substr(cursor.position());
   const std::uint64_t width = widths[static_cast<std::size_t>(header.type)];
   require_numbers(file, header.points, header.profiles, width, data.size());
-  // After the heights there may be a trailer, which is text.
+  // A text trailer may follow the heights.
   const std::string_view rest = data.substr(header.points * header.profiles * width);
   const auto is_text = [](char c) {
     return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\x1A' ||
@@ -128,7 +126,7 @@ std::uint64_t header_count(const SourceFile& file, std::string_view key, std::st
 SdfHeader read_text_header(const SourceFile& file, LineReader& lines) {
   SdfHeader header;
   bool ended = false;
-  unsigned found = 0;  // one bit for each of the six that must be there
+  unsigned found = 0;  // one bit per required entry
   std::string_view line;
   lines.next(line);
   while (!ended && lines.next(line)) {
@@ -137,7 +135,7 @@ SdfHeader read_text_header(const SourceFile& file, LineReader& lines) {
       ended = true;
       continue;
     }
-    // A comment begins with a semicolon, on its own line or after the value.
+    // Comments begin with a semicolon, also after a value.
     const std::string_view statement = plain.substr(0, plain.find(';'));
     const std::size_t sign = std::min(statement.find('='), statement.size());
     const std::string key = lower_case(trimmed(statement.substr(0, sign)));
@@ -164,7 +162,7 @@ HeightMap read_text(const SourceFile& file, Monitor& monitor) {
   LineReader lines(file.text());
   const SdfHeader header = read_text_header(file, lines);
   check_header(file, header);
-  // A number takes two bytes at least, with the blank after it.
+  // A number and its blank need at least two bytes.
   const std::size_t room = file.text().size() - lines.position();
   require_numbers(file, header.points, header.profiles, 1, room / 2 + 1);
   Field heights(static_cast<int>(header.points), static_cast<int>(header.profiles));

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface as SDF of ISO 25178-71, binary (bISO-1.0), heights in metres as doubles, missing points NaN. What
-// reads back has the same heights, bit for bit, and the same holes; a size is the spacing times the points
-// and may differ in its last digit, and of a map of one line the width is that of a trace. The header counts
-// points with 16 bits: 65535 a side.
-// Layout: ISO 25178-71, as the reader (sdf.cpp) has it.
+// Writes binary SDF (ISO 25178-71, bISO-1.0): heights in metres as doubles, missing points NaN. Both read
+// back bit for bit; a size, stored as spacing, may differ in the last digit, and a map of one line reads
+// back as a trace.
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -27,21 +25,20 @@ void append(std::string& bytes, T value) {
 
 std::string sdf_header(const Grid& grid) {
   std::string bytes = "bISO-1.0Asperity  ";
-  // Made and changed, day to minute: a file of the same surface is the same.
+  // Fixed dates: the same surface gives the same bytes.
   for (int k = 0; k < 2; ++k) bytes += "010119700000";
   append(bytes, static_cast<std::uint16_t>(grid.nx));
   append(bytes, static_cast<std::uint16_t>(grid.ny));
-  // Distances along x and y and the unit of a height, m; a resolution below zero is not known.
+  // hx, hy and unit of height in m; a negative resolution means unknown.
   for (const double number : {grid.hx(), grid.hy(), 1.0, -1.0}) append(bytes, number);
-  // No compression, doubles, no checksum.
   for (const int number : {0, 7, 0}) append(bytes, static_cast<std::uint8_t>(number));
   return bytes;
 }
 
 }  // namespace
 
-// The same surface gives the same bytes. Throws Error{bad_value} for more than 65535 points a side,
-// Error{bad_file} where the file cannot be written.
+// Throws Error{bad_value} above 65535 points a side (16 bits in the header), Error{bad_file} if writing
+// fails.
 void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor) {
   const Grid& grid = surface.grid();
   constexpr int most = std::numeric_limits<std::uint16_t>::max();

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SUR of Digital Surf (MountainsMap and the instruments that come with it): a header of 512 bytes, a comment,
-// a private zone, then integers of 16 or 32 bits, line by line; height = number times spacing plus offset, in
-// the unit of the z axis. A point that was not measured is the least height less 2. Layout: the description
-// in the software's reference, as restated by Gwyddion's and RosettaSciIO's readers. Of a file of several
-// objects the first is read. In a compressed object ("DSCOMPRESSED") the numbers are packed with zlib: their
-// count of pieces, the plain and the packed length of each, then the pieces; source: RosettaSciIO's and
-// surfalize's readers.
+// SUR of Digital Surf (MountainsMap): header, comment, private zone, then 16- or 32-bit integers, in several
+// pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A missing
+// point is the least number minus 2. Only the first object is read. Layout: the software's reference as
+// restated by Gwyddion's and RosettaSciIO's readers; compression: RosettaSciIO's and surfalize's.
 #include <array>
 #include <cmath>
 
@@ -26,7 +23,7 @@ constexpr std::size_t sur_header_bytes = 512;
 struct SurAxis {
   double spacing;
   std::optional<double> unit;
-  std::string word;  // of the unit, as written
+  std::string word;  // as written
 };
 
 struct SurHeader {
@@ -81,7 +78,6 @@ SurHeader read_header(const SourceFile& file) {
   return header;
 }
 
-// The pieces of a compressed object, unpacked one behind another, and what follows them in the file.
 struct SurPieces {
   Array<char> bytes;
   std::string_view rest;
@@ -120,7 +116,7 @@ bool recognises_sur(const SourceFile& file) {
 
 HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   const SurHeader header = read_header(file);
-  // 1 a profile, 2 a surface, 4 and 5 series of them.
+  // 1: profile, 2: surface, 4 and 5: series.
   if (header.type == 3 || header.type < 1 || header.type > 5)
     refuse_file(file, "holds an object of type " + std::to_string(header.type) + ", which is no surface",
                 "surfaces and profiles are read: types 1, 2, 4 and 5");
@@ -142,7 +138,7 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
     pieces = unpack_pieces(file, data, side(header.nx) * side(header.ny) * width);
     data = {pieces.bytes.data(), pieces.bytes.size()};
   }
-  // Of several objects the next begins, with its own header, where this one ends.
+  // The next object must start here.
   if (header.objects > 1) {
     require_numbers(file, side(header.nx), side(header.ny), width, data.size());
     const std::string_view next =

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface as a file of Digital Surf (SUR), which MountainsMap and most programs of surface metrology read.
-// The format holds integers: heights are rounded to whole steps of the greatest height / 2^30, or of the
-// range / 2^31 where heights lie far from zero, which the comment of the file states; sizes are rounded to
-// single precision. A point that was not measured is the least number less 2, and the header says that there
-// are such points. Reading back gives every height within half a step and the holes exactly; the size of a
-// map of one line is that of a trace, which has no width.
-// The header goes by the description in the software's reference, as the reader (sur.cpp) does. All lengths
-// are in millimetres, the unit that its files have most often.
+// Writes SUR (Digital Surf) for MountainsMap and most metrology programs. Heights are rounded to steps of
+// (greatest height) / 2^30, or range / 2^31 far from zero; sizes to single precision. A missing point is
+// the least number minus 2. Heights read back within half a step, holes exactly; a map of one line reads
+// back as a trace. Header: the software's reference, as in sur.cpp.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -27,11 +23,10 @@ namespace asperity {
 namespace {
 
 constexpr double millimetre = 1e-3;
-// Integers reach to 2^30: half of what 32 bits hold, so that neither rounding nor the number of a missing
-// point leaves them.
+// Half the range of 32 bits, for rounding and for the number of a missing point.
 constexpr double sur_greatest = 1073741824.0;
 
-// Height = number times step plus offset, in millimetres, as single precision holds the two.
+// Height = number · step + offset, in millimetres.
 struct SurSteps {
   float step = 1, offset = 0;
   std::int32_t number(double height) const {
@@ -51,8 +46,7 @@ float single(double value, const std::string& path, const char* what) {
 }
 
 SurSteps steps_of(const Range& heights, const std::string& path) {
-  // Readers that pass over the offset show heights rightly but for it; so it is used only where steps of the
-  // greatest height would be coarse.
+  // Readers that ignore the offset show shifted heights, so it is used only for otherwise coarse steps.
   constexpr double far_from_zero = 1000;
   const double least = heights.min / millimetre, most = heights.max / millimetre;
   SurSteps steps;
@@ -88,11 +82,11 @@ std::string sur_header(const Surface& surface, const SurSteps& steps, std::int32
     comment += " " + std::to_string(grid.nodes() - surface.measured()) + " of " +
                std::to_string(grid.nodes()) + " points were not measured.";
   std::string bytes = "DIGITAL SURF";
-  // Little-endian; one object; version 1; a surface.
+  // Little-endian, one object, version 1, surface.
   for (const int value : {0, 1, 1, 2}) put(bytes, static_cast<std::int16_t>(value));
   put_text(bytes, "height", 30, ' ');
   put_text(bytes, "Asperity", 30, ' ');
-  // No material, no kind of measurement, the whole range; whether points are missing; absolute heights.
+  // No material, no kind of measurement, whole range, holes or not, absolute heights.
   for (const int value : {0, 0, 0, holes ? 1 : 0, 1}) put(bytes, static_cast<std::int16_t>(value));
   put_text(bytes, "", 8, '\0');
   put(bytes, std::int16_t{32});
@@ -102,12 +96,12 @@ std::string sur_header(const Surface& surface, const SurSteps& steps, std::int32
   put(bytes, single(grid.hy() / millimetre, path, "spacing"));
   put(bytes, steps.step);
   for (const char* const name : {"X", "Y", "Z"}) put_text(bytes, name, 16, ' ');
-  for (int k = 0; k < 6; ++k) put_text(bytes, "mm", 16, ' ');  // of a step, then of a length, along each axis
-  for (int k = 0; k < 3; ++k) put(bytes, 1.0F);                // of the one to the other
-  // Not a replica, not turned over, not levelled.
+  for (int k = 0; k < 6; ++k) put_text(bytes, "mm", 16, ' ');  // units of spacing, then of length, per axis
+  for (int k = 0; k < 3; ++k) put(bytes, 1.0F);                // unit ratios
+  // Not a replica, not inverted, not levelled.
   for (const int value : {0, 0, 0}) put(bytes, static_cast<std::int16_t>(value));
   put_text(bytes, "", 12, '\0');
-  // Second, minute, hour, day, month, year and day of the week: a file of the same surface is the same.
+  // Fixed date, second to weekday: the same surface gives the same bytes.
   for (const int value : {0, 0, 0, 1, 1, 1970, 4}) put(bytes, static_cast<std::int16_t>(value));
   put(bytes, 0.0F);
   put_text(bytes, "", 10, '\0');
@@ -121,8 +115,7 @@ std::string sur_header(const Surface& surface, const SurSteps& steps, std::int32
 
 }  // namespace
 
-// The same surface gives the same bytes. Throws Error{bad_value} for sizes or heights that single precision
-// does not hold, Error{bad_file} where the file cannot be written.
+// Throws Error{bad_value} if sizes or heights exceed single precision, Error{bad_file} if writing fails.
 void write_sur(const Surface& surface, const std::string& path, Monitor& monitor) {
   const Grid& grid = surface.grid();
   const Field& heights = surface.measured_heights();

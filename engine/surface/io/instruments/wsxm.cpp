@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STP and TOP of WSxM (Nanotec): a header of lines `key: value` in sections, ended by `[Header end]`, then
-// the numbers. `Image Data Type` is double, float or short. Heights are in units of the length `Z Amplitude`
-// through the least and the greatest number: amplitude / (greatest - least) each. That length is printed with
-// six digits: where it says that floating-point numbers are in its own unit to 1e-4, they are taken so. The
-// first number in the file is that of the lower right corner: the first line is j = 0 and each is read from
-// its end. Numbers that are not finite are missing points. Layout and orientation as restated by Gwyddion's
-// reader and writer.
+// STP and TOP of WSxM (Nanotec): header lines `key: value`, then double, float or short numbers. Unit of
+// height: `Z Amplitude` / (greatest - least number); the printed unit, if equal to 1e-4 for floating-point
+// numbers (six printed digits). The file begins at the lower right corner. Non-finite numbers are missing
+// points. Layout and orientation: Gwyddion's reader and writer.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -82,7 +79,7 @@ Field wsxm_numbers(const SourceFile& file, std::string_view data, std::uint64_t 
                              [](T value) { return !std::isfinite(static_cast<double>(value)); });
 }
 
-// The length of one number.
+// In metres.
 double wsxm_unit(const SourceFile& file, const Field& numbers, double amplitude, double printed_unit,
                  bool integers) {
   double least = INFINITY, greatest = -INFINITY;
@@ -115,7 +112,7 @@ HeightMap read_wsxm(const SourceFile& file, Monitor& monitor) {
                 "maps of heights are read");
   const double amplitude = instrument_length(file, "Z Amplitude", amplitude_text);
   const auto type = header.entries.find("General Info::Image Data Type");
-  // Files of early versions say nothing and hold short integers.
+  // Early versions omit the type and hold short integers.
   const std::string kind = type == header.entries.end() ? "short" : std::string(type->second);
   HeightMap map;
   Field numbers;
