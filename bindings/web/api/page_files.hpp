@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page itself: its built files, read once when the server starts, so that no request reaches the disk.
-// Every answer carries a policy that lets the page load from here and nowhere else, and run no script that is
-// not one of these files.
+// The page's built files, read once at server start, so that no request reaches the disk. Every answer
+// carries a content policy: the page loads from this server only and runs no script except these files.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +14,10 @@ namespace asperity::web {
 
 class PageFiles {
  public:
-  // `folder`: none where the page was not built; then "/" says what it needs.
+  // `folder`: empty if the page was not built; "/" then says how to build the page.
   explicit PageFiles(const std::optional<std::filesystem::path>& folder);
   bool built() const { return !files_.empty(); }
-  // For GET and HEAD.
+  // Answers GET and HEAD.
   HttpResponse answer(const HttpRequest& request) const;
 
  private:
@@ -28,10 +27,10 @@ class PageFiles {
   std::map<std::string, File> files_;  // by path, "/index.html"
 };
 
-// What the page needs to be built, in a sentence.
+// One sentence: how to build the page.
 extern const char* const page_needs;
 
-// Put on every answer of the server.
+// For every answer of the server.
 void add_safe_headers(HttpResponse& response);
 
 }  // namespace asperity::web

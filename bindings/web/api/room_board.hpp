@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the people of a room have put up for its teacher: the numbers they predict in a lesson, and whether
-// somebody asks for help. It is kept in memory, as long as the server runs, and bounded for each person.
+// Notes of a room's people for the teacher: predicted numbers of a lesson, and requests for help. The board
+// is in memory, lasts as long as the server, and has a bound for each person.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,8 @@ class RoomBoard {
  public:
   static constexpr std::size_t longest_name = 60, most_lessons = 40, most_numbers = 12;
 
-  // The numbers that this person predicts in that lesson, by name, instead of any before; none takes them
-  // back. Throws Error{bad_value} where names or numbers are more or longer than above, or a number is not
-  // finite.
+  // Replaces the person's predictions for a lesson, by name; no numbers delete the predictions. Throws
+  // Error{bad_value} beyond the limits above, or if a number is not finite.
   void predict(std::size_t person, const std::string& lesson, const std::map<std::string, double>& numbers);
   void ask_for_help(std::size_t person, bool wanted);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of the page: its directory, its events, and the confined process that it is while it goes on. What
-// that process says is taken for what it may be, the words of a script that got loose: events of kinds that
-// are known, of a bounded length, and no more bytes in all than a run may have.
+// One run of the page: its directory, its events, and its confined process. Messages of the process are
+// treated as hostile: only known kinds of events of bounded length, and a bounded total of bytes.
 #pragma once
 
 #include <atomic>
@@ -21,14 +20,14 @@
 
 namespace asperity::web {
 
-// What one run may take. Exceeding any ends it, with what it recorded.
+// Limits of one run. Exceeding any limit ends the run; its records stay.
 struct RunLimits {
-  double seconds = 600;                                    // on the clock
+  double seconds = 600;                                    // wall-clock time
   std::int64_t memory_bytes = std::int64_t{2} << 30;       //
   std::int64_t output_bytes = std::int64_t{1} << 20;       // printed
-  std::int64_t event_bytes = std::int64_t{32} << 20;       // of rows and other events
-  std::int64_t directory_bytes = std::int64_t{256} << 20;  // of all its files together
-  std::size_t files = 2000;                                // and folders
+  std::int64_t event_bytes = std::int64_t{32} << 20;       // rows and other events
+  std::int64_t directory_bytes = std::int64_t{256} << 20;  // all files together
+  std::size_t files = 2000;                                // files and folders
   int threads = 1;
 };
 
@@ -44,7 +43,7 @@ struct RunRequest {
 
 class PageRun {
  public:
-  // Makes `folder` with the run's own directory `run` in it. Throws Error{bad_file}.
+  // Creates `folder` and the run directory `run` inside. Throws Error{bad_file}.
   PageRun(std::string id, std::size_t owner, RunRequest request, const std::filesystem::path& folder);
 
   const std::string id;
@@ -55,17 +54,17 @@ class PageRun {
 
   RunState state() const { return state_.load(); }
   std::int64_t bytes() const { return directory_bytes_.load() + events.bytes(); }
-  // Of its process and what it became, once that has ended.
+  // Processor time of the ended process.
   double processor_seconds() const { return processor_seconds_; }
-  // Says in its events how many runs begin before it, where it waits and that is news. One call at a time.
+  // Adds an event with the number of runs ahead, if the run waits and the number is new. One call at a time.
   void tell_place(std::size_t before);
-  // Ends it, soon; one that waits is over at once.
+  // Ends the run soon; a waiting run ends at once.
   void stop();
   bool stop_asked() const { return stop_.load(); }
 
-  // The run from begin to end, on the thread that calls. `barriers` must stand.
+  // Executes the whole run on the calling thread. `barriers`: required in the process.
   void go(const RunLimits& limits, const std::vector<std::string>& barriers);
-  // Ends a run that was not begun.
+  // Ends a run before its start.
   void give_up(RunState state, const std::string& reason);
 
  private:
@@ -78,7 +77,7 @@ class PageRun {
   double processor_seconds_ = 0;
   std::optional<std::size_t> told_place_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-  // What is known of each file: size and time when last seen, and whether that was told.
+  // Known facts of a file: size and time when last seen, and whether it was announced.
   struct Known {
     std::int64_t bytes, changed;
     bool told;
@@ -88,8 +87,8 @@ class PageRun {
   friend class RunFollower;
 };
 
-// What a run left and leaves, as answers (run_files.cpp): its events as they come, its files, its views.
-// From the query's `after` on, until the last or for some minutes: whoever asks takes it up again.
+// Answers about a run (run_files.cpp): events as they arrive, files, views. The event stream starts at the
+// query's `after` and ends with the last event or after some minutes; a client then asks again.
 HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request);
 HttpResponse file_answer(const PageRun& run, const std::string& name);
 HttpResponse view_answer(const PageRun& run, const std::string& name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Follows the process of a run: takes what it prints and tells, has its pictures drawn, watches its limits,
-// and ends it, politely first.
+// Follows the process of a run: stores its output and events, has its pictures drawn, enforces its limits,
+// and ends the process, first by request, then by force.
 #pragma once
 
 #include <atomic>
@@ -22,13 +22,13 @@ class RunFollower {
   RunFollower(const RunFollower&) = delete;
   RunFollower& operator=(const RunFollower&) = delete;
 
-  // Until the process has ended and all it said is taken.
+  // Returns when the process has ended and all its output is read.
   void follow();
 
   RunState state = RunState::failed;
   int exit = 1;
   std::string reason;
-  // Of the process, once it has ended.
+  // Of the ended process.
   double processor_seconds() const { return process_.processor_seconds(); }
 
  private:
@@ -49,11 +49,11 @@ class RunFollower {
   std::thread drawer_;
   std::string out_tail_, error_tail_, line_;
   std::int64_t printed_ = 0;
-  bool cut_ = false;  // more was printed than is kept
+  bool cut_ = false;  // output beyond the limit is discarded
   Clock::time_point begun_ = Clock::now(), told_{}, look_at_{};
   std::optional<Clock::time_point> kill_at_;
-  std::optional<RunState> ending_;  // why the server ended it
-  std::string stopped_, why_;       // what the process said of its own end
+  std::optional<RunState> ending_;  // why the server ended the process
+  std::string stopped_, why_;       // the process's own reason for its end
 };
 
 }  // namespace asperity::web

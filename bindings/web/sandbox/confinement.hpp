@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a process that works for somebody else may do: a script of the page, or gnuplot on numbers of such a
-// script. It is the process itself that goes behind the barriers, before it reads a byte of what it is to
-// run, and there is no way back. Each barrier is of the operating system and none knows of Lua: a flaw of the
-// language's own limits meets them all. Linux only; a kernel that lacks one is met by the others.
+// Confinement of a process that works for somebody else: a page's script, or gnuplot with numbers from such a
+// script. The process confines itself before it reads a byte of its input, and cannot undo this. All barriers
+// belong to the operating system and know nothing of Lua, so that a flaw of Lua's own limits meets every
+// barrier. Linux only; if a kernel lacks one barrier, the others remain.
 #pragma once
 
 #include <cstdint>
@@ -12,49 +12,47 @@
 namespace asperity::web {
 
 enum class Confined {
-  script,   // its working directory, or the folders that were named, and no other file; no other program,
-            // process or network
-  drawing,  // besides, one program, /usr/bin/gnuplot, and what it reads of /usr and of the fonts
+  script,   // the working directory or the named folders; no other file, program, process or network
+  drawing,  // also one program, /usr/bin/gnuplot, and its files in /usr and the fonts
 };
 
-// How confine() names the tree of files of the process's own.
+// The name of the process's own root in confine().
 inline constexpr const char* own_root_barrier = "a root of its own";
 
-// A folder that a script may reach, with all below it.
+// A folder within reach of a script, with everything below.
 struct Place {
-  std::string folder;     // where it is: absolute and without links, or "." for the working directory
-  std::string seen;       // where the script finds it in a root of its own; absolute
-  bool write = false;     // files in it may also be made, changed and removed
-  bool programs = false;  // in it may be run, and loaded
+  std::string folder;     // absolute and without links, or "." for the working directory
+  std::string seen;       // absolute path of the folder in the own root
+  bool write = false;     // files may be created, changed and removed
+  bool programs = false;  // files may be executed and loaded
 };
 
 struct Confinement {
   Confined as = Confined::script;
-  std::vector<Place> places{};  // of a script; none: the working directory alone, which it finds as /run
-  std::string work{};  // the folder that it works in then, which it may not list unless it is a place
-  std::int64_t memory_bytes = std::int64_t{1} << 30;  // of data; half a GiB more for what libraries hold
+  std::vector<Place> places{};  // of a script; none: only the working directory, as /run
+  std::string work{};           // the working folder, unlisted unless it is a place
+  std::int64_t memory_bytes = std::int64_t{1} << 30;  // data; plus half a GiB for libraries
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
-  std::int64_t processor_seconds = 60;                // of all its threads together
-  int threads = 1;                                    // it means to use
-  std::int64_t parent = 0;  // the process that it does not outlive; 0: its parent when confine() is called
+  std::int64_t processor_seconds = 60;                // all threads together
+  int threads = 1;                                    // intended threads
+  std::int64_t parent = 0;  // the process dies with this parent; 0: the parent at the call of confine()
 };
 
-// One way out, and what stands in it.
+// One way out and its barrier.
 struct Barrier {
   std::string name;      // "files"
   std::string sentence;  // "no file outside its directory can be opened"
   bool holds = false;
-  std::string by;  // "Landlock 4, a root of its own"; where nothing holds, why
+  std::string by;  // "Landlock 4, a root of its own"; without a barrier, the reason
 };
 
-// Sets up every barrier that the kernel offers, for this process, its threads and what it becomes. Must be
-// called while there is one thread. Returns how each was put up, in words ("Landlock 4"), and leaves out what
-// the kernel does not offer; `missing` gets those, with the reason. Throws Error{bad_state} where a limit
-// cannot be set.
+// Sets up every barrier of the kernel for this process, its threads and the programs it executes. Must be
+// called while the process has a single thread. Returns the barriers in words ("Landlock 4"); `missing` gets
+// the unavailable barriers with reasons. Throws Error{bad_state} if a limit cannot be set.
 std::vector<std::string> confine(const Confinement& confinement, std::vector<std::string>& missing);
 
-// Tries, in a confined process, what must not succeed, and says of each way out whether it is shut. Harmless
-// where it is not.
+// In a confined process: tries every forbidden action and reports each way out as closed or open. Harmless if
+// a way is open.
 std::vector<Barrier> try_barriers();
 
 }  // namespace asperity::web
