@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements made in one expression. Text always enters as text nodes: nothing on this page is parsed as
-// HTML, so no script output, file name or lesson can add markup to it. Inline styles are set through
-// properties, never as attributes, which the content policy forbids.
+// Elements in one expression. Text always becomes text nodes: nothing is parsed as HTML, so that no output,
+// file name or lesson can inject markup. Inline styles are set as properties, because the content policy
+// forbids style attributes.
 
 type Child = Node | string | number | null | undefined | false;
 type Properties = Record<string, unknown>;
@@ -40,7 +40,7 @@ function append(element: Element, children: Child[]): void {
   }
 }
 
-/** A sentence in which `names` stand in backquotes, as elements. */
+/** A sentence with `names` in backquotes, as elements. */
 export function prose(text: string): DocumentFragment {
   const fragment = document.createDocumentFragment();
   text
@@ -49,14 +49,13 @@ export function prose(text: string): DocumentFragment {
   return fragment;
 }
 
-/** The element of index.html with this id, which is known to be there. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   const element = document.getElementById(id);
   if (!element) throw new Error(`index.html has no #${id}`);
   return element as T;
 }
 
-/** A labelled choice; `choose` fills it and keeps the present value where it is still offered. */
+/** A labelled choice; `choose` fills the options and keeps the value if still offered. */
 export class Choice {
   readonly element: HTMLElement;
   readonly select: HTMLSelectElement;

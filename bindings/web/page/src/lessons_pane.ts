@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lessons beside the editor: a list with their questions, and the one that is open. Its question comes
-// first, then what to predict with a place for the reader's own prediction, and only then the text that
-// begins to answer. Edits of a lesson's script and words of predictions are kept by name in the browser; reset
-// brings the lesson's own script back. The browser's Back goes from a lesson to the list it was opened from.
+// Lessons: a list, and the open lesson with its question, the predictions, and then the text. The browser
+// stores edited scripts and predictions by name; reset restores the lesson's script. The browser's Back
+// returns to the list.
 
 import type { Api, Lesson, LessonEntry } from './api';
 import { h } from './dom';
@@ -12,16 +11,15 @@ import type { Guess } from './predictions';
 import { keptScript } from './storage';
 
 export interface Opened {
-  key: string; // names the document in the browser's storage
+  key: string; // storage key of the document
   title: string;
-  script: string; // as kept, or as given
+  script: string; // stored or original
   original: string;
 }
 
 export class LessonsPane {
   private entries: LessonEntry[] | undefined;
   private readonly lessons = new Map<string, Lesson>();
-  /** Of the lesson that is open. */
   prediction: PredictionBox | undefined;
 
   constructor(
@@ -39,7 +37,7 @@ export class LessonsPane {
     });
   }
 
-  /** As a person asks for it: a step that Back takes back. The address stays as it is. */
+  /** For a user's choice: Back undoes it. The address does not change. */
   private go(lesson: string): void {
     history.pushState({ lesson }, '');
     void (lesson ? this.show(lesson, true) : this.list(true));

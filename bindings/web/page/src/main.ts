@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `asperity serve`: lessons, the script, and what its run gives, side by side. This file
-// joins the panes; each of them knows only the run it draws and the server's interface.
+// The page of `asperity serve`: lessons, script and results. This file connects the panes; a pane knows only
+// its run and the server's interface.
 
 import { Api, ApiError, tokenHint, type About, type Mark } from './api';
 import { ChartPane } from './chart_pane';
@@ -49,7 +49,7 @@ for _, MPa in ipairs{ 10, 20, 50, 100 } do
 end
 `;
 
-const oneColumn = 1150; // px, the width up to which page.css has one
+const oneColumn = 1150; // px; page.css has one column up to this width
 
 const api = new Api();
 const messages = new Messages(() => void greet());
@@ -61,9 +61,9 @@ const stopButton = byId<HTMLButtonElement>('stop');
 const saveButton = byId<HTMLButtonElement>('save');
 let about: About | undefined;
 let run: Run | undefined;
-let runOf = ''; // the key of its script
+let runOf = ''; // document key of its script
 let listening: AbortController | undefined;
-let recording: Run | undefined; // of the values that knobs were moved to, shown once it has ended
+let recording: Run | undefined; // quiet run for moved knobs, shown after its end
 const openBefore = kept('open') ?? '';
 let opened: Opened = {
   key: 'own',
@@ -134,7 +134,7 @@ function open(document: Opened): void {
   draw();
 }
 
-/** In one column the results may be out of sight. */
+/** In one column, the results may be out of sight. */
 function showResults(): void {
   if (innerWidth <= oneColumn) byId('results').scrollIntoView();
 }
@@ -142,7 +142,7 @@ function showResults(): void {
 const toldAfter = 600; // ms without a change
 let toTell = 0;
 
-/** Numbers predicted in a lesson; a room's teacher sees them. */
+/** Sends predicted numbers of a lesson to the classroom's teacher. */
 function predicted(lesson: string, guesses: Guess[]): void {
   if (!about?.classroom) return;
   const numbers = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
@@ -243,7 +243,7 @@ function announce(): void {
   say(`${Math.floor(100 * p.fraction)} per cent${p.eta && p.eta >= 1 ? `, about ${duration(p.eta)} left` : ''}`);
 }
 
-let waitsForEnd = false; // the banner says that a script is still running
+let waitsForEnd = false; // the banner reports a running script
 
 async function start(): Promise<void> {
   if (!api.hasToken) return;
@@ -267,7 +267,7 @@ async function start(): Promise<void> {
   showStatus();
 }
 
-/** Runs a script with other values of its knobs, to record what it gives; false where a run goes on. */
+/** Runs and records a script with other knob values; false if a run is active. */
 async function again(of: Followed, values: Record<string, string>): Promise<boolean> {
   if (run?.active) return false;
   const quietly = run?.live !== undefined && run.script === of.script;
@@ -277,7 +277,7 @@ async function again(of: Followed, values: Record<string, string>): Promise<bool
   return true;
 }
 
-/** What a script gives at the values that a knob has now. */
+/** Shows an answer of a live script. */
 function answered(next: Run, of: Followed, picture: LivePicture | undefined, began: number): void {
   if (run?.active) return;
   run = next;
@@ -286,7 +286,7 @@ function answered(next: Run, of: Followed, picture: LivePicture | undefined, beg
   draw();
 }
 
-/** The values that are being recorded are no longer those of the knobs. */
+/** Stops recording outdated knob values. */
 function leaveRecording(): void {
   if (!recording) return;
   listening?.abort();
@@ -294,7 +294,7 @@ function leaveRecording(): void {
   recording = undefined;
 }
 
-/** `quietly`: what the script gave as the knob moved stays in sight until the run has ended. */
+/** `quietly`: the live results stay visible until the run has ended. */
 function follow(next: Run, key: string, quietly = false): void {
   listening?.abort();
   const mine = (listening = new AbortController());
@@ -357,7 +357,7 @@ function ended(done: Run): void {
   if (tabs.selected === 'output') output.show(done); // whole, before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
-  else if (done.status === 'failed') tabs.offer('output'); // by its exit status alone
+  else if (done.status === 'failed') tabs.offer('output'); // failed by exit status only
   const first = done.errors[0];
   if (runOf === opened.key) showResults();
   say(
@@ -365,7 +365,7 @@ function ended(done: Run): void {
   );
 }
 
-/** The tab of what a run made: the charts its script asks for, then its pictures, before what it printed. */
+/** The tab of a run's main result: charts of the script, then pictures, then output. */
 function madeBy(done: Run): string {
   if (chartsOf(done).some((c) => c.asked)) return 'chart';
   if ([...done.files.keys()].some((name) => name.endsWith('.png'))) return 'files';
@@ -441,7 +441,7 @@ function limits(a: About): string {
   return `Asperity ${a.version}.` + (parts.length ? ` A run may take ${parts.join(', ')}.` : '');
 }
 
-/** First words with the server; again after it was gone. */
+/** First contact with the server, repeated after a failure. */
 async function greet(): Promise<void> {
   if (!api.hasToken) {
     messages.tell('This page was opened without its token.', tokenHint);
@@ -469,7 +469,7 @@ async function firstLessons(): Promise<void> {
   if (openBefore.startsWith('lesson.')) await lessons.show(openBefore.slice(7), false);
 }
 
-/** A run that was going, or just done, when the page was loaded again. */
+/** Resumes a current or recent run after a reload of the page. */
 function resume(): void {
   try {
     const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page says by itself: for listeners in the live region, for all in the banner. A server that is
-// gone is asked again until it answers, and the banner goes by itself.
+// The page's own messages: the live region for screen readers, and the banner. If the server is unreachable,
+// the page retries until it answers, and then removes the banner.
 
 import { ApiError, serverGoneHint, tokenHint } from './api';
 import { byId, h } from './dom';
@@ -14,13 +14,13 @@ export class Messages {
 
   constructor(private readonly ask: () => void) {}
 
-  /** A server that was gone is being asked. */
+  /** Whether the page is retrying. */
   get watching(): boolean {
     return this.timer !== 0;
   }
 
   say = (text: string): void => {
-    // The same words again are heard only if something changed.
+    // A screen reader repeats a message only if the text differs.
     this.live.textContent = this.live.textContent === text ? `${text} ` : text;
   };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The colours of maps: those of engine/plot/palette.cpp, step for step, so that a picture and the page show one
-// thing in one colour. Viridis and cividis are perceptually uniform; heat, the lower part of inferno from orange
-// to black, stands out from its grey of nothing by 3:1 or more; contact is apart or touching.
+// The colours of maps, identical to engine/plot/palette.cpp. Viridis and cividis are perceptually uniform.
+// Heat, the part of inferno from orange to black, has a contrast of at least 3:1 with its grey for none.
+// Contact has two colours.
 
 export interface Palette {
-  colours: number[]; // 0xRRGGBB at equal steps, first for the lowest value
-  none?: number; // of the lowest value itself, where that is nothing
+  colours: number[]; // 0xRRGGBB in equal steps, lowest value first
+  none?: number; // of the lowest value, if this means none
 }
 
 export const palettes: Record<string, Palette> = {

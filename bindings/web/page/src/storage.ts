@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is kept in the browser between visits: the scripts as edited and the predictions made. A browser
-// that keeps nothing (storage refused or full) loses only that. A script is kept twice: for the browser, where
-// the tab that wrote last is found by the next visit, and for its own tab, which finds its own text after a reload
-// whatever other tabs wrote.
+// Edited scripts and predictions in the browser's storage, which may be refused or full. A script is stored
+// twice: for the browser, so that the next visit finds the last version of any tab, and for the tab, so that
+// a reload finds the tab's own text.
 
 export function kept(key: string): string | null {
   try {
@@ -12,7 +11,7 @@ export function kept(key: string): string | null {
   }
 }
 
-/** Keeps the text, or forgets it when null; false if the browser would not. */
+/** Stores the text, or deletes it if null; false if the browser refuses. */
 export function keep(key: string, text: string | null): boolean {
   try {
     if (text === null) localStorage.removeItem(`asperity.${key}`);
@@ -24,30 +23,29 @@ export function keep(key: string, text: string | null): boolean {
 }
 
 const own = '=';
-const none = '-'; // this tab went back to the script as it was given
+const none = '-'; // this tab restored the original script
 
-/** The script as this tab edited it last, else as any tab of the browser did; null where nobody did. */
+/** The last version of this tab, else of any tab; null if there is none. */
 export function keptScript(key: string): string | null {
   try {
     const mine = sessionStorage.getItem(scriptKey(key));
     if (mine !== null) return mine === none ? null : mine.slice(own.length);
   } catch {
-    // A browser that keeps nothing for a tab.
+    // No tab storage.
   }
   return kept(`script.${key}`);
 }
 
-/** Keeps the script as edited, or forgets it when null; false if the browser would not. */
+/** Stores the script, or deletes it if null; false if the browser refuses. */
 export function keepScript(key: string, text: string | null): boolean {
   try {
     sessionStorage.setItem(scriptKey(key), text === null ? none : own + text);
   } catch {
-    // The browser's copy may still do.
+    // The browser's copy may still succeed.
   }
   return keep(`script.${key}`, text);
 }
 
-/** Calls when another tab writes the script of that key, with its text. */
 export function whenWrittenElsewhere(written: (key: string, text: string) => void): void {
   const lead = scriptKey('');
   addEventListener('storage', (event) => {
