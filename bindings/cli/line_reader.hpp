@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input. From a terminal they are edited, with those of earlier sessions to come back to
-// and Tab to complete, if the part that brings libedit is there; without it the terminal's own editing does.
-// From a pipe or a file they are read as they are, without prompts. While it waits, Ctrl-C gives up the line
-// and SIGTERM or SIGHUP ends the input; both are blocked otherwise, for whoever watches over the work.
+// Lines of standard input. On a terminal, lines have editing, history and completion if the libedit part is
+// present, otherwise the terminal's own editing. Lines from a pipe or file are read unchanged, without
+// prompts. During a read, Ctrl-C discards the line, and SIGTERM or SIGHUP ends the input; at other times
+// these signals are blocked for the watchdog.
 #pragma once
 
 #include <filesystem>
@@ -16,20 +16,19 @@
 
 namespace asperity::cli {
 
-// The lines typed at a prompt, kept from session to session in $XDG_STATE_HOME/asperity/history
-// (~/.local/state/asperity/history without it), readable by nobody else. A line is added as it is typed, so
-// that sessions side by side and one that is killed lose nothing; when a session begins the file is cut to
-// the last thousand lines. What cannot be read or written is passed over: a prompt works without it.
+// The prompt's history in $XDG_STATE_HOME/asperity/history (default ~/.local/state/asperity/history), mode
+// 0600. Each line is appended at once, so that parallel or killed sessions lose nothing; the file is cut to
+// the last thousand lines at the start of a session. Read and write errors are ignored.
 class LineHistory {
  public:
   static constexpr std::size_t most_lines = 1000;
-  // Without a file nothing is kept.
+  // Without a file, nothing is stored.
   explicit LineHistory(std::filesystem::path file = {});
-  // Where the environment says it goes; empty if there is no home.
+  // From the environment; empty without a home.
   static std::filesystem::path default_file();
 
   const std::vector<std::string>& lines() const { return lines_; }
-  // Empty lines, those that begin with a space, and the same line again are not kept.
+  // Skips empty lines, lines with a leading space, and repetitions.
   bool add(const std::string& line);
 
  private:
@@ -41,7 +40,7 @@ class LineReader {
  public:
   using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
 
-  // Blocks the signals of a stop in this thread and those it starts: construct it before any other thread.
+  // Blocks the stop signals in this thread and its later threads: construct before any other thread.
   LineReader(LineHistory history, Complete complete);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -49,9 +48,8 @@ class LineReader {
 
   bool terminal() const { return terminal_; }
   enum class Event { line, given_up, end };
-  // The next line goes into `line`.
   Event read(const std::string& prompt, std::string& line);
-  // Why it ended without being asked to; 0, or the number of a signal.
+  // 0, or the number of the signal that ended the input.
   int ended_by() const;
 
  private:
@@ -66,7 +64,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// The candidates as lines for a terminal of this width; a few candidates get their descriptions.
+// The candidates as lines of this width; short lists have descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

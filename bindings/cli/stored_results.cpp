@@ -19,7 +19,7 @@ namespace asperity::cli {
 
 namespace {
 
-// A run directory keeps its results in `store`; a folder of results is named itself.
+// The folder of results of a run directory is `store`; other folders are used directly.
 std::filesystem::path results_of(const std::string& named) {
   const std::filesystem::path folder(named);
   std::error_code problem;
@@ -36,7 +36,6 @@ std::filesystem::path results_of(const std::string& named) {
   return store;
 }
 
-// The run begins in the directory that was to be resumed.
 RunCommand begun_there(RunCommand command) {
   if (command.script.empty())
     throw Error(ErrorCode::bad_file, "there is no run " + asperity::quoted(*command.resume) + " to resume",
@@ -45,7 +44,7 @@ RunCommand begun_there(RunCommand command) {
   return command;
 }
 
-// Whether the moving aside of an earlier run may have been cut off there.
+// Whether a crash may have interrupted the moving aside of an earlier run.
 bool holds_earlier_run(const std::filesystem::path& root) {
   std::error_code problem;
   if (std::filesystem::exists(std::filesystem::symlink_status(root / run_names::manifest, problem)))
@@ -62,7 +61,7 @@ std::vector<std::string> damages_of(const RecordedRun& recorded) {
   return damages;
 }
 
-// What the command asks for and the run was not made with.
+// The differences between command and recorded run.
 std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun& recorded) {
   std::vector<std::string> changed;
   if (!command.script.empty() &&
@@ -97,7 +96,7 @@ void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (!command.shard && !recorded.shard.empty()) command.shard = parse_shard(recorded.shard);
 }
 
-// Another version rounds otherwise, and has other laws: what it adds does not belong to the same run.
+// Another version has other rounding and other laws; its results must not mix with this run.
 void require_same_version(const RecordedRun& recorded) {
   const std::string version = program_version(recorded);
   if (version == lua::version_text()) return;
@@ -167,13 +166,13 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   }
   refuse_links(root);
   RecordedRun recorded = read_run(root, true);
-  // Nothing is written where all is as it should be, and nothing locked.
+  // A complete run is neither written nor locked.
   if (recorded.status == "done" && changes_of(command, recorded).empty() && damages_of(recorded).empty())
     return {};
   if (command.reuse.empty()) require_same_version(recorded);
   if (leads && command.lock == nullptr) {
     command.lock = RunLock::take(root);
-    recorded = read_run(root, true);  // as whoever had the lock left it
+    recorded = read_run(root, true);  // as left by the last holder of the lock
     if (command.reuse.empty()) require_same_version(recorded);
   }
   const std::vector<std::string> changed = changes_of(command, recorded);
@@ -203,7 +202,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     if (command.damages.empty()) return {};
     command.journal_lost = !recorded.journal_fault.empty();
   } else if (!recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty())) {
-    // Failed cases may succeed now, so the journal is made again from the script and the store.
+    // Failed cases may succeed now, so the journal is rebuilt from the script and the store.
     command.journal_lost = true;
   } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};

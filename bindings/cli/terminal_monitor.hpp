@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress and warnings on standard error. Work that takes over a second shows its share done and an
-// estimate of the time left: one line that is written over on a terminal, a line every few seconds
-// elsewhere. Standard output is never touched.
+// Progress and warnings on standard error. Work longer than a second shows its fraction done and the
+// estimated time left: one line, overwritten, on a terminal; a line every few seconds elsewhere. Standard
+// output is never touched.
 #pragma once
 
 #include <chrono>
@@ -23,13 +23,13 @@ class TerminalMonitor final : public Monitor {
  public:
   TerminalMonitor();
   ~TerminalMonitor() override;
-  // Warnings also go to this run's journal.
+  // Also write warnings to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
-  // Standard error is a pipe to somebody who shows it on a terminal.
+  // Standard error is a pipe that ends at a terminal.
   void show_as_on_terminal() { terminal_ = true; }
-  // Progress goes there instead.
+  // Redirects progress.
   void report_to(RunObserver* observer) { observer_ = observer; }
-  // Heavy calls take their results from here and keep them here.
+  // The store for results of heavy calls.
   void keep_results_in(ResultStore* results) { results_ = results; }
 
   void progress(std::string_view what, double done) override;
@@ -37,17 +37,17 @@ class TerminalMonitor final : public Monitor {
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
   ResultStore* results() override { return results_; }
-  // From now on, warnings with equal text except for numbers are shown once; tell_alike() counts the others.
-  // The journal holds all of them.
+  // From now on, warnings that differ only in numbers are shown once; tell_alike() reports the number of
+  // others. The journal has all.
   void count_alike() { count_alike_ = true; }
   void tell_alike();
-  // Takes the progress line away.
+  // Erases the progress line.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
   double pause() const;  // seconds between two lines
-  double quiet() const;  // work shorter than this shows nothing
+  double quiet() const;  // s; shorter work shows nothing
   void show(const std::string& title, double done, double seconds);
   void clear_line();
 
@@ -59,14 +59,13 @@ class TerminalMonitor final : public Monitor {
   bool line_shown_ = false;
   std::string current_;
   Clock::time_point started_{}, shown_{};
-  Clock::time_point parts_shown_{};  // other work between the parts shows itself at its own times
+  Clock::time_point parts_shown_{};  // progress of parts has its own clock
   double last_done_ = 0;
   std::set<std::string> warned_;
   bool count_alike_ = false;
   WarningKinds kinds_;
 };
 
-// "42 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
 }  // namespace asperity::cli

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that a script has open and removed: they take space on the disk until they are closed, and nobody who
-// looks at its directory sees them. A script of somebody else's (`--limit-disk`, runs of the page) is watched
-// for them from inside its process, where alone they can be seen; what it holds so beyond its limit is
-// emptied. Nothing that the run would leave is lost by that.
+// Open files that a script has deleted. Such files use disk space until closed, but are invisible in the
+// directory. With `--limit-disk` and in page runs, a thread inside the confined process therefore watches
+// them and empties them beyond the limit. This loses no file that the run would leave.
 #pragma once
 
 #include <atomic>
@@ -11,12 +10,12 @@
 
 namespace asperity::cli {
 
-// Bytes on the disk of the regular files without a name that this process has open.
+// Bytes on the disk of open regular files without a name.
 std::int64_t unlinked_bytes();
-// Empties those that are open for writing.
+// Empties the files that are open for writing.
 void empty_unlinked_files();
 
-// Looks some twenty times a second, from its construction to its end.
+// Checks about twenty times a second during its lifetime.
 class UnlinkedFilesBound {
  public:
   explicit UnlinkedFilesBound(std::int64_t most_bytes);

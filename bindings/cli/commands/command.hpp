@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command of the program, as in `asperity run`: its name, what the pages of help say of it, its options,
-// and what carries it out. Each declares all of this in a file of its own, and main() (bindings/main.cpp)
-// walks a list of them, so that a command more is a file more, its line here and a line of that list.
+// A command of the program, such as `asperity run`: name, help, options and work. Each command is in its own
+// file; main() (bindings/main.cpp) has the list of commands.
 #pragma once
 
 #include <functional>
@@ -14,32 +13,30 @@ class App;
 
 namespace asperity::cli {
 
-// Carries a command out. Returns the exit status of the program.
+// Executes the command; returns the program's exit status.
 using CommandWork = std::function<int()>;
 
-// Called once, after a command line that names the command was parsed: reads what the parser left as text,
-// and returns what carries the command out. Throws Error where an option is wrong or does not go with
-// another; the program then says so, and its exit status is bad_usage.
+// Called once, after a command line with this command was parsed. Reads values from the parsed texts and
+// returns the work. Throws Error for a wrong option or combination; the program then exits with bad_usage.
 using CommandReader = std::function<CommandWork()>;
 
-// The writer of standard output: it decides what a terminal may receive (plain_streams.hpp).
+// The writer of standard output, which decides about control characters for a terminal (plain_streams.hpp).
 enum class Prints {
-  text,       // of the program, with what scripts and files hold: a terminal obeys none of that
-  of_script,  // prints of a script: a terminal gets text and colours, a program or a file gets every byte
-  by_editor,  // lines that libedit edits, which writes to the terminal by itself
+  text,       // the program's own text: a terminal gets no control characters
+  of_script,  // a script's output: a terminal gets text and colours; a pipe or file gets every byte
+  by_editor,  // lines edited by libedit, which writes to the terminal itself
 };
 
 struct Command {
   std::string name;
-  std::string sentence;  // in --help and on the manual page, without its full stop
-  std::string overview;  // its lines of `asperity help`
+  std::string sentence;  // for --help and the manual page, without full stop
+  std::string overview;  // lines in `asperity help`
   Prints prints = Prints::text;
-  // Adds its options to its own part of the parser, which outlives what is returned.
+  // Adds the options. `options` outlives the returned reader.
   std::function<CommandReader(CLI::App& options)> declare;
 };
 
-// Commands that show nobody else what they do, each defined in the source of its name; the last three in
-// information_commands.cpp.
+// Each is defined in the source of its name; the last three in information_commands.cpp.
 Command accuracy_command();
 Command cases_command();
 Command check_command();
@@ -48,16 +45,15 @@ Command lesson_command();
 Command press_log_command();
 Command repl_command();
 Command status_command();
-// `overview` is asked for the lines of all commands, which `asperity help` begins with.
+// `overview` returns the overview lines of all commands.
 Command help_command(std::string (*overview)());
 Command materials_command();
 Command version_command();
 
-// Pages made from the command line as the program reads it (command_pages.cpp), so that they cannot say
-// anything else. The manual page asperity(1), in the macros of man(7), …
+// Pages generated from the parser (command_pages.cpp), so that they cannot disagree with it. The manual page
+// asperity(1) in man(7) macros:
 std::string manual_page(const CLI::App& app, const std::string& version);
-// … and what a shell, bash, completes: commands, the options of each, scripts, run directories, these
-// lessons.
+// Bash completion: commands, their options, scripts, run directories, the given lessons:
 std::string bash_completion(const CLI::App& app, const std::vector<std::string>& lessons);
 
 }  // namespace asperity::cli
