@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Folders of files that come with the program: share/asperity next to the bin of an installation; for a
-// program in its build folder, this folder and the sources.
+// Folders of files that come with the program.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +8,8 @@
 
 namespace asperity::web {
 
-// The first that exists: share/asperity/<installed>, <build>/<built>, <sources>/<built>.
+// The first existing: share/asperity/<installed> next to the bin of an installation, <build>/<built>,
+// <sources>/<built>.
 std::optional<std::filesystem::path> shared_folder(const std::string& installed, const std::string& built);
 
 }  // namespace asperity::web

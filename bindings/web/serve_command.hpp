@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity serve`: the page on the loopback address, or for a classroom on another address.
+// `asperity serve`: the page on the loopback address, or for a classroom on another.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@ namespace asperity::web {
 
 struct ServeCommand {
   int port = 0;                              // 0: any free port
-  bool open = false;                         // the page in this machine's browser
-  std::string classroom;                     // address of a classroom server; "": this machine only
-  int students = 0;                          // number of tokens for students
-  std::string names;                         // or a file of student names, one a line
-  std::string out;                           // folder of the runs; "": runs/serve-<n>
-  int runs = 0;                              // concurrent runs; 0: chosen for the machine
+  bool open = false;                         // in this machine's browser
+  std::string classroom;                     // address; "": this machine only
+  int students = 0;                          // number
+  std::string names;                         // file of names, one a line
+  std::string out;                           // "": runs/serve-<n>
+  int runs = 0;                              // 0: chosen for the machine
   std::optional<double> limit_time;          // seconds of one run
   std::optional<std::int64_t> limit_memory;  // bytes of one run
 };
 
 cli::Command serve_command();
 
-// Exit status: 0 after Ctrl-C, 2 if the server cannot start.
+// 0 after Ctrl-C, 2 if the server cannot start.
 int serve(const ServeCommand& command);
 
 }  // namespace asperity::web

@@ -52,7 +52,6 @@ std::string Access::misdirected(const HttpRequest& request) const {
   if (request.headers.contains("sec-fetch-site")) {
     const std::string* site = request.header("sec-fetch-site");
     if (site == nullptr || (*site != "same-origin" && *site != "none")) {
-      // Following a link to the page itself is harmless.
       const std::string* mode = request.header("sec-fetch-mode");
       if (mode == nullptr || *mode != "navigate" || request.path.starts_with("/api"))
         return "the request comes from a page of another site";

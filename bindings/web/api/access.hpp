@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Access to the server. A request must name this server as Host, against DNS rebinding, and must not come
-// from a page of another origin. All requests except for the page's own files must carry a token. The
-// comparison time of a token does not depend on the position of the first difference.
+// Access control. A request must name this server as Host (against DNS rebinding) and must not come from
+// another origin. All requests except for the page's own files must carry a token, which is compared in
+// constant time.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@
 
 namespace asperity::web {
 
-// 256 random bits of the system in 43 characters that an address does not escape.
+// 256 random bits in 43 characters without URL escapes.
 std::string new_token();
-// The time depends on the lengths only.
+// Time depends on the lengths only.
 bool same_text(std::string_view one, std::string_view other);
 
 struct Person {
@@ -25,12 +25,12 @@ struct Person {
 
 class Access {
  public:
-  // `hosts`: accepted Host values, such as "127.0.0.1:8000". `people`: at least one.
+  // `hosts`: accepted Host values, "127.0.0.1:8000". `people`: at least one.
   Access(std::vector<std::string> hosts, std::vector<Person> people);
 
-  // Why Host or Origin show a request for another server; "" if both are right.
+  // Why Host or Origin are wrong; "" if right.
   std::string misdirected(const HttpRequest& request) const;
-  // The index in `people` of the request's token.
+  // Index in `people`.
   std::optional<std::size_t> person(const HttpRequest& request) const;
   const std::vector<Person>& people() const { return people_; }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two shapes of an /api answer, the members of a request body, and the answers for script check and
-// completion.
+// JSON answers of /api, members of request bodies, and the answers for script check and completion.
 #pragma once
 
 #include <filesystem>
@@ -17,25 +16,24 @@ namespace asperity::web {
 HttpResponse json_answer(const Json& json, int status = 200);
 HttpResponse problem_answer(int status, const std::string& message, const std::string& hint = {});
 
-// The body as an object. These functions throw Error{bad_value} naming the key and the expected value.
+// These functions throw Error{bad_value} naming key and expected value.
 Json body_of(const HttpRequest& request);
 std::string text_member(const Json& body, const std::string& key, std::size_t longest);
 std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t otherwise);
-// An object of texts, name -> "50 MPa" or "5e7"; empty if missing. At most 100 members.
+// An object name -> "50 MPa" or "5e7", at most 100 members; empty if missing.
 GivenKnobs knobs_member(const Json& body, const std::string& key);
 bool flag_member(const Json& body, const std::string& key);
 
-// `asperity check` for the page: a dry run in a confined process. Returns {marks: [{line, severity,
-// message}], checked_to?, knobs?}; `knobs`, as in a manifest, are the knobs made up to the point reached.
-// `scratch`: parent of the temporary folder.
+// `asperity check` as a confined dry run: {marks: [{line, severity, message}], checked_to?, knobs?}; `knobs`
+// as in a manifest, up to the point reached. `scratch`: parent of a temporary folder.
 Json check_script(const std::string& script, const std::filesystem::path& scratch,
                   const std::vector<std::string>& barriers);
 
-// Completion for the page, with positions in UTF-16 units: {from, candidates: [{text, kind, detail, help}]}.
+// {from, candidates: [{text, kind, detail, help}]}, with positions in UTF-16 units.
 Json completion_of(const std::string& text, std::size_t unit);
 
-// Convert between UTF-16 units, the browser's positions, and UTF-8 bytes. byte_of_unit returns the first byte
-// of the character that contains the unit, or the end for a unit past the end.
+// Convert UTF-16 units (browser) and UTF-8 bytes. byte_of_unit returns the first byte of the character, or
+// the end.
 std::size_t byte_of_unit(std::string_view text, std::size_t unit);
 std::size_t unit_of_byte(std::string_view text, std::size_t byte);
 

@@ -21,7 +21,6 @@ constexpr std::size_t longest_script = std::size_t{1} << 20, longest_name = 200;
 
 HttpResponse not_there() { return problem_answer(404, "there is no such thing here"); }
 
-// "7/files/a.csv" -> "7" and "files/a.csv".
 std::pair<std::string, std::string> split(const std::string& path) {
   const std::size_t slash = path.find('/');
   if (slash == std::string::npos) return {path, ""};
@@ -155,7 +154,7 @@ HttpResponse Api::check(std::size_t person, const HttpRequest& request) {
   return json_answer(check_script(script, setup_.scratch, setup_.barriers));
 }
 
-// {script, tab, seed?}: each POST to the script's own address runs the script.
+// {script, tab, seed?}
 HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
   RunRequest asked;
@@ -165,7 +164,7 @@ HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
   return json_answer(Json::object({{"id", live_.begin(person, tab, asked)->id}}), 201);
 }
 
-// POST {knobs, view?}: streams the script's results at these values as frames.
+// POST {knobs, view?}: streams the results as frames.
 HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const std::string& id) {
   if (request.method == "DELETE") {
     live_.end(person, id);

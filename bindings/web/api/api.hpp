@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The server's answers. The page's files need the right Host only. Paths under /api need a token: about,
-// complete, check, runs with events, files and views, live scripts, and lessons. An error is {error:
-// {message, hint?}}. A person sees their own runs only. The first person of a classroom, the teacher, sees
-// all runs: /api/room lists the runs, /api/people the people with their predictions (POST /api/predictions)
-// and requests for help (POST /api/help).
+// The server's answers. The page's files need the right Host only; paths under /api need a token. An error is
+// {error: {message, hint?}}. A person sees only their own runs; the first person of a classroom, its teacher,
+// sees all: /api/room lists runs, /api/people predictions (POST /api/predictions) and requests for help (POST
+// /api/help).
 #pragma once
 
 #include <memory>
@@ -60,7 +59,7 @@ class Api final : public HttpHandler {
   LiveSessions& live_;
   const PageFiles page_;
   RoomBoard board_;
-  Shares checks_{1, 4, 2};  // two for people with quick checks
+  Shares checks_{1, 4, 2};  // two for quick checks
   Shares streams_;          // long-lived answers
 };
 

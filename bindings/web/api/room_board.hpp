@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Notes of a room's people for the teacher: predicted numbers of a lesson, and requests for help. The board
-// is in memory, lasts as long as the server, and has a bound for each person.
+// Predictions and requests for help in a classroom, for its teacher. In memory, bounded for each person.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +16,11 @@ class RoomBoard {
  public:
   static constexpr std::size_t longest_name = 60, most_lessons = 40, most_numbers = 12;
 
-  // Replaces the person's predictions for a lesson, by name; no numbers delete the predictions. Throws
-  // Error{bad_value} beyond the limits above, or if a number is not finite.
+  // Replaces the person's predictions for a lesson; empty `numbers` delete them. Throws Error{bad_value}
+  // beyond these limits or for a non-finite number.
   void predict(std::size_t person, const std::string& lesson, const std::map<std::string, double>& numbers);
   void ask_for_help(std::size_t person, bool wanted);
 
-  // [{lesson, name, value}], by lesson and name.
   Json predictions_of(std::size_t person) const;
   bool needs_help(std::size_t person) const;
 

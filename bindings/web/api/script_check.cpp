@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity check` for the page: a dry run in a confined process; results become marks in the text.
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Follows the process of `asperity run --confined`: passes output to the terminal and signals to the process,
-// draws its charts, and enforces the limits of time and disk. RunFollower is the counterpart for the page.
+// Follows the process of `asperity run --confined`: passes output and signals, draws its charts, and enforces
+// limits of time and disk. RunFollower does the same for the page.
 #pragma once
 
 #include <atomic>
@@ -24,15 +24,15 @@ struct CommandBounds {
 
 class CommandFollower {
  public:
-  // Blocks the stop signals in this thread and its later threads. Throws Error{bad_state} if the process
-  // cannot be started.
+  // Blocks the stop signals in this thread and later threads. Throws Error{bad_state} if the process cannot
+  // start.
   CommandFollower(const ConfinedRequest& request, std::filesystem::path directory,
                   const CommandBounds& bounds);
   ~CommandFollower();
   CommandFollower(const CommandFollower&) = delete;
   CommandFollower& operator=(const CommandFollower&) = delete;
 
-  // Returns the exit status when the process has ended and all output is passed on.
+  // Returns the exit status after all output is passed on.
   int follow();
 
  private:
@@ -53,7 +53,7 @@ class CommandFollower {
   std::string error_tail_;
   Clock::time_point begun_ = Clock::now(), look_at_{};
   std::optional<Clock::time_point> kill_at_;
-  std::string ended_for_;  // reason if this side ended the process
+  std::string ended_for_;  // reason
 };
 
 }  // namespace asperity::web

@@ -22,7 +22,7 @@ Json texts_json(const std::vector<std::string>& texts) {
   return list;
 }
 
-// As digits: JSON numbers are read as doubles, too short for some seeds.
+// As digits: JSON doubles cannot hold every seed.
 template <class Number>
 Json optional_digits(const std::optional<Number>& number) {
   return number ? Json(std::to_string(*number)) : Json();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command for a confined process as JSON. Scripts, arguments and file names are bytes of any encoding; each
-// byte becomes the character of the same number, so that the bytes arrive unchanged.
+// A command for a confined process as JSON. Texts are bytes of any encoding; each byte becomes the character
+// of this number.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ struct CarriedCommand {
   std::optional<cli::ReplayCommand> replay;
 };
 
-// Each knob as a list of name and given value. knobs_in throws Error{bad_file}. command_json: `replay` may be
-// null; its `run` member is ignored.
+// Lists of name and given value. command_json: `replay` may be null; its `run` is ignored. knobs_in throws
+// Error{bad_file}.
 Json knobs_json(const GivenKnobs& knobs);
 GivenKnobs knobs_in(const Json& json, const char* name);
 Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay);

@@ -58,7 +58,7 @@ std::string standard_input() {
   return text;
 }
 
-// Loads everything that the barriers hide later. A missing part is reported at its first use.
+// Loads everything that the barriers hide later; a missing part is an error at its first use.
 void prepare_run() {
   machine_facts();
   find_own_place();
@@ -75,7 +75,7 @@ int print_probe(const std::vector<std::string>& made, const std::vector<std::str
                                      {"sentence", barrier.sentence},
                                      {"holds", barrier.holds},
                                      {"by", barrier.by}}));
-    // Printed one by one: a barrier that fails may end this process.
+    // After each attempt: a failing barrier may end this process.
     const Json all = Json::object(
         {{"made", Json::strings(made)}, {"missing", Json::strings(missing)}, {"barriers", barriers}});
     std::printf("%s\n", all.text().c_str());
@@ -161,7 +161,6 @@ ConfinedRequest confined_request(const Json& json) {
   for (const Json& barrier : request_member(json, "barriers").list())
     request.barriers.push_back(barrier.string());
   if (json.find("knobs") != nullptr) request.knobs = knobs_in(json, "knobs");
-  // Only commands have places.
   if (const Json* places = json.find("places"))
     for (const Json& place : places->list())
       request.confinement.places.push_back({bytes_of(request_member(place, "folder").string()),

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run --confined` for a script from somebody else. The program starts itself again as a confined
-// process (confined.hpp) that carries out the command. The process reads the script and the --read folders,
-// writes the run directory and the given store, and reaches no other file, process or network. This side
-// passes on output, exit status and signals, draws the charts, and enforces the limits of time and disk.
-// Resuming or replaying a confined run is confined, too.
+// `asperity run --confined` for a foreign script. The program starts itself as a confined process
+// (confined.hpp), which reads the script and the --read folders, writes the run directory and the given
+// store, and reaches no other file, process or network. This side passes on output, exit status and signals,
+// draws charts, and enforces limits of time and disk. A confined run is resumed and replayed confined.
 #pragma once
 
 #include "bindings/cli/commands/replay_command.hpp"
@@ -12,17 +11,17 @@
 
 namespace asperity::web {
 
-// True if the command asks for barriers, or if its recorded run was confined.
+// By option, or because the recorded run was confined.
 bool to_be_confined(const cli::RunCommand& command);
 bool to_be_confined(const cli::ReplayCommand& command);
 
-// Returns the command's exit status; 2 if a required barrier is missing or the command cannot be confined; 1
-// if a limit was exceeded.
+// Exit status: of the command; 1 if a limit was exceeded; 2 if a required barrier is missing or the command
+// cannot be confined.
 int run_behind_barriers(const cli::RunCommand& command);
 int replay_behind_barriers(const cli::ReplayCommand& command);
 
-// In the confined process: carries out the command prepared above and returns its exit status. `lock`: open
-// lock file of the run directory, or -1.
+// In the confined process: returns the command's exit status. `lock`: open lock file of the run directory, or
+// -1.
 int carry_out(const Json& command, int lock);
 
 }  // namespace asperity::web

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of a confined run, which can start no program. The run sends gnuplot's input to the server. The
-// server runs gnuplot in a separate confined process that reaches only its fonts, and returns the picture.
-// The server treats the input as hostile, because a script may have taken over the run.
+// Charts of a confined run, which can start no program. The run sends gnuplot's input to the server; the
+// server runs gnuplot in another confined process and returns the picture. The input counts as hostile,
+// because the script may have taken over the run.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,11 @@
 
 namespace asperity::web {
 
-// In the run: the process at the other end of this socket draws.
+// In the run: draws through the socket.
 void draw_by_server(int socket);
 
-// In the server: reads one request, draws, and answers. Blocks for at most the time limit of a picture.
-// Returns false if the other end is closed or sent no valid request. `barriers`: required in the drawing
-// process. `given_up`: when true, drawing stops.
+// In the server: answers one request; blocks for at most a picture's time limit. False if the other end is
+// closed or the request is invalid. `barriers`: required for drawing. `given_up`: stops drawing when true.
 bool answer_drawing(int socket, const std::vector<std::string>& barriers, const std::atomic<bool>& given_up);
 
 }  // namespace asperity::web

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events of a page run for the server: one line of JSON for each event, through a pipe. If requested, the
-// channel also writes views: all of the first surfaces and presses, later ones within a tenth of the run's
-// time, and the last.
+// Events of a page run for the server: JSON lines through a pipe. Optionally writes views: the first surfaces
+// and presses, later ones within a tenth of the run's time, and the last.
 #pragma once
 
 #include <chrono>
@@ -20,7 +19,7 @@
 
 namespace asperity::web {
 
-// The subject of a view: a surface or a press.
+// A surface or a press.
 struct Seen {
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const State> state;
@@ -31,15 +30,14 @@ struct Seen {
   std::string title() const;
   View view() const;
 };
-// The surfaces and states in the results of a call.
 std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua::Values& results);
 
-// A journal event for the page, with its type; none if the page does not show this event.
+// A journal event for the page; none if not shown.
 std::optional<Json> told_of(std::string_view event, const Json& fields);
 
 class EventChannel final : public cli::RunObserver {
  public:
-  // `views`: a folder for views, made at the first view; "": no views.
+  // `views`: created at the first view; "": no views.
   EventChannel(int descriptor, std::string views) : descriptor_(descriptor), views_(std::move(views)) {}
 
   void send(const std::string& type, Json fields = Json::object());
@@ -62,14 +60,14 @@ class EventChannel final : public cli::RunObserver {
   std::mutex mutex_;
   int descriptor_;
   std::string views_;
-  std::map<std::string, int> kept_;  // views of each kind
+  std::map<std::string, int> kept_;  // views
   int views_in_all_ = 0, left_out_ = 0;
   Clock::time_point begun_ = Clock::now();
   Clock::duration spent_{};  // on views
-  Seen last_;                // left out so far; shown if the run ends here
+  Seen last_;                // left out so far
 };
 
-// A script's error message in parts: {line?, message, traceback?}.
+// {line?, message, traceback?}
 Json error_parts(const std::string& text);
 
 }  // namespace asperity::web

@@ -75,12 +75,12 @@ Question question_in(const std::string& text) {
   return question;
 }
 
-// The newest question, and the run that may have to yield to it.
+// The newest question and the interruptible run.
 class Questions {
  public:
   explicit Questions(int socket) : socket_(socket), listener_([this] { listen(); }) { listener_.detach(); }
 
-  // Blocks until there is a question.
+  // Blocks.
   Question next() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return waiting_.has_value(); });
@@ -91,7 +91,7 @@ class Questions {
     return waiting_.has_value();
   }
 
-  // During its lifetime, a newer question interrupts the run in this state, from `makes_way` on.
+  // During its lifetime, a newer question interrupts the run, from `makes_way` on.
   class Running {
    public:
     Running(Questions& questions, lua_State* L, Clock::time_point makes_way) : questions_(questions) {
@@ -129,7 +129,7 @@ class Questions {
     }
   }
 
-  // Milliseconds until the current run yields; -1: no limit.
+  // Milliseconds until the run yields; -1: no limit.
   int pause() {
     const std::lock_guard lock(mutex_);
     if (!waiting_ || state_ == nullptr) return -1;
@@ -152,7 +152,7 @@ class Questions {
   std::thread listener_;
 };
 
-// Stores each warning of a run once.
+// Stores each warning once.
 class LiveMonitor final : public Monitor {
  public:
   explicit LiveMonitor(ResultStore& results) : results_(results) {}
@@ -177,7 +177,6 @@ class LiveMonitor final : public Monitor {
   std::string text_;
 };
 
-// Standard output as a file, emptied for each run.
 class Printed {
  public:
   Printed() {
@@ -233,7 +232,6 @@ class LiveScript {
     double factor = 1;
     Clock::time_point makes_way;
   };
-  // Results of one pass through the script.
   struct Found {
     Json::List events;
     std::vector<Seen> seen;
@@ -249,8 +247,8 @@ class LiveScript {
       answered = pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
       if (!answered) too_coarse_ = factor;
     }
-    // After a coarse answer, a newer question replaces the full answer. Without a coarse answer, the run gets
-    // the time of the last run; otherwise nothing would be answered while a knob moves.
+    // A newer question replaces the full answer after a coarse one. Without a coarse answer, the run gets the
+    // last run's time; otherwise a moving knob would get no answers.
     if (answered && questions_.newer()) return say_outdated(question);
     const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
     pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
@@ -259,8 +257,7 @@ class LiveScript {
                                                       std::chrono::duration_cast<Clock::duration>(usual)))});
   }
 
-  // The factor of cells for a quick answer, from the time of the last full run: half the cells a side take
-  // about a quarter of the time.
+  // The cell factor for a quick answer: half the cells a side take about a quarter of the time.
   double coarse_factor() const {
     double factor = 1, seconds = whole_seconds_;
     for (; seconds > answered_soon && factor > least_factor && factor > 2 * too_coarse_; seconds /= 4)
@@ -293,10 +290,9 @@ class LiveScript {
   Printed printed_;
   cli::UnlinkedFilesBound unlinked_;
   Questions questions_;
-  double whole_seconds_ = 0;  // of the last full run that computed something
+  double whole_seconds_ = 0;  // s, last full run that computed something
   bool first_ = true;
-  double too_coarse_ = 0;  // a factor at which the script failed, for example by waves too short for its
-                           // cells
+  double too_coarse_ = 0;  // too few cells for the script, e.g. for its waves
 };
 
 bool LiveScript::pass(const Question& question, const Pass& pass) {
@@ -316,8 +312,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   const StopReason stopped = stop_flag().reason();
   stop_flag().clear();
   const double seconds = seconds_since(begun);
-  // The first run fills the result memory, so its time is not typical. A run without any computation counts
-  // only if it is slower.
+  // The first run fills the result memory; runs without computation count only if slower.
   const ResultMemory::Counts now = memory_.counts();
   if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
     whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
@@ -336,7 +331,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
     error.set("type", "error");
     found.events.push_back(std::move(error));
   }
-  // On coarse cells an error may come from the cells; the full answer decides.
+  // The error may come from coarse cells; the full answer decides.
   if (pass.factor < 1 && !found.failure.empty()) return false;
   Json answer = Json::object({{"move", question.move},
                               {"part", pass.factor < 1 ? "coarse" : "whole"},
@@ -350,7 +345,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   return true;
 }
 
-// The reason of a failure; "" on success.
+// Returns the reason of a failure, or "".
 std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
                                    Found& found, Json& knobs) {
   std::error_code ignored;
@@ -388,7 +383,7 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
         ++found.left_out;
     }
   };
-  // os.exit ends the script but not the process: the next move needs the result memory.
+  // The process continues after os.exit: the next move needs the result memory.
   lua_State* running_state = nullptr;
   session.exit_hook = [&](int code) {
     found.exit = code;
@@ -429,7 +424,7 @@ void LiveScript::say(const Question& question, const Pass&, Found found, Json an
     const std::string kind = seen.kind();
     const std::string name = kind + "-" + std::to_string(++of_kind[kind]);
     views.push_back(Json::object({{"name", name}, {"title", seen.title()}}));
-    // The last view, unless the requested view exists.
+    // The last view, unless the requested one exists.
     if (name_of_it != question.view || question.view.empty()) {
       looked_at = &seen;
       name_of_it = name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread for each connection, created on demand, reused for a while, and bounded in number. At the limit,
-// the connection that has waited longest for its client's request is shut down.
+// A bounded number of threads, one for each connection, reused for a while. At the limit, the connection with
+// the longest wait for a request is shut down.
 #pragma once
 
 #include <httplib.h>
@@ -19,7 +19,7 @@ namespace asperity::web {
 // Thread-safe.
 class Connections {
  public:
-  // A connection that waits for its client and may be shut down.
+  // Waits for its client; may be shut down.
   class Waiting {
    public:
     Waiting(Connections& connections, int socket);
@@ -33,7 +33,7 @@ class Connections {
     std::uint64_t number_;
   };
 
-  // Shuts down the connection with the longest wait; false if none waits.
+  // False if no connection waits.
   bool make_room();
   void shut_down_all();
 

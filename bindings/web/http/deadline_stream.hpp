@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A connection for cpp-httplib with deadlines and limits that the library lacks. A whole request must arrive
-// within a time and a number of bytes, however slowly it arrives. A client that does not fetch its answer is
-// dropped.
+// A connection for cpp-httplib with its missing limits: a request must arrive within a time and a number of
+// bytes, and a client that does not fetch its answer is dropped.
 #pragma once
 
 #include <httplib.h>
@@ -19,17 +18,16 @@ class DeadlineStream final : public httplib::Stream {
  public:
   DeadlineStream(int socket, const HttpSetup& setup) : socket_(socket), setup_(setup) {}
 
-  // True if a request begins within the idle time.
+  // Waits for at most the idle time.
   bool wait_for_request();
   void begin_request();
   enum class Head { whole, too_long, not_there };
-  // Waits for the whole head, which stays in the buffer for read(). `head` is valid until the next read().
+  // Blocks; read() returns the head later. `head` is valid until the next read().
   Head wait_for_head(std::string_view& head);
-  // After the head: the limits of the body apply.
+  // The limits of the body apply from here.
   void head_is_read();
 
   bool is_readable() const override;
-  // False if the client has disconnected.
   bool is_writable() const override;
   ssize_t read(char* to, std::size_t size) override;
   ssize_t write(const char* from, std::size_t size) override;
@@ -39,17 +37,17 @@ class DeadlineStream final : public httplib::Stream {
   using httplib::Stream::write;
 
  private:
-  // Receives more bytes into the buffer: like recv, with the deadline.
+  // Like recv, with the deadline.
   ssize_t receive();
   using Clock = std::chrono::steady_clock;
 
   int socket_;
   const HttpSetup& setup_;
   Clock::time_point arrived_by_{};
-  std::size_t may_read_ = 0;  // bytes left for this request
-  std::size_t from_ = 0;      // start of the unread bytes
+  std::size_t may_read_ = 0;  // bytes of this request
+  std::size_t from_ = 0;      // unread bytes
   std::string buffer_;
-  Clock::duration blocked_{};  // in sending, for this request
+  Clock::duration blocked_{};  // in sending
   std::size_t sent_ = 0;
 };
 

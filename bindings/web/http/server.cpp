@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http.hpp. Automatic work of the
-// library (unpacking bodies, compressing answers, ranges, forms) is refused or disabled, because a short
-// request could make such work expensive.
+// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http.hpp. The library's
+// unpacking, compression, ranges and forms are disabled, because a short request could make them expensive.
 #include <httplib.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -23,7 +22,6 @@ namespace asperity::web {
 
 namespace {
 
-// State of the connection of this thread.
 struct Here {
   Connections::Waiting* waiting = nullptr;
   bool close = false;
@@ -54,7 +52,7 @@ void put(HttpResponse from, httplib::Response& to) {
   }
   auto stream = std::make_shared<std::function<bool(std::string&)>>(std::move(from.stream));
   to.set_chunked_content_provider(from.type, [stream](std::size_t, httplib::DataSink& sink) {
-    // Without this check, a waiting answer would not notice a disconnected client.
+    // Notices a disconnected client.
     if (!sink.is_writable()) return false;
     std::string piece;
     const bool more = (*stream)(piece);
@@ -91,7 +89,7 @@ bool Server::begin(std::string& problem) {
   new_task_queue = [this] { return new ConnectionThreads(setup_.most_connections, connections_); };
   set_payload_max_length(setup_.most_body_bytes);
   set_tcp_nodelay(true);
-  // The library's default options would let another program of this user share the port.
+  // The library's default lets another program of this user share the port.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -118,7 +116,7 @@ bool Server::begin(std::string& problem) {
     problem = std::strerror(errno);
     return false;
   }
-  // A whole classroom connects at once; the library's own backlog is five.
+  // A whole classroom connects at once; the library's backlog is five.
   ::listen(svr_sock_, 512);
   return true;
 }
@@ -140,7 +138,6 @@ void Server::answer_with_body(const httplib::Request& from, httplib::Response& t
   put(handler_.answer(request), to);
 }
 
-// Before any part of the request is trusted.
 void refuse_head(DeadlineStream& stream, const char* status, std::string_view problem) {
   const std::string body = "{\"error\":{\"message\":\"" + std::string(problem) + "\"}}\n";
   const std::string answer = std::string("HTTP/1.1 ") + status +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The events of one run as lines of JSON, numbered from 1, in a file next to the run directory: a run with
-// many rows needs no server memory. One writer; any number of readers, which may wait and return later.
+// The events of a run as JSON lines, numbered from 1, in a file next to the run directory: long runs need no
+// server memory. One writer, many readers.
 #pragma once
 
 #include <chrono>
@@ -21,14 +21,12 @@ class EventLog {
  public:
   explicit EventLog(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // Adds {"n":…, "type":…, fields}. Returns false and stores nothing after the last event or if writing
-  // fails.
+  // Adds {"n":…, "type":…, fields}; false after the last event or if writing fails.
   bool add(const std::string& type, const Json& fields);
-  // Adds the last event.
   void finish(const Json& fields);
 
-  // The lines after number `after`, in a piece of about 64 KiB; waits for at most `patience`. `more` is false
-  // after the last event.
+  // About 64 KiB of lines after number `after`; waits for at most `patience`. `more` is false after the last
+  // event.
   std::string after(std::int64_t& after, std::chrono::milliseconds patience, bool& more) const;
   std::int64_t bytes() const;
 
@@ -39,7 +37,7 @@ class EventLog {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   Descriptor writer_;
-  std::vector<std::int64_t> ends_;  // byte after each
+  std::vector<std::int64_t> ends_;  // end of each line
   bool finished_ = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Live scripts (confined/live_script.hpp): at most one confined process for each tab of each person. The
-// process ends with its tab, when another script replaces it, when idle, at a limit, or to make room for an
-// active session. Moves are answered in turn (shares.hpp); only the newest waiting move of a tab counts.
+// Live scripts (confined/live_script.hpp): one confined process for each tab. It ends with its tab, for
+// another script, when idle, at a limit, or to make room. Moves take turns (shares.hpp); only a tab's newest
+// waiting move counts.
 #pragma once
 
 #include <atomic>
@@ -26,8 +26,8 @@
 namespace asperity::web {
 
 struct LiveSetup {
-  std::filesystem::path folder;  // parent of the session folders, which are deleted with the session
-  RunLimits limits;              // seconds: for one move; other limits: for the session
+  std::filesystem::path folder;  // parent of temporary session folders
+  RunLimits limits;              // seconds: of a move; others: of the session
   std::vector<std::string> barriers;
   int at_once = 2;  // concurrent moves
   std::size_t most = 16;
@@ -41,7 +41,6 @@ class LiveSession {
 
   LiveSession(std::string id, std::size_t owner, std::string tab, const RunRequest& request,
               const LiveSetup& setup);
-  // Ends the process and waits for its end.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
@@ -50,11 +49,11 @@ class LiveSession {
   const std::size_t owner;
   const std::string tab;
 
-  // Sends a question and returns its move number. `share` is held until the newest move is answered.
+  // Sends a question; returns its move number. `share` is held until the newest move is answered.
   std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
-  // The next part of a move's answer: a frame or nothing yet; false after the last.
+  // `piece`: a frame or nothing yet. False after the last.
   bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
-  // True while a move waits for its answer; the session then holds a share.
+  // Whether a move waits, holding a share.
   bool busy() const;
   bool over() const { return over_.load(); }
   void end(const std::string& why);
@@ -77,7 +76,7 @@ class LiveSession {
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::string why_;  // the reason of the end, once requested
+  std::string why_;  // reason of the end
   std::string question_;
   std::int64_t moves_ = 0, answered_ = 0;
   struct Piece {
@@ -99,16 +98,14 @@ class LiveSessions {
   LiveSessions(const LiveSessions&) = delete;
   LiveSessions& operator=(const LiveSessions&) = delete;
 
-  // Replaces the tab's session. Throws Error{bad_state} if all allowed sessions are busy or the server is
-  // stopping.
+  // Replaces the tab's session. Throws Error{bad_state} if all sessions are busy or the server is stopping.
   std::shared_ptr<LiveSession> begin(std::size_t owner, const std::string& tab, const RunRequest& request);
-  // Null if the person has no such session, or it has ended.
+  // Null if unknown or ended.
   std::shared_ptr<LiveSession> find(std::size_t owner, const std::string& id) const;
-  // Waits for a turn. Throws Error{bad_state} on timeout.
+  // Waits for a turn; throws Error{bad_state} on timeout.
   std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view);
   void end(std::size_t owner, const std::string& id);
   std::size_t count() const;
-  // Ends all sessions.
   void close();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One run of the page: its directory, its events, and its confined process. Messages of the process are
-// treated as hostile: only known kinds of events of bounded length, and a bounded total of bytes.
+// A run of the page: directory, events, confined process. The process counts as hostile: only known events of
+// bounded length and total size.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@
 
 namespace asperity::web {
 
-// Limits of one run. Exceeding any limit ends the run; its records stay.
+// Exceeding a limit ends the run; its records stay.
 struct RunLimits {
   double seconds = 600;                                    // wall-clock time
   std::int64_t memory_bytes = std::int64_t{2} << 30;       //
@@ -43,7 +43,7 @@ struct RunRequest {
 
 class PageRun {
  public:
-  // Creates `folder` and the run directory `run` inside. Throws Error{bad_file}.
+  // Creates `folder` and `folder`/run. Throws Error{bad_file}.
   PageRun(std::string id, std::size_t owner, RunRequest request, const std::filesystem::path& folder);
 
   const std::string id;
@@ -54,17 +54,16 @@ class PageRun {
 
   RunState state() const { return state_.load(); }
   std::int64_t bytes() const { return directory_bytes_.load() + events.bytes(); }
-  // Processor time of the ended process.
+  // After the end of the process.
   double processor_seconds() const { return processor_seconds_; }
-  // Adds an event with the number of runs ahead, if the run waits and the number is new. One call at a time.
+  // Adds an event with the number of runs ahead, if waiting and changed. One call at a time.
   void tell_place(std::size_t before);
-  // Ends the run soon; a waiting run ends at once.
+  // Asynchronous for a current run.
   void stop();
   bool stop_asked() const { return stop_.load(); }
 
-  // Executes the whole run on the calling thread. `barriers`: required in the process.
+  // The whole run, on this thread. `barriers`: required.
   void go(const RunLimits& limits, const std::vector<std::string>& barriers);
-  // Ends a run before its start.
   void give_up(RunState state, const std::string& reason);
 
  private:
@@ -77,7 +76,6 @@ class PageRun {
   double processor_seconds_ = 0;
   std::optional<std::size_t> told_place_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-  // Known facts of a file: size and time when last seen, and whether it was announced.
   struct Known {
     std::int64_t bytes, changed;
     bool told;
@@ -87,8 +85,8 @@ class PageRun {
   friend class RunFollower;
 };
 
-// Answers about a run (run_files.cpp): events as they arrive, files, views. The event stream starts at the
-// query's `after` and ends with the last event or after some minutes; a client then asks again.
+// Answers (run_files.cpp). Events start at the query's `after` and stop after the last or some minutes;
+// clients ask again.
 HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request);
 HttpResponse file_answer(const PageRun& run, const std::string& name);
 HttpResponse view_answer(const PageRun& run, const std::string& name);

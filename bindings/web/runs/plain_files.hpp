@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of a folder with untrusted contents. A name is followed part by part below the folder: no link, no
-// "..", and only to an ordinary file, never to a device, pipe or folder.
+// Files of an untrusted folder. Names are resolved part by part below the folder, without links and "..", to
+// ordinary files only.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace asperity::web {
 
-// A descriptor for reading and its size; none if there is no such file. The caller closes the descriptor.
+// Closed by the caller.
 struct OpenFile {
   int descriptor = -1;
   std::int64_t bytes = 0;
 };
 std::optional<OpenFile> open_plain_file(const std::filesystem::path& folder, std::string_view name);
-// The whole file, if it has at most `most_bytes`.
+// None beyond `most_bytes`.
 std::optional<std::string> read_plain_file(const std::filesystem::path& folder, std::string_view name,
                                            std::size_t most_bytes);
 
@@ -28,13 +28,13 @@ struct PlainFile {
   std::int64_t bytes = 0;
   std::int64_t changed = 0;  // nanoseconds since 1970
 };
-// Every ordinary file below the folder, including hidden files and folders. `bytes` gets the total size on
-// disk with the folders. Beyond `most_files` the listing stops and `bytes` is too_many.
+// All ordinary files below the folder, including hidden ones. `bytes`: total on disk with folders; too_many
+// beyond `most_files`, where the listing stops.
 inline constexpr std::int64_t too_many = INT64_MAX;
 std::vector<PlainFile> plain_files(const std::filesystem::path& folder, std::size_t most_files,
                                    std::int64_t& bytes);
 
-// The type by the ending, such as "text/csv; charset=utf-8"; unknown endings give plain bytes.
+// By ending, "text/csv; charset=utf-8"; else plain bytes.
 std::string media_type(std::string_view name);
 
 }  // namespace asperity::web

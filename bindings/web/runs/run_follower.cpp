@@ -63,7 +63,6 @@ RunFollower::RunFollower(PageRun& run, const RunLimits& limits, const std::vecto
 
 RunFollower::~RunFollower() {
   process_.send(SIGKILL);
-  // Does not wait for a picture in progress.
   over_.store(true);
   ::shutdown(process_.drawing.get(), SHUT_RDWR);
   drawer_.join();
@@ -71,7 +70,7 @@ RunFollower::~RunFollower() {
 
 void RunFollower::follow() {
   for (;;) {
-    // Discarded output is read at intervals, so that a flood costs little here.
+    // Discarded output is read at intervals: a flood costs little.
     std::array<pollfd, 3> watched{{{cut_ ? -1 : process_.output.get(), POLLIN, 0},
                                    {cut_ ? -1 : process_.error.get(), POLLIN, 0},
                                    {process_.events.get(), POLLIN, 0}}};
@@ -93,12 +92,12 @@ void RunFollower::follow() {
 
 void RunFollower::take_output(Descriptor& from, std::string& unfinished, const char* stream) {
   char piece[65536];
-  // The bound lets the limits be checked while the run prints without end.
+  // Bounded, so that endless output does not prevent the check of limits.
   for (int most = 16; from.get() >= 0 && most > 0; --most) {
     const ssize_t got = ::read(from.get(), piece, sizeof piece);
     if (got == 0) from.reset();
     if (got <= 0) return;
-    if (printed_ >= limits_.output_bytes) continue;  // read and discarded, so that the run can end
+    if (printed_ >= limits_.output_bytes) continue;  // discarded, so that the run can end
     printed_ += got;
     std::string text = std::move(unfinished);
     text.append(piece, static_cast<std::size_t>(got));
@@ -153,7 +152,6 @@ void RunFollower::take_event(const std::string& line) {
       run_.events.add(type->string(), event);
     }
   } catch (const Error&) {
-    // Not a valid event.
   }
 }
 
@@ -174,7 +172,7 @@ void RunFollower::watch_limits(Clock::time_point now) {
     end(RunState::limit, "it wrote more than " + std::to_string(limits_.files) + " files");
   if (use.bytes > limits_.directory_bytes)
     end(RunState::limit, "its files take more than " + mebibytes(limits_.directory_bytes));
-  // A run that continues to write is killed at once.
+  // Still writing: kill.
   if (use.bytes > limits_.directory_bytes + limits_.directory_bytes / 4 || use.files > 2 * limits_.files)
     process_.send(SIGKILL);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bounds each person's share of a common resource. Waiting people are served in order of arrival. Some shares
-// can be reserved for people who return theirs quickly.
+// Bounds each person's share of a resource. People are served in order of arrival; some shares can be
+// reserved for quick users.
 #pragma once
 
 #include <chrono>
@@ -16,8 +16,8 @@ namespace asperity::web {
 // Thread-safe.
 class Shares {
  public:
-  // At most `each` for one person and `all` together. `for_quick` of the shares are reserved for people whose
-  // last use took at most `quick`.
+  // At most `each` for a person and `all` together; `for_quick` only for people whose last use took at most
+  // `quick`.
   Shares(int each, int all, int for_quick = 0,
          std::chrono::milliseconds quick = std::chrono::milliseconds(1000))
       : state_(std::make_shared<State>()) {
@@ -27,7 +27,7 @@ class Shares {
     state_->quick = quick;
   }
 
-  // Waits for at most `patience`; null on timeout. The share is held until the last copy is destroyed.
+  // Null after `patience`. Held until the last copy is destroyed.
   std::shared_ptr<void> take(std::size_t person, std::chrono::milliseconds patience) {
     std::unique_lock lock(state_->mutex);
     const auto place = state_->waiting.insert(state_->waiting.end(), person);

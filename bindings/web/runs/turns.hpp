@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The order of runs of people who share a few places. Nobody holds all places, and only one while somebody
-// else waits. Among the allowed people, the least recent processor time is served first. With more than one
-// place, one person's long runs therefore never block a short run.
+// Turns of people who share a few places. Nobody holds all places, and only one while somebody else waits.
+// The person with the least recent processor time is next, so that one person's long runs never block a short
+// run.
 #pragma once
 
 #include <chrono>
@@ -20,13 +20,12 @@ class Turns {
   // `shared`: several people; a single person may use all places.
   Turns(int places, bool shared) : places_(places), shared_(shared) {}
 
-  // The person in `waiting` (no duplicates) who may begin now; none if nobody may.
+  // The person in `waiting` (no duplicates) who may begin; none if nobody may.
   std::optional<std::size_t> next(const std::vector<std::size_t>& waiting, Clock::time_point now) const;
-  // A run of that person begins, or ends after `processor_seconds`.
   void begin(std::size_t person, Clock::time_point now);
   void end(std::size_t person, Clock::time_point begun, double processor_seconds, Clock::time_point now);
 
-  // Recent processor time, s, with exponential decay over 300 s. A current run counts as one full processor.
+  // Recent processor time, s: decays over 300 s; a current run counts as one processor.
   double used(std::size_t person, Clock::time_point now) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parent's side of a confined process (confined.hpp): this program started again, inheriting only the
-// pipes between parent and child.
+// The parent's side of a confined process (confined.hpp): this program started again, inheriting only its
+// pipes.
 #pragma once
 
 #include <sys/types.h>
@@ -29,12 +29,12 @@ class Descriptor {
   int number_ = -1;
 };
 
-// The process dies with the thread that made it.
+// Dies with its creating thread.
 class ConfinedProcess {
  public:
-  // Throws Error{bad_state} if the process cannot be started.
+  // Throws Error{bad_state} if the process cannot start.
   ConfinedProcess(const ConfinedRequest& request, const std::string& folder);
-  // Kills a process that still runs, and waits for its end.
+  // Kills and waits.
   ~ConfinedProcess();
   ConfinedProcess(const ConfinedProcess&) = delete;
   ConfinedProcess& operator=(const ConfinedProcess&) = delete;
@@ -42,9 +42,8 @@ class ConfinedProcess {
   Descriptor output, error, events, drawing;  // this side's ends
 
   void send(int signal) const;
-  // The waitpid status, once the process has ended.
+  // The waitpid status after the end.
   std::optional<int> ended();
-  // Of the ended process.
   double processor_seconds() const { return processor_seconds_; }
 
  private:
@@ -58,8 +57,7 @@ struct Finished {
   bool late = false;                  // killed at the time limit
   std::string output, error, events;  // each cut at `most_bytes`
 };
-// Runs a process to its end. Kills the process at the time limit or when `given_up`, which may be null,
-// becomes true; both count as late. Throws as above.
+// Runs a process to its end; kills it as late at the time limit or when `given_up` (may be null) is true.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
                       std::chrono::milliseconds patience, std::size_t most_bytes,
                       const std::atomic<bool>* given_up = nullptr);

@@ -30,7 +30,7 @@ bool write_to(const char* file, const std::string& text) {
   return whole;
 }
 
-// Maps only the own user and group, to themselves.
+// Maps only the own user and group.
 bool keep_identity(uid_t user, gid_t group) {
   const std::string u = std::to_string(user), g = std::to_string(group);
   return write_to("/proc/self/setgroups", "deny") && write_to("/proc/self/uid_map", u + " " + u + " 1") &&
@@ -48,7 +48,7 @@ bool make_folders(const std::string& root, const std::string& path) {
   }
 }
 
-// Linux 5.12: attributes for a whole tree of mounts. The C library may be older.
+// Linux 5.12; the C library may be older.
 struct MountAttributes {
   std::uint64_t set = 0, clear = 0, propagation = 0, user_namespace = 0;
 };
@@ -63,8 +63,8 @@ bool knows_trees() {
   return known;
 }
 
-// An open place, with a copy of its tree of mounts if the kernel supports this. Opened before the new root is
-// mounted, which covers the working directory and would be copied, too.
+// An open place, with its mounts if the kernel copies trees. Opened before the new root covers the working
+// directory, because the new root would be copied, too.
 class Bound {
  public:
   explicit Bound(const Place& of)
@@ -92,7 +92,7 @@ class Bound {
   }
 
   bool open() const { return folder_ >= 0 && (tree_ >= 0 || !knows_trees()); }
-  // Without devices and set-user-ID; without programs and writing, unless the place allows them.
+  // No devices, no set-user-ID; programs and writing only if allowed.
   bool mount_at(const std::string& at) const {
     if (tree_ >= 0) {
       const MountAttributes wanted{attribute_no_setuid | attribute_no_devices |
@@ -104,7 +104,7 @@ class Bound {
     }
     const std::string source = "/proc/self/fd/" + std::to_string(folder_);
     if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND, nullptr) != 0) return false;
-    // Restrictions of the file system remain.
+    // The file system's own restrictions remain.
     unsigned long kept = MS_NOSUID | MS_NODEV;
     if (!place->programs || (flags_.f_flag & ST_NOEXEC)) kept |= MS_NOEXEC;
     if (flags_.f_flag & ST_NOATIME) kept |= MS_NOATIME;
@@ -151,7 +151,6 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   const std::string here = here_text;
   if (::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0)
     return root_problem("mounts of its own");
-  // Opened before the root covers the working directory.
   std::vector<Bound> bound;
   for (const Place& place : places) {
     Bound& one = bound.emplace_back(place);
@@ -165,7 +164,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
     ::close(under);
     return root_problem("a root");
   }
-  // From here on, a failure unmounts the root with everything inside.
+  // A failure now unmounts the root.
   const auto undo = [&](const std::string& step) {
     std::string text = root_problem(step);
     ::umount2(here.c_str(), MNT_DETACH);
@@ -185,7 +184,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   ::mount(nullptr, here.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY | MS_NOSUID | MS_NOEXEC, nullptr);
   if (::chdir(here.c_str()) != 0) return undo("the root");
   if (::syscall(SYS_pivot_root, ".", ".") != 0) return undo("the root");
-  // The old root covers the new root until unmounted.
+  // The old root covers the new one.
   ::umount2(".", MNT_DETACH);
   ::close(under);
   if (::chdir(work.c_str()) != 0) return root_problem("its directory");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The process's own view of the machine: a network without a way out, and a tree of files with only the given
-// folders. The kernel grants this to root, and to every user if user namespaces are allowed.
+// Namespaces: no network, and a file tree with the given folders only. For root, and for all users if user
+// namespaces are allowed.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace asperity::web {
 
-// The reason of each failure; "" on success.
+// Reasons of failures; "" on success.
 struct Namespaces {
   std::string user, network, mount;
 };
 Namespaces enter_namespaces();
 
-// Mounts a root with the places, as seen by the script, and /dev/null over the working directory, and changes
-// to its folder `work`, which is empty unless it is a place. Needs an own mount namespace. Returns "", or the
-// reason of a failure; the process then sees its files as before.
+// Mounts a root with the places and /dev/null over the working directory and enters its folder `work`, which
+// is empty unless a place. Needs an own mount namespace. Returns "", or the reason of a failure with the
+// files unchanged.
 std::string enter_own_root(const std::vector<Place>& places, const std::string& work);
 
 }  // namespace asperity::web
