@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The typed interface to the server; all requests are made here. The token arrives in the address fragment,
-// which browsers never send. It is moved to the tab's session storage at once, so that no projector shows it,
-// and is sent only in the Authorization header.
+// which browsers never send. It moves to the tab's session storage at once, hidden from projectors, and is
+// sent only in the Authorization header.
 
 import { framesOf, type LiveFacts } from './live';
 
@@ -41,10 +41,10 @@ export interface About {
   limits?: { memory_bytes?: number; seconds?: number; output_bytes?: number; runs?: number };
   classroom?: boolean;
   teacher?: boolean;
-  help?: boolean; // wanted by this person
+  help?: boolean;
 }
 
-/** A run of anybody in the classroom, for the teacher. */
+/** A run as shown to the teacher. */
 export interface RoomRun {
   id: string;
   name: string;
@@ -52,7 +52,7 @@ export interface RoomRun {
   state: string;
 }
 
-/** A person of the classroom, for the teacher. */
+/** A person as shown to the teacher. */
 export interface RoomPerson {
   name: string;
   help: boolean;
@@ -68,7 +68,7 @@ export interface ViewField {
   size_y: number;
   from_nx: number;
   from_ny: number;
-  not_measured?: number; // number of nodes, if any
+  not_measured?: number; // number
   reduction: string;
   data: string;
 }
@@ -103,7 +103,7 @@ export type RunEvent = { n: number } & (
 
 export type Failure = 'gone' | 'token' | 'limit' | 'refused';
 
-/** The failure of a request, as a sentence for the user. */
+/** With a sentence for the user. */
 export class ApiError extends Error {
   constructor(
     readonly failure: Failure,
@@ -157,7 +157,7 @@ export class Api {
   startLive = (script: string, tab: string): Promise<{ id: string }> =>
     this.json('POST', '/api/live', { script, tab });
 
-  /** Streams the script's results at these values, part by part. */
+  /** Streams the results at these values. */
   async moveLive(
     id: string,
     knobs: Record<string, string>,
@@ -175,7 +175,7 @@ export class Api {
     );
   }
 
-  /** Also works while the page unloads. */
+  /** Also while the page unloads. */
   endLive(id: string): void {
     void fetch(`/api/live/${encodeURIComponent(id)}`, {
       method: 'DELETE',
@@ -189,8 +189,8 @@ export class Api {
     return (await this.request('GET', `/api/runs/${encodeURIComponent(id)}/files/${path}`)).blob();
   }
 
-  /** Passes on every event of a run after number `after` until the run has finished. A broken connection
-      is resumed; `gone` gets the error, and null after recovery. */
+  /** Passes on a run's events after number `after` to the end. Broken connections are resumed; `gone`
+      gets the error, and null after recovery. */
   async events(
     id: string,
     after: number,

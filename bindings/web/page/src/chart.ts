@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of notebook columns as SVG, drawn by Observable Plot for the page and for saved runs. Every row is a
-// point; a line connects the means of the rows with equal x, as in the engine's charts. Colours are
-// attributes, so that no style sheet is needed.
+// Charts of notebook columns as SVG, drawn by Observable Plot. Every row is a point; a line connects the
+// means of rows with equal x, as in the engine's charts. Colours are attributes: saved runs need no style
+// sheet.
 
 import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
 import { linesOf, namesAlong, type ChartChoice, type Line, type Point } from './chart_choice';
@@ -13,14 +13,14 @@ import { axisFor, axisOfNames, type Axis } from './ticks';
 import { label, numberText, scaleFor, type Scale } from './units';
 
 const fontSize = 15; // px
-const lineHeight = 24; // px, legend
+const lineHeight = 24; // px
 const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
-const mostNamed = 16; // legend entries
+const mostNamed = 16;
 
 export interface Drawn {
   element: SVGElement;
   summary: string;
-  /** Rows without a point: missing values, or values that a logarithmic axis cannot show. */
+  /** Rows without a number for the axis. */
   left: number;
 }
 
@@ -81,7 +81,6 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
         stroke,
         strokeWidth: 1.5,
       }),
-      // Between names there is nothing to connect.
       ...(named ? [] : [line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
       ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY, names)),
     ];
@@ -133,7 +132,6 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   return { element: asPicture(element, summary, ink), summary, left };
 }
 
-/** A histogram with equal bins, and its description. */
 export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
   const axis = axisFor(
     values,
@@ -192,7 +190,7 @@ function dotsOf(
   if (kind === 'none') return [];
   const close = crowded(places, 2 * radii[kind]);
   const fill = ink.series[index % ink.series.length];
-  // In a dense cloud, the line of means must remain visible.
+  // The line must remain visible in a dense cloud.
   const cloud = share(close) > 0.5;
   const single = kind === 'large' ? l.points.filter((_, k) => !close[k]) : [];
   const rest = kind === 'large' ? l.points.filter((_, k) => close[k]) : l.points;
@@ -210,7 +208,6 @@ function dotsOf(
   );
 }
 
-/** A sentence instead of a chart. */
 function sentence(words: string, name: string, width: number, height: number, ink: Ink): SVGElement {
   const root = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, height });
   root.append(
@@ -219,7 +216,7 @@ function sentence(words: string, name: string, width: number, height: number, in
   return asPicture(root, name, ink);
 }
 
-/** Removes Plot's own style sheet, which the content policy forbids, and replaces aria attributes by one
+/** Removes Plot's style sheet, which the content policy forbids, and merges aria attributes into one
     name. */
 function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
   root.querySelector('style')?.remove();
@@ -246,7 +243,6 @@ function shareOf(value: number, axis: Axis, log: boolean): number {
   return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
 }
 
-/** Neighbouring labels must be half their sizes apart. */
 function apartBy(size: (text: string) => number, length: number) {
   return (labels: string[], shares: number[]): boolean =>
     labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
@@ -257,7 +253,7 @@ function fitAside(names: string[], length: number): boolean {
   return names.every((name) => widthOf(name) + 12 <= length / names.length);
 }
 
-/** The part of a name that fits, at most 220 px; the point's title has the whole name. */
+/** At most 220 px; the point's title has the whole name. */
 function shortened(name: string, room = 220): string {
   if (widthOf(name) <= room) return name;
   let text = [...name];
@@ -265,7 +261,7 @@ function shortened(name: string, room = 220): string {
   return `${text.join('').trimEnd()}…`;
 }
 
-/** The whole unit, and as many words as fit. */
+/** The whole unit, and words as they fit. */
 function fittedLabel(words: string, scale: Scale, room: number): string {
   const unit = label('', scale);
   return shortened(words, room - widthOf(unit)) + unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The choice of a chart, and its lines: one for each y column, and for each value of a grouping column.
+// The choice of a chart, and its lines: for each y column and each value of a grouping column.
 
 import type { Cell } from './api';
 import { namesIn, numericColumns, type Notebook } from './run';
@@ -7,13 +7,13 @@ import { numberText } from './units';
 
 export interface ChartChoice {
   x: string; // numbers or names
-  y: string[]; // all of one unit
-  per: string; // grouping column; empty for one line
+  y: string[]; // of one unit
+  per: string; // grouping column, or empty
   logX: boolean;
   logY: boolean;
-  xLabel?: string; // replaces the column names
+  xLabel?: string; // instead of the column names
   yLabel?: string;
-  where?: Record<string, Cell[]>; // only rows with one of these values
+  where?: Record<string, Cell[]>; // only rows with these values
   points?: boolean; // false: lines only
   spread?: boolean; // bars: standard deviation of rows with equal x
 }
@@ -24,7 +24,7 @@ export interface Point {
 }
 
 export interface Mean extends Point {
-  deviation: number; // of the sample; 0 for a single row
+  deviation: number; // of the sample
 }
 
 export interface Line {
@@ -34,7 +34,7 @@ export interface Line {
   means: Mean[];
 }
 
-/** The names along x in row order; empty for a numeric column. */
+/** In row order; empty for a numeric column. */
 export function namesAlong(notebook: Notebook, choice: ChartChoice): string[] {
   if (numericColumns(notebook).includes(choice.x)) return [];
   return namesIn({ ...notebook, rows: rowsOf(notebook, choice) }, choice.x);
@@ -45,8 +45,7 @@ function rowsOf(notebook: Notebook, choice: ChartChoice): Notebook['rows'] {
   return notebook.rows.filter((row) => wanted.every(([column, values]) => values.includes(row[column])));
 }
 
-/** The lines, and the number of rows without a point: no number, or none for a logarithmic axis. For
-    names, x is the index of the name, from 0. */
+/** The lines, and the number of rows without a point. For names, x is the index of the name, from 0. */
 export function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
   const groups = new Map<string, { column: string; points: Point[] }>();
   let left = 0;
@@ -84,7 +83,6 @@ function nameOf(row: Record<string, Cell>, column: string, choice: ChartChoice, 
   const value = row[choice.per];
   const text =
     typeof value === 'number' ? numberText(value) : value === undefined || value === null ? '(none)' : String(value);
-  // A text explains itself; a number needs its column.
   const part = typeof value === 'string' ? text : `${choice.per} = ${text}${unit ? ' ' + unit : ''}`;
   return choice.y.length > 1 ? `${column}, ${part}` : part;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of a run: the script's own charts, and any columns of one unit against any other, optionally grouped
-// and logarithmic. A choice stays with the chart's name from run to run. The drawing library is loaded with
-// the first chart.
+// The script's own charts, and charts of any columns of one unit against any other. A choice stays with the
+// chart's name from run to run. The drawing library is loaded with the first chart.
 
 import type { ChartChoice } from './chart_choice';
 import { Choice, h, saveAs } from './dom';
@@ -11,11 +10,11 @@ import { columnsAlong, numericColumns, type Run } from './run';
 
 type Drawing = typeof import('./chart');
 
-const several = '\n'; // a choice of y: all present columns
+const several = '\n'; // y: all present columns
 
 export class ChartPane {
   private run: Run | undefined;
-  private asked = ''; // chosen by hand
+  private asked = ''; // by hand
   private drawing: Drawing | undefined;
   private readonly choices = new Map<string, ChartChoice>();
   private readonly which = new Choice('Chart', (name) => {
@@ -81,7 +80,6 @@ export class ChartPane {
     return (this.drawing ??= await import('./chart'));
   }
 
-  /** The charts of a run as chosen, or else the defaults. */
   chartsFor(run: Run): RunChart[] {
     return chartsOf(run).map((chart) => {
       const known = this.choices.get(chart.name);
@@ -103,7 +101,6 @@ export class ChartPane {
 
   private set(change: Partial<ChartChoice>): void {
     const present = this.shown();
-    // The script's axis labels belong to its own columns.
     const words = { ...(change.x ? { xLabel: '' } : {}), ...(change.y ? { yLabel: '' } : {}) };
     if (present) this.choices.set(present.name, { ...present.choice, ...words, ...change });
     this.draw();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of values from a table of 256 palette colours. Cells without contact have no pressure and no yield:
-// grey, not the lowest colour. Missing values are darker grey.
+// Colours of values from 256 palette colours. Cells without contact have no pressure and no yield: grey, not
+// the lowest colour. Missing values are darker grey.
 
 import { scaleLinear } from 'd3-scale';
 import { svg } from './dom';
@@ -29,7 +29,7 @@ export interface Range {
   high: number;
 }
 
-/** The range of the colours; pressures, gaps and fractions start at zero. */
+/** Pressures, gaps and fractions start at zero. */
 export function rangeOf(field: string, values: Float32Array): Range {
   let low = Infinity;
   let high = -Infinity;
@@ -74,7 +74,7 @@ function noneOf(field: string): [number, number, number] | undefined {
   return none === undefined ? undefined : bytesOf(none);
 }
 
-/** A colour bar with numbers and unit, `height` px tall. */
+/** `height` in px. */
 export function legend(field: string, unit: string, range: Range, height: number, ink: string): SVGElement {
   const table = tableOf(field);
   const scale = scaleFor(unit, Math.max(Math.abs(range.low), Math.abs(range.high)));

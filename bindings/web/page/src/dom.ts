@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements in one expression. Text always becomes text nodes: nothing is parsed as HTML, so that no output,
-// file name or lesson can inject markup. Inline styles are set as properties, because the content policy
-// forbids style attributes.
+// Elements in one expression. Text always becomes text nodes: no output, file name or lesson can inject
+// markup. Styles are set as properties, because the content policy forbids style attributes.
 
 type Child = Node | string | number | null | undefined | false;
 type Properties = Record<string, unknown>;
@@ -40,7 +39,7 @@ function append(element: Element, children: Child[]): void {
   }
 }
 
-/** A sentence with `names` in backquotes, as elements. */
+/** Backquoted `names` become code elements. */
 export function prose(text: string): DocumentFragment {
   const fragment = document.createDocumentFragment();
   text
@@ -49,13 +48,14 @@ export function prose(text: string): DocumentFragment {
   return fragment;
 }
 
+/** The element of index.html with this id, which is known to be there. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   const element = document.getElementById(id);
   if (!element) throw new Error(`index.html has no #${id}`);
   return element as T;
 }
 
-/** A labelled choice; `choose` fills the options and keeps the value if still offered. */
+/** A labelled choice; `choose` fills it and keeps the present value where it is still offered. */
 export class Choice {
   readonly element: HTMLElement;
   readonly select: HTMLSelectElement;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Views as self-contained drawings: relief image, legend, labels and caption in light colours for paper. One
-// drawing for each view, of the pane's first field: pressure of a press, heights of a surface.
+// Views as self-contained drawings with legend, labels and caption, in light colours for paper. Each shows
+// the pane's first field: pressure of a press, heights of a surface.
 
 import { coloursOf, legend, rangeOf } from './colour';
 import { svg } from './dom';
@@ -30,7 +30,7 @@ export interface Drawing {
 const [width, height] = [720, 480];
 const above: Attitude = { turn: 0, tilt: 89.9, zoom: 1 };
 
-/** `steps`: exaggeration of reliefs by name; a missing step is fitted to the first relief and stored. */
+/** `steps`: exaggeration by relief name; a missing step is fitted and stored. */
 export async function drawingsOf(
   views: { name: string; title: string }[],
   fieldsOf: (name: string) => Promise<Field[]>,
@@ -106,7 +106,7 @@ async function sceneOn(canvas: HTMLCanvasElement): Promise<ReliefScene | undefin
   }
 }
 
-/** The map from above, y upwards, one pixel a node. */
+/** From above, y upwards, one pixel a node. */
 export function drawFlat(canvas: HTMLCanvasElement, field: Field, colours: Uint8Array): void {
   canvas.width = field.nx;
   canvas.height = field.ny;

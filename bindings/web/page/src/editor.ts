@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The editor: CodeMirror for Lua with completion from the server, and marks for errors of the dry run and of
-// the last run. It is in a shadow root, where CodeMirror adopts style sheets instead of adding <style>
-// elements, so that the content policy needs no exception. Colours are CSS custom properties of the page.
+// The editor: CodeMirror for Lua, completion from the server, and error marks of the dry run and the last
+// run. In a shadow root, CodeMirror adopts style sheets instead of adding <style> elements, which the content
+// policy forbids. Colours are CSS custom properties.
 
 import {
   autocompletion,
@@ -105,7 +105,7 @@ const colours = HighlightStyle.define([
   { tag: [tags.standard(tags.variableName), tags.function(tags.variableName)], color: 'var(--code-builtin)' },
 ]);
 
-// A class for each depth: the content policy forbids style attributes.
+// Classes, because the content policy forbids style attributes.
 const deepest = 16;
 const hangingLines = Array.from({ length: deepest + 1 }, (_, depth) => Decoration.line({ class: `hang-${depth}` }));
 const hangingLook = EditorView.theme(
@@ -117,7 +117,7 @@ const hangingLook = EditorView.theme(
   ),
 );
 
-/** Wrapped lines continue at their own indent. */
+/** Wrapped lines keep their indent. */
 const hanging = ViewPlugin.fromClass(
   class {
     decorations: DecorationSet;
@@ -143,8 +143,8 @@ const hanging = ViewPlugin.fromClass(
   { decorations: (plugin) => plugin.decorations },
 );
 
-/** Typing over a selection: Chromium would preserve its look with style attributes, which the content
-    policy refuses and reports. */
+/** When typing over a selection, Chromium would add style attributes, which the content policy refuses.
+    */
 const typingOver = EditorView.domEventHandlers({
   beforeinput(event, view) {
     const { data } = event;
@@ -162,7 +162,7 @@ const typingOver = EditorView.domEventHandlers({
 export interface EditorEvents {
   changed: (text: string) => void;
   checked: (marks: Mark[]) => void;
-  knobs: (script: string, knobs: unknown) => void; // of a script without errors
+  knobs: (script: string, knobs: unknown) => void; // without errors
   failed: (error: unknown) => void;
 }
 
@@ -173,7 +173,7 @@ export class Editor {
   private timer = 0;
   private checking: AbortController | undefined;
   private quiet = false;
-  private within = -1; // position scrolled to within the editor
+  private within = -1; // position of the editor's own scrolling
 
   constructor(
     host: HTMLElement,
@@ -191,7 +191,7 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  /** Opens another document, with a new history and no marks. */
+  /** Another document: new history, no marks. */
   open(text: string): void {
     this.runMarks = [];
     this.marks = [];
@@ -201,7 +201,7 @@ export class Editor {
     this.checkSoon(0);
   }
 
-  /** An undoable change of the differing part only, so that cursor and scroll position stay. */
+  /** Undoable; changes the differing part only, so that cursor and scroll position stay. */
   replace(text: string): void {
     const old = this.text;
     const most = Math.min(old.length, text.length);
@@ -225,20 +225,20 @@ export class Editor {
     this.view.focus();
   }
 
-  /** Scrolls a line to the top without moving the cursor or the page. */
+  /** Moves neither the cursor nor the page. */
   showLine(line: number): void {
     const at = this.view.state.doc.line(Math.min(Math.max(1, line), this.view.state.doc.lines));
     this.within = at.from;
     this.view.dispatch({ effects: EditorView.scrollIntoView(at.from, { y: 'start' }) });
   }
 
-  /** A run's marks stay until their text changes or another run starts. */
+  /** The marks stay until their text changes or another run starts. */
   showRunMarks(marks: Mark[]): void {
     this.runMarks = marks;
     this.draw();
   }
 
-  /** True if Escape closes something in the editor. */
+  /** Escape then closes something in the editor. */
   get wantsEscape(): boolean {
     return completionStatus(this.view.state) !== null || searchPanelOpen(this.view.state);
   }
@@ -293,7 +293,7 @@ export class Editor {
         highlightSelectionMatches(),
         EditorView.lineWrapping,
         EditorView.scrollHandler.of((_, { head }) => {
-          // CodeMirror also scrolls the page; this restores the page before the next paint.
+          // CodeMirror also scrolls the page: scroll back before the next paint.
           const { scrollX, scrollY } = window;
           if (head === this.within) queueMicrotask(() => scrollTo(scrollX, scrollY));
           this.within = -1;
@@ -310,7 +310,7 @@ export class Editor {
           icons: false,
           tooltipClass: () => 'asperity-completion',
         }),
-        // Ctrl-Enter runs the script; the page handles it, not the editor.
+        // The page handles Ctrl-Enter.
         keymap.of([{ key: 'Mod-Enter', run: () => true }]),
         keymap.of([
           ...closeBracketsKeymap,
@@ -336,8 +336,8 @@ export class Editor {
   }
 
   private async complete(context: CompletionContext): Promise<CompletionResult | null> {
-    // Automatic completion only within a word or after a dot or colon: a list after a brace or comma would
-    // capture the next Enter.
+    // Automatically only in a word or after a dot or colon: a list after a brace or comma would capture the
+    // next Enter.
     if (!context.explicit && !context.matchBefore(/[\w][.:]?$|[)\]"'}][.:]$/)) return null;
     const waiting = new AbortController();
     context.addEventListener('abort', () => waiting.abort());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts of a run: the script's own charts, from its text or its file names, and for every other notebook
-// a chart of its first varying columns. The x axis has numbers or names.
+// The charts of a run: the script's own, from its text or its file names; otherwise the first varying columns
+// of a notebook.
 
 import type { ChartChoice } from './chart_choice';
 import type { Charted } from './charted';
@@ -15,7 +15,7 @@ export interface RunChart {
   asked: boolean; // by the script
 }
 
-/** All charts with data, the script's own first. */
+/** The script's own first. */
 export function chartsOf(run: Run): RunChart[] {
   const found: RunChart[] = [];
   const drawable = [...run.notebooks.values()].filter(
@@ -48,7 +48,7 @@ export function chartsOf(run: Run): RunChart[] {
   return found;
 }
 
-/** The columns of the same unit. */
+/** Columns of the same unit. */
 export function columnsLike(notebook: Notebook, column: string): string[] {
   const dimension = (c: string): string => scaleFor(notebook.units[c], 0).unit;
   return numericColumns(notebook).filter((c) => dimension(c) === dimension(column));
@@ -71,7 +71,7 @@ function firstChoice(run: Run, notebook: Notebook): ChartChoice {
   return { x, y: [y], per, logX: false, logY: false };
 }
 
-/** The first column of texts with two to eight values; empty if there is none. */
+/** The first column of texts with two to eight values; else empty. */
 function partedBy(notebook: Notebook): string {
   const columns = numericColumns(notebook);
   const parts = notebook.columns.find((c) => {
@@ -93,7 +93,7 @@ function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefine
   return { x, y: known.filter((c) => alike.includes(c)), per, logX, logY, xLabel, yLabel, where, points, spread };
 }
 
-/** An unnamed chart is in <notebook>-<y>-<x>.svg, with further y columns in between. */
+/** Unnamed charts: <notebook>-<y>-<x>.svg, further y columns in between. */
 function byFiles(run: Run, notebook: Notebook): { x: string; y: string }[] {
   const columns = numericColumns(notebook);
   const along = columnsAlong(notebook);
@@ -111,7 +111,7 @@ function byFiles(run: Run, notebook: Notebook): { x: string; y: string }[] {
   return found;
 }
 
-/** A safe file name, as the engine makes it. */
+/** As in the engine. */
 function fileName(text: string): string {
   return text.replace(/[^\w.\u0080-\uffff]+/g, '-').replace(/^[.-]+|-+$/g, '');
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours for light and dark paper. Chart lines have Okabe and Ito's colours for all kinds of colour vision,
-// adjusted for contrast with the paper.
+// Colours for light and dark paper; chart lines in Okabe and Ito's colours for all kinds of colour vision,
+// adjusted for contrast.
 
 export interface Ink {
   text: string;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders for the knobs of a script: after a check of the edited script, or from the manifest of a run. While
-// a knob moves, the script follows live (live.ts). When the knob rests, a recorded run with the new values
-// starts and replaces a current run.
+// Sliders for a script's knobs, known from a check or a run's manifest. Moving a knob updates the live script
+// (live.ts); at rest, a recorded run with the new values replaces a current run.
 
 import type { Api } from './api';
 import { h } from './dom';
@@ -11,7 +10,7 @@ import { numberText, withUnit } from './units';
 
 export interface Knob {
   name: string;
-  from: number; // all values in SI
+  from: number; // SI
   to: number;
   value: number;
   log: boolean;
@@ -19,10 +18,10 @@ export interface Knob {
 }
 
 const steps = 400; // of a slider
-const rest = 250; // ms without a move before a run
-const restAlive = 900; // the same for a live script
+const rest = 250; // ms without a move
+const restAlive = 900; // ms, live script
 
-/** The knobs of a manifest. An aborted run may have only values, which get no slider. */
+/** Knobs of an aborted run may lack bounds and get no slider. */
 export function knobsIn(manifest: unknown): Knob[] {
   const members = (manifest as { knobs?: Record<string, Partial<Knob>> } | null)?.knobs ?? {};
   return Object.entries(members).flatMap(([name, k]) =>
@@ -32,7 +31,7 @@ export function knobsIn(manifest: unknown): Knob[] {
   );
 }
 
-/** Slider positions and values; the end positions give the exact bounds. */
+/** The end positions give the exact bounds. */
 export function placeOf(knob: Knob, value: number): number {
   const share = knob.log
     ? Math.log(value / knob.from) / Math.log(knob.to / knob.from)
@@ -45,7 +44,7 @@ export function valueAt(knob: Knob, place: number): number {
   if (place >= steps) return knob.to;
   const share = place / steps;
   const value = knob.log ? knob.from * (knob.to / knob.from) ** share : knob.from + share * (knob.to - knob.from);
-  // Round to a quarter of a step at most; four digits if possible.
+  // To a quarter of a step; four digits if possible.
   const next = knob.log ? value * ((knob.to / knob.from) ** (1 / steps) - 1) : (knob.to - knob.from) / steps;
   const digits = Math.ceil(Math.log10((4 * Math.abs(value)) / next));
   return Math.min(knob.to, Math.max(knob.from, Number(value.toPrecision(Math.min(17, Math.max(4, digits))))));
@@ -58,35 +57,35 @@ export function knobText(knob: Knob, value = knob.value): string {
 export class KnobsPane {
   readonly element = h('div', { className: 'knobs', role: 'group', 'aria-label': 'Knobs of the script', hidden: true });
   private of: Followed | undefined; // owner of the shown knobs
-  private asked: Run | undefined; // its manifest was requested
-  private current: Run | undefined; // last shown
+  private asked: Run | undefined; // manifest requested
+  private current: Run | undefined;
   private knobs: Knob[] = [];
-  private tell: (() => void)[] = []; // updates each shown value
+  private tell: (() => void)[] = []; // updates the values
   private timer = 0;
-  private waiting = false; // moved during a run that is being stopped
+  private waiting = false; // moved; the current run is being stopped
   private starting = false;
 
   constructor(
     private readonly api: Api,
     private readonly actions: {
-      again: (of: Followed, values: Record<string, string>) => Promise<boolean>; // true if started
+      again: (of: Followed, values: Record<string, string>) => Promise<boolean>; // true: started
       stop: () => Promise<void>;
       failed: (error: unknown) => void;
-      keyOf: (run: Run) => string; // the document of a run
-      touched: (of: Followed) => void; // pointer or focus is on a slider
-      answering: () => boolean; // a live answer is pending
-      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // false if not live
+      keyOf: (run: Run) => string; // document key
+      touched: (of: Followed) => void; // pointer or focus
+      answering: () => boolean;
+      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // false: not live
     },
   ) {}
 
-  /** Called for every new or changed run. */
+  /** For every new or changed run. */
   show(run: Run | undefined): void {
     const news = run !== this.current;
     this.current = run;
     if (!run || run.live) return;
     if (news && run.script !== this.of?.script && run !== this.asked) {
       this.clear();
-      this.asked = undefined; // a pending manifest belongs to another script
+      this.asked = undefined;
     }
     if (run.active || run === this.asked) return;
     this.asked = run;
@@ -94,12 +93,12 @@ export class KnobsPane {
     else void this.fetch(run);
   }
 
-  /** Knobs of an edited script; unchanged knobs keep their values. */
+  /** From the edited script; unchanged knobs keep their values. */
   know(of: Followed, told: unknown): void {
     const found = knobsIn({ knobs: told });
     if (of.script === this.of?.script || this.timer || this.starting || this.waiting) return;
     if (found.length === 0) {
-      // A run's knobs stay with its results; knobs of an outdated text are removed.
+      // A run's knobs stay with its results.
       if (this.of && this.of.script !== this.current?.script) this.clear();
       return;
     }
@@ -116,7 +115,7 @@ export class KnobsPane {
       const found = knobsIn(manifest);
       run.knobs = found.map((k) => ({ ...k }));
       if (this.asked !== run || this.timer || this.starting || this.waiting) return;
-      // After an early error, the old sliders stay, so that the user can go back.
+      // After an early error, the user can go back.
       if (found.length > 0 || run.script !== this.of?.script)
         this.fill({ script: run.script, name: run.name, key: this.actions.keyOf(run) }, found);
     } catch {
@@ -140,7 +139,7 @@ export class KnobsPane {
     this.of = of;
     this.element.hidden = knobs.length === 0;
     if (same && this.element.childElementCount > 0) {
-      // Do not replace a slider that has the focus.
+      // Keep the focused slider.
       this.knobs.forEach((k, n) => (k.value = knobs[n].value));
       this.tell.forEach((tell) => tell());
       return;
@@ -209,7 +208,7 @@ export class KnobsPane {
     try {
       const begun = await this.actions.again(of, this.values());
       if (begun && !this.waiting) return;
-      // A run with outdated values is active: its end starts a run with the present values.
+      // The end of the active run starts one with the present values.
       this.waiting = true;
       await this.actions.stop();
     } catch (error) {
@@ -218,7 +217,6 @@ export class KnobsPane {
     } finally {
       this.starting = false;
     }
-    // The run may have ended meanwhile.
     if (this.waiting && this.current?.active === false) this.go();
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tabs, dividers and keyboard navigation: arrow keys in tabs and on dividers, F6 between panes.
+// Tabs, dividers and keyboard navigation.
 
 import { keep, kept } from './storage';
 
@@ -39,14 +39,13 @@ export class Tabs {
     this.changed(name);
   }
 
-  /** Selects a tab unless the user chose one or has the focus in a panel; false if the choice stays. */
+  /** Not if the user chose a tab or has the focus in a panel; then false. */
   offer(name: string): boolean {
     if (this.byHand || document.activeElement?.closest('[role=tabpanel]')) return false;
     if (this.selected !== name) this.select(name);
     return true;
   }
 
-  /** Offers select tabs again. */
   forgetChoice(): void {
     this.byHand = false;
   }
@@ -71,7 +70,7 @@ export class Tabs {
   }
 }
 
-/** A divider moved by pointer or arrow keys; `property` holds a width in per cent. */
+/** Moved by pointer or arrow keys; `property`: width in per cent. */
 export function divider(
   element: HTMLElement,
   property: string,
@@ -111,7 +110,7 @@ export function divider(
   });
 }
 
-/** A button that lets an element fill the window; meanwhile only the banner is reachable besides. */
+/** Fills the window with an element; only the banner stays reachable. */
 export class Filling {
   constructor(
     private readonly button: HTMLButtonElement,
@@ -137,7 +136,7 @@ export class Filling {
   }
 }
 
-/** F6 moves to the next visible pane, Shift-F6 to the previous. */
+/** F6: next visible pane; Shift-F6: previous. */
 export function goRound(panes: { element: HTMLElement; enter: () => void }[]): void {
   document.addEventListener('keydown', (event) => {
     if (event.key !== 'F6') return;
@@ -149,7 +148,7 @@ export function goRound(panes: { element: HTMLElement; enter: () => void }[]): v
       open[(at + step + open.length) % open.length].enter();
       return;
     }
-    // Outside all panes: the next pane in document order, or the previous.
+    // Outside all panes: the nearest in document order.
     const follows = (p: { element: HTMLElement }): boolean =>
       ((document.activeElement ?? document.body).compareDocumentPosition(p.element) &
         Node.DOCUMENT_POSITION_FOLLOWING) !==

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lessons: a list, and the open lesson with its question, the predictions, and then the text. The browser
-// stores edited scripts and predictions by name; reset restores the lesson's script. The browser's Back
-// returns to the list.
+// The list of lessons, and the open lesson: question, predictions, then text. The browser stores edited
+// scripts and predictions by name. Back returns to the list.
 
 import type { Api, Lesson, LessonEntry } from './api';
 import { h } from './dom';
@@ -11,7 +10,7 @@ import type { Guess } from './predictions';
 import { keptScript } from './storage';
 
 export interface Opened {
-  key: string; // storage key of the document
+  key: string; // storage key
   title: string;
   script: string; // stored or original
   original: string;
@@ -37,7 +36,7 @@ export class LessonsPane {
     });
   }
 
-  /** For a user's choice: Back undoes it. The address does not change. */
+  /** Back undoes a user's choice. */
   private go(lesson: string): void {
     history.pushState({ lesson }, '');
     void (lesson ? this.show(lesson, true) : this.list(true));

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Live scripts: the server keeps a process for this tab, and each move gets the results at these knob values.
-// Only the newest move is sent. A new move waits for a pending answer, for a short time and only until a
-// coarse answer.
+// Live scripts: a server process for this tab answers each knob move. Only the newest move is sent; it waits
+// for a pending answer, shortly and only before a coarse answer.
 
 import { ApiError, type Api, type RunEvent, type View } from './api';
 import { fieldOf, type Field } from './pictures';
 import { Run } from './run';
 
-/** A script, its name, and the key of its document. */
 export interface Followed {
   script: string;
   name: string;
   key: string;
 }
 
-/** Facts of an answer, without the numbers of its view. */
+/** An answer without the numbers of its view. */
 export interface LiveFacts {
   part: 'coarse' | 'whole' | 'outdated' | 'ended';
   why?: string;
@@ -35,22 +33,22 @@ export interface LivePicture {
 interface Move {
   of: Followed;
   values: Record<string, string>;
-  began: number; // performance.now() of the causing event
+  began: number; // performance.now() of the event
 }
 
 interface Under {
   move: Move;
   since: number;
   stop: AbortController;
-  coarse: boolean; // a coarse answer has arrived
+  coarse: boolean; // has arrived
 }
 
-const patience = 250; // ms a newer move waits for a pending answer,
-const mostPatience = 2000; // or 1.5 times the last full answer, at most this
-const slow = 450; // ms before a pending move is reported
+const patience = 250; // ms, wait for a pending answer,
+const mostPatience = 2000; // or 1.5 times the last full answer, up to this
+const slow = 450; // ms
 
 export class Live {
-  /** The server refused a live session. */
+  /** Refused by the server. */
   failed = false;
   private readonly tab = [...crypto.getRandomValues(new Uint32Array(2))].map((n) => n.toString(36)).join('');
   private session: { script: string; id: Promise<string> } | undefined;
@@ -66,23 +64,21 @@ export class Live {
       answered: (run: Run, of: Followed, picture: LivePicture | undefined, began: number) => void;
       changed: () => void;
       failed: (error: unknown) => void;
-      view: () => string; // shown view; '' the last
+      view: () => string; // '' the last
     },
   ) {
     addEventListener('pagehide', () => this.end());
   }
 
-  /** Whether an answer is pending. */
   get busy(): boolean {
     return this.going;
   }
 
-  /** Whether an answer is pending for long. */
   get isSlow(): boolean {
     return this.under !== undefined && performance.now() - this.under.since >= slow;
   }
 
-  /** A move is about to come: starts the session. */
+  /** Starts the session before a move. */
   warm(of: Followed): void {
     if (!this.failed) this.open(of.script).catch(() => undefined);
   }
@@ -94,13 +90,12 @@ export class Live {
     else void this.go();
   }
 
-  /** Cancels the pending answer. */
   forget(): void {
     this.wanted = undefined;
     this.under?.stop.abort();
   }
 
-  /** Also ends the process, which may be in a long computation. */
+  /** Also ends the process. */
   end(): void {
     this.forget();
     const session = this.session;
@@ -140,7 +135,7 @@ export class Live {
       }
     } catch (error) {
       this.wanted = undefined;
-      // Without live sessions, the script runs as a whole when the knob rests.
+      // Not live: the script runs as a whole when the knob rests.
       if (error instanceof ApiError && error.failure === 'refused') this.failed = true;
       else this.on.failed(error);
     } finally {
@@ -211,7 +206,6 @@ export class Live {
     this.on.answered(run, of, picture, move.began);
   }
 
-  /** Another view of an answer; its results are in memory at the server. */
   private async look(move: Move, name: string): Promise<Field[]> {
     let found: Field[] = [];
     const id = await this.open(move.of.script);
@@ -228,7 +222,7 @@ export class Live {
   }
 }
 
-/** Reads frames from a stream: a number of texts, then each text after its length. */
+/** Frames: a number of texts, then each after its length. */
 export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: Uint8Array[]) => void): Promise<void> {
   const reader = body.getReader();
   let bytes = new Uint8Array(1 << 20);
@@ -250,7 +244,7 @@ export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: U
   }
 }
 
-/** Passes on the first complete frame and returns its end; 0 if incomplete. */
+/** The end of the first complete frame; 0 if incomplete. */
 function whole(bytes: Uint8Array, filled: number, take: (texts: Uint8Array[]) => void): number {
   const numbers = new DataView(bytes.buffer);
   if (filled < 8) return 0;

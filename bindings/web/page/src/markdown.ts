@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Markdown of lessons as elements, built from parsed tokens. HTML stays text, links lead only to http and
-// https, and pictures are not loaded.
+// Markdown of lessons as elements. HTML stays text, links lead only to http and https, and pictures are not
+// loaded.
 
 import { lexer, type Token, type Tokens } from 'marked';
 import { h } from './dom';
@@ -11,7 +11,7 @@ export function markdown(text: string): DocumentFragment {
   return fragment;
 }
 
-/** A highlighted paragraph under its name; one line of Markdown. */
+/** One line of Markdown. */
 export function calledOut(name: string, text: string): HTMLElement {
   const [token] = lexer(text);
   return h('p', { className: 'called' }, h('b', {}, name), token?.type === 'paragraph' ? inline(token.tokens) : text);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Point marks of a chart's lines. Single points have a paper-coloured outline; crowded points do not, because
-// the outline would hide neighbours and the line. With many crowded points all points are smaller, or omitted
-// if the line passes through all of them.
+// Point marks of chart lines. Single points have a paper-coloured outline; crowded points have none, because
+// outlines would hide neighbours and the line. Many crowded points are smaller, or omitted if the line passes
+// through all.
 
 export interface Place {
   x: number;
@@ -12,13 +12,13 @@ export type Marks = 'large' | 'small' | 'none';
 
 export const radii = { large: 4, small: 2, none: 0 };
 
-/** `onLine`: the line passes through every point. */
+/** `onLine`: the line passes through all points. */
 export function marksFor(places: Place[], onLine: boolean): Marks {
   if (share(crowded(places, 2 * radii.large)) <= 0.2) return 'large';
   return onLine && places.length > 100 && share(crowded(places, 2 * radii.small)) > 0.5 ? 'none' : 'small';
 }
 
-/** For each place, whether another is nearer than `size`; identical places count as one. */
+/** Whether another place is nearer than `size`; identical places count as one. */
 export function crowded(places: Place[], size: number): boolean[] {
   const tenths = places.map((p) => ({ x: Math.round(10 * p.x), y: Math.round(10 * p.y) }));
   const squares = new Map<string, Map<string, Place>>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's own messages: the live region for screen readers, and the banner. If the server is unreachable,
-// the page retries until it answers, and then removes the banner.
+// Messages of the page: the live region for screen readers, and the banner, which retries while the server is
+// unreachable.
 
 import { ApiError, serverGoneHint, tokenHint } from './api';
 import { byId, h } from './dom';
@@ -14,13 +14,12 @@ export class Messages {
 
   constructor(private readonly ask: () => void) {}
 
-  /** Whether the page is retrying. */
   get watching(): boolean {
     return this.timer !== 0;
   }
 
   say = (text: string): void => {
-    // A screen reader repeats a message only if the text differs.
+    // Screen readers skip unchanged text.
     this.live.textContent = this.live.textContent === text ? `${text} ` : text;
   };
 

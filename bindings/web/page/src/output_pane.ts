@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run's errors with lines, its output, and its expectations. A long output loses its beginning, with a
-// note. Tabular text scrolls sideways; prose wraps.
+// Errors, output and expectations of a run. Long output loses its beginning. Tabular text scrolls; prose
+// wraps.
 
 import { h, prose } from './dom';
 import { duration } from './units';
 import { statusText, type Run } from './run';
 
-/** The text in blocks at empty lines; a block without columns is prose. */
+/** Blocks end at empty lines; a block without columns is prose. */
 function laidOut(text: string): (string | HTMLElement)[] {
   const parts: { text: string; columns: boolean }[] = [];
   for (const block of text.split(/(?<=\n)(?=\n)/)) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The colours of maps, identical to engine/plot/palette.cpp. Viridis and cividis are perceptually uniform.
-// Heat, the part of inferno from orange to black, has a contrast of at least 3:1 with its grey for none.
-// Contact has two colours.
+// Map colours, as in engine/plot/palette.cpp. Viridis and cividis are perceptually uniform. Heat, inferno
+// from orange to black, has a contrast of at least 3:1 with its grey.
 
 export interface Palette {
-  colours: number[]; // 0xRRGGBB in equal steps, lowest value first
-  none?: number; // of the lowest value, if this means none
+  colours: number[]; // 0xRRGGBB, equal steps, lowest first
+  none?: number; // colour of the lowest value, if special
 }
 
 export const palettes: Record<string, Palette> = {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pane of pictures: view, colours, relief and its exaggeration, turned by mouse, touch or keys. Without
-// WebGL the map is flat, with a note. Maps are fetched when shown.
+// The 3-D pictures of views. Without WebGL the map is flat. Maps are fetched when shown.
 
 import type { Api } from './api';
 import { coloursOf, legend, rangeOf } from './colour';
@@ -28,8 +27,8 @@ import type { Run } from './run';
 import type { ReliefScene } from './scene';
 import { Scrubber } from './scrub';
 
-const fetched = 24; // views in memory
-const rested = 350; // ms after the last move before a relief is drawn
+const fetched = 24; // in memory
+const rested = 350; // ms without a move before a relief is drawn
 
 export class PicturePane {
   private run: Run | undefined;
@@ -44,7 +43,7 @@ export class PicturePane {
   private scene: ReliefScene | undefined;
   private flat = false;
   private pending = false;
-  private kept = ''; // the view shown in the previous run
+  private kept = ''; // view in the previous run
   private began: number | undefined; // the event behind a picture
   private readonly which = new Choice('Picture', (name) => {
     this.scrubber.pause();
@@ -136,12 +135,12 @@ export class PicturePane {
     if (name !== this.shown && this.visible) void this.look(name);
   }
 
-  /** The requested view; '' for the last view. */
+  /** '' for the last view. */
   get lookedAt(): string {
     return this.followed ? '' : this.shown;
   }
 
-  /** The same script at other values: the old picture stays until the new one arrives. */
+  /** Other values: the old picture stays until the new one arrives. */
   succeed(run: Run, picture?: LivePicture, began?: number): void {
     this.scrubber.pause();
     this.take(run);
@@ -172,7 +171,7 @@ export class PicturePane {
 
   private resting = 0;
 
-  /** No knob moves. During a move the map is flat, because a relief is slow. */
+  /** A relief is too slow while a knob moves. */
   private rest(): void {
     clearTimeout(this.resting);
     this.map.hidden = true;
@@ -198,7 +197,7 @@ export class PicturePane {
     return coming;
   }
 
-  /** Shows a requested picture; at the last picture, the pane follows new ones. */
+  /** After the last picture, the pane follows new ones. */
   private async choose(name: string): Promise<void> {
     this.followed = name === this.run?.views[this.run.views.length - 1]?.name;
     await this.look(name);
@@ -238,7 +237,7 @@ export class PicturePane {
     );
     this.colourChoice.select.value = this.colour.name;
     this.reliefChoice.select.value = this.relief?.name ?? 'flat';
-    // Pictures of one kind share a factor, so that they compare.
+    // Pictures of one kind share a factor for comparison.
     if (this.relief && (!previous || previous.name !== this.relief.name)) {
       this.step = fittingExaggeration(spanOf(this.relief.values), Math.max(this.relief.sizeX, this.relief.sizeY));
     }
@@ -336,7 +335,7 @@ export class PicturePane {
     this.labels.replaceChildren(
       ...this.scene.anchors(width, height).map((anchor) => {
         const element = h('span', { className: 'tag' }, anchorText(anchor.name, this.colour!, this.relief));
-        // Keep labels inside the picture.
+        // Keep labels inside.
         element.style.left = `${Math.min(width - (anchor.outward < 0 ? 0 : 80), Math.max(anchor.name === 'z' ? 34 : anchor.outward < 0 ? 80 : 0, anchor.left))}px`;
         element.style.top = `${anchor.top}px`;
         element.style.transform =
@@ -346,7 +345,6 @@ export class PicturePane {
     );
   }
 
-  /** Measures the time from a move to the painted frame. */
   private painted(began: number): void {
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
@@ -357,7 +355,7 @@ export class PicturePane {
   }
 
   private title(): string {
-    const name = this.shown || this.kept; // visible until the next arrives
+    const name = this.shown || this.kept; // until the next arrives
     return this.run?.views.find((v) => v.name === name)?.title ?? name;
   }
 
@@ -409,8 +407,7 @@ export class PicturePane {
     });
   }
 
-  /** The last views of a run as drawings, from the present attitude. `steps`: exaggeration of reliefs by
-      name; with one map, all drawings compare. */
+  /** The last views of a run, from the present attitude. `steps`: exaggeration by relief name. */
   drawings(run: Run, most: number, steps: Map<string, number>): Promise<Drawing[]> {
     if (this.relief) steps.set(this.relief.name, this.step);
     const fields = (name: string): Promise<Field[]> =>

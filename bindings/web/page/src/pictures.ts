@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps of a view as numbers, and the captions about exaggeration and sampling. A gap is drawn downwards, so
-// that contact is highest.
+// Maps of a view as numbers, with captions. A gap is drawn downwards: contact is highest.
 
 import type { View, ViewField } from './api';
 import { numberText, scaleFor, withUnit } from './units';
@@ -14,7 +13,7 @@ export interface Field {
   sizeY: number;
   fromNx: number;
   fromNy: number;
-  notMeasured: number; // number of nodes
+  notMeasured: number; // number
   reduction: string;
   values: Float32Array; // NaN: missing
 }
@@ -78,11 +77,10 @@ export function spanOf(values: Float32Array): number {
   return high > low ? high - low : 0;
 }
 
-/** Exaggeration steps 1, 2, 5, 10 … from 1/100 to 5 000 000. */
 export const exaggerations: number[] = [];
 for (let power = -2; power <= 6; ++power) for (const f of [1, 2, 5]) exaggerations.push(f * 10 ** power);
 
-/** The step for a relief height of about a sixth of the side. */
+/** For a relief height of about a sixth of the side. */
 export function fittingExaggeration(span: number, side: number): number {
   if (!(span > 0)) return exaggerations.indexOf(1);
   const wanted = Math.log((0.17 * side) / span);
@@ -93,14 +91,13 @@ export function fittingExaggeration(span: number, side: number): number {
   return best;
 }
 
-/** A round length near a third of the relief height, for the scale bar. */
+/** The length of the scale bar: round, near a third of the relief. */
 export function barFor(span: number): number {
   if (!(span > 0)) return 0;
   const power = 10 ** Math.floor(Math.log10(span / 2));
   return [5, 2, 1].map((f) => f * power).find((b) => b <= span / 2) ?? power;
 }
 
-/** The label of a side or of the scale bar. */
 export function anchorText(name: 'x' | 'y' | 'z', colour: Field, relief: Field | undefined): string {
   if (name === 'z') return withUnit(barFor(spanOf(relief!.values)), 'm');
   const scale = scaleFor('m', Math.max(colour.sizeX, colour.sizeY));
@@ -111,7 +108,7 @@ export function factorText(factor: number): string {
   return factor >= 1 ? `× ${factor.toLocaleString('en').replace(/,/g, ' ')}` : `× ${numberText(factor)}`;
 }
 
-/** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", or "all … nodes shown". */
+/** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", "all … nodes shown". */
 export function samplingText(field: Field): string {
   const shown = `${field.nx} × ${field.ny}`;
   const from = `${field.fromNx} × ${field.fromNy}`;
@@ -147,7 +144,6 @@ export function describe(colour: Field): string {
     sum += v;
     ++known;
   }
-  // A mean at rounding level is shown as zero.
   const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;
   return `${colour.name} from ${withUnit(least, colour.unit)} to ${withUnit(most, colour.unit)}, mean ${withUnit(mean, colour.unit)}`;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lesson's predictions: a field for each number in the lesson's script, a field for words, stored in the
-// browser, and the run's verdicts.
+// A lesson's predictions: numbers, as in the lesson's script; words, stored in the browser; and the run's
+// verdicts.
 
 import { h } from './dom';
 import { guessesIn, verdictsOf, withGuess, type Guess } from './predictions';
@@ -61,7 +61,7 @@ export class PredictionBox {
     this.read();
   }
 
-  /** Updates the numbers from the edited script. */
+  /** From the edited script. */
   read(): void {
     if (this.fields.length === 0) return;
     const guesses = guessesIn(this.script.text());
@@ -73,7 +73,6 @@ export class PredictionBox {
     }
   }
 
-  /** Shows a run's verdicts, if there are any. */
   judge(run: Run | undefined): void {
     const verdicts = run && !run.active ? verdictsOf(run) : [];
     this.judged.hidden = verdicts.length === 0;

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Predicted numbers of a lesson, in its script: `local my_guess = nil -- in degrees` or `local my_guess = {
-// halved=nil, heavy=nil }`. The script prints its verdicts in lines that begin with "You said". These
-// functions read and write the numbers and extract the verdicts.
+// Predicted numbers in a lesson's script: `local my_guess = nil -- in degrees` or `local my_guess = {
+// halved=nil, heavy=nil }`. The script prints verdicts in lines that begin with "You said".
 
 import type { Run } from './run';
 
 export interface Guess {
-  name: string; // empty for a single number
+  name: string; // empty if single
   value: number | undefined;
 }
 
 export interface Guesses {
   list: Guess[];
-  note: string; // the script's remark: unit, range
+  note: string; // remark: unit, range
 }
 
 const line = /^local my_guess = (\{[^}\n]*\}|[^{\n]*?)[ \t]*(?:--[ \t]*([^\n]*))?$/m;
 
-/** Undefined if the script has no guesses. */
+/** Undefined without guesses. */
 export function guessesIn(script: string): Guesses | undefined {
   const found = line.exec(script);
   if (!found) return undefined;
@@ -30,7 +29,7 @@ export function guessesIn(script: string): Guesses | undefined {
   return { list, note };
 }
 
-/** The script with this number, or nil; unchanged without a place for guesses. */
+/** Unchanged without a place for the number. */
 export function withGuess(script: string, name: string, value: number | undefined): string {
   const literal = value === undefined ? 'nil' : String(value);
   return script.replace(line, (whole: string, given: string) => {
@@ -48,7 +47,6 @@ function numberOf(literal: string): number | undefined {
   return text.trim() === '' || Number.isNaN(Number(text)) ? undefined : Number(text);
 }
 
-/** The script's own sentences. */
 export function verdictsOf(run: Run): string[] {
   const printed = run.output
     .filter((part) => part.stream === 'out')

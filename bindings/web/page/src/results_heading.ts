@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The line above the results: script, run and time. Results of a script other than the open one are grey,
-// with a note.
+// The line above the results. Results of another script are grey, with a note.
 
 import { byId } from './dom';
 import type { Run } from './run';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The teacher's view of the classroom: current runs with stop buttons, last runs and requests for help, and
-// histograms of predictions. It polls only while open. Also the student's help button.
+// The teacher's view of the classroom, polled while open: runs, requests for help, histograms of predictions.
+// Also the student's help button.
 
 import type { Api, RoomPerson, RoomRun } from './api';
 import { byId, Choice, h } from './dom';
@@ -75,7 +75,7 @@ export class Room {
     if (focused) document.getElementById(focused)?.focus();
   }
 
-  /** People who need help come first. */
+  /** Requests for help first. */
   private showPeople(people: RoomPerson[], runs: RoomRun[]): void {
     const last = new Map(runs.map((run) => [run.owner, run]));
     const row = (p: RoomPerson): HTMLElement => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run of the page: the sum of its events. An event only changes this record; the panes draw from it once a
-// frame, so that 10,000 lines cost one drawing.
+// A run as the sum of its events. Events only change this record; panes draw once a frame, so that 10,000
+// lines cost one drawing.
 
 import type { Cell, RunEvent } from './api';
 import { chartedIn, keysIn, type Charted } from './charted';
@@ -28,22 +28,21 @@ export interface RunError {
   traceback?: string;
 }
 
-/** The answer to a knob move. */
 export interface LiveRun {
-  coarse: boolean; // the full answer is pending
-  factor: number; // of the script's cells
+  coarse: boolean; // a full answer follows
+  factor: number; // of `cells`
   seconds: number;
   computed: number; // heavy results
   recalled: number; // from memory
   fields: (view: string) => Promise<Field[]>;
 }
 
-/** Characters of output in memory; the beginning of a longer output is dropped. */
+/** Characters; longer output loses its beginning. */
 export const outputKept = 400_000;
 
 export class Run {
   status: Status = 'starting';
-  before: number | undefined; // runs ahead while waiting
+  before: number | undefined; // runs ahead
   reason = '';
   seconds: number | undefined;
   output: OutputPart[] = [];
@@ -52,13 +51,13 @@ export class Run {
   readonly notebooks = new Map<string, Notebook>();
   readonly files = new Map<string, { name: string; bytes: number; kind: string }>();
   readonly views: { name: string; title: string }[] = [];
-  viewsLeftOut = 0; // surfaces and presses without a view, for speed
+  viewsLeftOut = 0; // for speed
   readonly expectations: { text: string; held: boolean }[] = [];
-  knobs: Knob[] = []; // with this run's values, once known
-  live: LiveRun | undefined; // a live answer, not a recorded run
+  knobs: Knob[] = []; // with this run's values
+  live: LiveRun | undefined; // not a recorded run
   readonly errors: RunError[] = [];
-  readonly keys: string[]; // of tables in the script, in order
-  readonly charted: Charted[]; // charts found in the script's text
+  readonly keys: string[]; // of tables, in order
+  readonly charted: Charted[]; // from the script's text
   private characters = 0;
 
   constructor(
@@ -97,7 +96,6 @@ export class Run {
         break;
       case 'view':
         if (!this.views.some((v) => v.name === event.name)) {
-          // Numbers distinguish calls of the same name.
           const title = event.title ?? event.name;
           const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
           this.views.push({ name: event.name, title: same ? `${title} (${same + 1})` : title });
@@ -114,7 +112,7 @@ export class Run {
         break;
       case 'finished':
         this.status = event.status;
-        // An error has its own reason and line.
+        // An error has its own reason.
         this.reason =
           event.status === 'failed' && this.errors.length > 0 ? '' : (event.reason ?? '').replace(/\.$/, '');
         this.seconds = event.seconds;
@@ -141,7 +139,7 @@ export class Run {
   private write(name: string, row: Record<string, Cell>, units: Record<string, string>, columns: string[]): void {
     let notebook = this.notebooks.get(name);
     if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [...columns], units: {}, rows: [] }));
-    // A row has its columns in the notebook's order; later rows may add columns.
+    // Later rows may add columns.
     for (const column of Object.keys(row)) {
       if (!notebook.columns.includes(column)) notebook.columns.push(column);
     }
@@ -180,8 +178,7 @@ export function statusText(run: Run, seconds: (s: number) => string): string {
 
 const mostNames = 60; // along an axis
 
-/** The names in a column of texts in row order; empty for other columns or for too many names, as in the
-    engine's charts. */
+/** In row order; empty for other columns or too many names, as in the engine's charts. */
 export function namesIn(notebook: Notebook, column: string): string[] {
   const names = new Set<string>();
   for (const row of notebook.rows) {
@@ -193,7 +190,6 @@ export function namesIn(notebook: Notebook, column: string): string[] {
   return names.size > mostNames ? [] : [...names];
 }
 
-/** Possible x columns: numbers or names. */
 export function columnsAlong(notebook: Notebook): string[] {
   return notebook.columns.filter(
     (c) => notebook.rows.some((r) => typeof r[c] === 'number') || namesIn(notebook, c).length > 0,

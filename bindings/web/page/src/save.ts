@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as one self-contained HTML file: script, output, numbers, charts and pictures. With runs at several
-// knob values, all these runs are included. The only script is `saved/player.ts`; the file's content policy
-// allows its digest and nothing else. The file is built as a document and serialised, so that the browser
-// escapes every text.
+// A run as one self-contained HTML file, with its variants at other knob values. The only script is
+// `saved/player.ts`; the content policy allows its digest and nothing else. The file is serialised from a
+// document: the browser escapes every text.
 
 import type { Api } from './api';
 import type { ChartPane } from './chart_pane';
@@ -17,7 +16,7 @@ import { sequencesOf } from './saved/sequences';
 import { csvOf, tableOf } from './table_pane';
 import { duration } from './units';
 
-/** The bundled `saved/player.ts` and its digest, inserted by build.mjs. */
+/** Inserted by build.mjs: the bundled `saved/player.ts` and its digest. */
 declare const SAVED_PLAYER: { text: string; digest: string };
 
 const drawn = 60; // surfaces and contacts in a file
@@ -50,18 +49,17 @@ export interface Sources {
   version: string;
   title: string;
   prediction: string | null;
-  recorded: Run[]; // this run and its variants at other knob values
+  recorded: Run[]; // at several knob values
 }
 
-/** Settings for a run's results: at most `most` drawings; `steps`: exaggeration of reliefs. */
+/** `most` drawings; `steps`: exaggeration by relief. */
 interface Filling {
   from: Sources;
-  missing: string[]; // receives the names of missing parts
+  missing: string[]; // names of missing parts
   most: number;
   steps: Map<string, number>;
 }
 
-/** The file's text, and the missing parts. */
 export async function savedRun(run: Run, from: Sources): Promise<{ html: string; missing: string[] }> {
   const missing: string[] = [];
   const page = document.implementation.createHTMLDocument(`${from.title} – Asperity`);
@@ -99,7 +97,7 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
   }
   if (missing.length > 0)
     body.append(h('h2', {}, 'Not in this file'), h('ul', {}, ...missing.map((m) => h('li', {}, m))));
-  // Inserted as text: the page's content policy forbids style and script elements even in a hidden document.
+  // As text: the content policy forbids style and script elements even in a hidden document.
   const html = page.documentElement.outerHTML
     .replace('</head>', () => `<style>${style}</style></head>`)
     .replace(/<\/body>(?![^]*<\/body>)/, () => `<script>${SAVED_PLAYER.text}</script></body>`);
@@ -133,7 +131,6 @@ function knobsOf(run: Run, recorded: Run[]): HTMLElement[] {
   ];
 }
 
-/** Adds errors, output, expectations, notebooks with charts, and pictures. */
 async function addResults(body: HTMLElement, run: Run, filling: Filling): Promise<void> {
   const { from, missing } = filling;
   for (const e of run.errors) {
@@ -202,7 +199,7 @@ function scriptOf(run: Run): HTMLElement {
   );
 }
 
-/** Adds the script's charts and pictures; numbered pictures form a sequence. */
+/** Numbered pictures form a sequence. */
 async function addFiles(body: HTMLElement, run: Run, from: Sources, missing: string[]): Promise<void> {
   const names = [...run.files.keys()].filter((name) => pictureType(name));
   if (names.length > 0) body.append(h('h2', {}, 'Charts and pictures of the script'));
@@ -245,7 +242,6 @@ function titled(title: string, figure: HTMLElement): HTMLElement {
   return figure;
 }
 
-/** Several pictures become one player. */
 function framed(figures: HTMLElement[], name: string): HTMLElement[] {
   if (figures.length < 2) return figures;
   const frames = h('div', { className: 'frames' }, ...figures);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The relief in WebGL: a lit grid of nodes, a rim, and a scale bar. Shading is part of the node colours and
-// slight, so that colours match the legend. Frames are drawn only after changes. Only this file needs
-// three.js; it is loaded with the first picture.
+// The relief in WebGL with rim and scale bar. Shading is slight, so that colours match the legend. Draws only
+// after changes. Only this file needs three.js; loaded with the first picture.
 
 import {
   BufferAttribute,
@@ -25,17 +24,17 @@ export interface Relief {
   ny: number;
   sizeX: number; // m
   sizeY: number;
-  heights: Float32Array | null; // m, row by row, j first; null is flat
+  heights: Float32Array | null; // m, row by row; null is flat
   colours: Uint8Array; // three bytes a node
   exaggeration: number;
 }
 
-/** A label position in pixels from the top left. */
+/** A label position, px from the top left. */
 export interface Anchor {
   name: 'x' | 'y' | 'z';
   left: number;
   top: number;
-  outward: number; // side of the picture: -1 left, 1 right
+  outward: number; // -1 left, 1 right
 }
 
 export class ReliefScene {
@@ -68,7 +67,7 @@ export class ReliefScene {
     this.frame?.material.color.setHex(this.ink);
   }
 
-  /** `bar`: length of the scale bar, m; 0 for none. */
+  /** `bar`: m; 0 for none. */
   show(relief: Relief, bar: number): void {
     this.clear();
     const { nx, ny } = relief;
@@ -153,7 +152,7 @@ export class ReliefScene {
   render(): void {
     const { turn, tilt, zoom } = this.attitude;
     const [t, p] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
-    // The tile's diagonal fits for every aspect ratio.
+    // Fits the tile's diagonal.
     const distance = (3.0 / zoom) * Math.max(1, 1.15 / this.camera.aspect);
     this.camera.position
       .set(Math.sin(t) * Math.cos(p), -Math.cos(t) * Math.cos(p), Math.sin(p))
@@ -162,7 +161,7 @@ export class ReliefScene {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Label positions of sides and scale bar: the edges nearest to the viewer. */
+  /** At the edges nearest to the viewer. */
   anchors(width: number, height: number): Anchor[] {
     this.camera.updateMatrixWorld();
     const seen = (v: Vector3): { left: number; top: number; depth: number } => {
@@ -177,7 +176,7 @@ export class ReliefScene {
     for (const name of ['x', 'y', 'z'] as const) {
       const places = this.corners[name].map(seen);
       if (places.length === 0) continue;
-      // The scale bar is at every corner; its label is at the left, in front of the background.
+      // The label of the scale bar is at the left, in front of the background.
       const best = places.reduce((p, q) => (name === 'z' ? (q.left < p.left ? q : p) : q.depth < p.depth ? q : p));
       result.push({ name, left: best.left, top: best.top, outward: best.left < width / 2 ? -1 : 1 });
     }
@@ -202,7 +201,7 @@ export class ReliefScene {
   }
 }
 
-/** Colours times light: mostly ambient, with a part from the north-west. */
+/** Mostly ambient light, with a part from the north-west. */
 function shaded(
   colours: Uint8Array,
   z: Float32Array,

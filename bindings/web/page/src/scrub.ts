@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A slider with a play button for the pictures of a run, in order. Pictures that arrive late are skipped.
-// Hidden with fewer than two pictures.
+// Slider and play button for a run's pictures. Late pictures are skipped. Hidden below two pictures.
 
 import { h } from './dom';
 
-const playedFor = 700; // ms for each picture, at least
+const playedFor = 700; // ms each, at least
 
 export class Scrubber {
   readonly element: HTMLElement;
@@ -27,7 +26,7 @@ export class Scrubber {
   private readonly button = h('button', { type: 'button', onclick: () => this.toggle() }, 'Play');
   private readonly place = h('output', { className: 'factor' });
 
-  /** `go` shows a picture and resolves when it is drawn or refused. */
+  /** `go` resolves when the picture is drawn or refused. */
   constructor(
     private readonly go: (place: number) => Promise<void>,
     private readonly label = 'Picture of the run',
@@ -60,7 +59,6 @@ export class Scrubber {
     await this.move(place);
     if (!this.playing) return;
     this.timer = window.setTimeout(() => {
-      // Stop at the end, or when hidden.
       if (this.at >= this.titles.length - 1 || this.element.offsetParent === null) this.pause();
       else void this.step(this.at + 1);
     }, playedFor);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edited scripts and predictions in the browser's storage, which may be refused or full. A script is stored
-// twice: for the browser, so that the next visit finds the last version of any tab, and for the tab, so that
-// a reload finds the tab's own text.
+// Edited scripts and predictions in the browser's storage, which may be refused or full. Scripts are stored
+// for the browser (next visit: last version of any tab) and for the tab (reload: its own text).
 
 export function kept(key: string): string | null {
   try {
@@ -11,7 +10,7 @@ export function kept(key: string): string | null {
   }
 }
 
-/** Stores the text, or deletes it if null; false if the browser refuses. */
+/** Null deletes; false if the browser refuses. */
 export function keep(key: string, text: string | null): boolean {
   try {
     if (text === null) localStorage.removeItem(`asperity.${key}`);
@@ -23,25 +22,24 @@ export function keep(key: string, text: string | null): boolean {
 }
 
 const own = '=';
-const none = '-'; // this tab restored the original script
+const none = '-'; // original script restored
 
-/** The last version of this tab, else of any tab; null if there is none. */
+/** Of this tab, else of any tab; null if none. */
 export function keptScript(key: string): string | null {
   try {
     const mine = sessionStorage.getItem(scriptKey(key));
     if (mine !== null) return mine === none ? null : mine.slice(own.length);
   } catch {
-    // No tab storage.
   }
   return kept(`script.${key}`);
 }
 
-/** Stores the script, or deletes it if null; false if the browser refuses. */
+/** Null deletes; false if the browser refuses. */
 export function keepScript(key: string, text: string | null): boolean {
   try {
     sessionStorage.setItem(scriptKey(key), text === null ? none : own + text);
   } catch {
-    // The browser's copy may still succeed.
+    // The browser's copy may succeed.
   }
   return keep(`script.${key}`, text);
 }

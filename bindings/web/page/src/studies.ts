@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a work-precision study contain seconds, so they are not in a notebook but in <name>.csv. This file
-// reads them as a notebook for the page.
+// Rows of a work-precision study, which contain seconds, are in <name>.csv instead of a notebook. Here they
+// become a notebook.
 
 import type { Api, Cell } from './api';
 import { studiesIn } from './charted';
 import type { Run } from './run';
 
-/** Reads a study's file; true if its rows were added to the run. */
+/** True if rows were added. */
 export async function readStudy(run: Run, file: string, api: Api): Promise<boolean> {
   const name = file.replace(/\.csv$/, '');
   if (name === file || ![...studiesIn(run.script).values()].includes(name)) return false;
@@ -15,7 +15,7 @@ export async function readStudy(run: Run, file: string, api: Api): Promise<boole
   return true;
 }
 
-/** Comma-separated, with units in brackets after column names; numeric text becomes numbers. */
+/** Units are in brackets after column names. */
 function tableOf(text: string): { columns: string[]; units: Record<string, string>; rows: Record<string, Cell>[] } {
   const [head, ...lines] = text.split('\n').filter(Boolean).map(cellsOf);
   const units: Record<string, string> = {};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The axis of a chart, for numbers or names: its range and its ticks. From many ticks to few, the first set
-// without overlapping labels is chosen. Integer data have integer ticks. A logarithmic axis ends at its data
-// and writes all ticks in one format.
+// Range and ticks of an axis, for numbers or names: the largest set of ticks without overlapping labels.
+// Integer data have integer ticks. A logarithmic axis ends at its data.
 
 import { scaleLinear } from 'd3-scale';
 import { raised, sameToRounding } from './units';
@@ -12,7 +11,7 @@ export interface Axis {
   labels: string[];
 }
 
-/** Whether labels at these fractions of the axis, 0 to 1, do not overlap. */
+/** Whether labels at these fractions of the axis do not overlap. */
 export type Apart = (labels: string[], shares: number[]) => boolean;
 
 export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
@@ -35,7 +34,7 @@ export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
   return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last) };
 }
 
-/** Equal room for each name; if necessary only every second, third … name is written. */
+/** If necessary only every second, third … name is written. */
 export function axisOfNames(names: string[], apart: Apart): Axis {
   const domain: [number, number] = [-0.5, names.length - 0.5];
   for (let every = 1; ; ++every) {
@@ -49,7 +48,7 @@ function spare(value: number): number {
   return Math.abs(value) / 10 || 1;
 }
 
-/** Room for a whole mark at the rim. */
+/** Room for a whole mark. */
 function aLittleBeyond(low: number, high: number): [number, number] {
   const factor = (high / low) ** 0.03;
   return [low / factor, high * factor];
@@ -95,7 +94,7 @@ function distinct(sets: number[][]): number[][] {
   return sets.filter((ticks, k) => ticks.length > 0 && sets.findIndex((other) => String(other) === String(ticks)) === k);
 }
 
-/** Plain numbers, or all with the largest power of ten; enough digits to distinguish them. */
+/** Plain, or with a common power of ten; enough digits to distinguish them. */
 function labelsOf(ticks: number[]): string[] {
   const greatest = ticks.reduce((most, t) => Math.max(most, Math.abs(t)), 0);
   const power = greatest > 0 ? Math.floor(Math.log10(greatest) + 1e-9) : 0;
@@ -108,7 +107,7 @@ function labelsOf(ticks: number[]): string[] {
   }
 }
 
-/** Plain numbers if all fit, else powers of ten. */
+/** Plain if all fit, else powers of ten. */
 function labelsOfPowers(ticks: number[]): string[] {
   if (ticks.every((t) => t >= 0.999e-2 && t < 1.001e5)) return labelsOf(ticks);
   return ticks.map((t) => {

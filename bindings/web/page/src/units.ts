@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readable numbers. Data are in SI; a column, axis or legend has one prefix for all values (4.2e-6 m is 4.2
-// µm).
+// Readable numbers from SI data: one prefix for a column, axis or legend (4.2e-6 m is 4.2 µm).
 
 export interface Scale {
-  factor: number; // shown value times `factor` is SI
-  unit: string; // with its prefix; empty for a pure number
+  factor: number; // shown times `factor` is SI
+  unit: string; // with prefix; empty for a pure number
 }
 
 const prefixes: [number, string][] = [
@@ -21,18 +20,16 @@ const prefixes: [number, string][] = [
 
 const superscripts: Record<string, string> = { '^2': '²', '^3': '³', '^-1': '⁻¹', '^-2': '⁻²' };
 
-/** m^2 as m². */
 export function unitText(unit: string): string {
   return unit.replace(/\^-?\d/g, (power) => superscripts[power] ?? power).replace(/\*/g, '·');
 }
 
-/** One prefix for absolute values up to `greatest`. */
+/** For absolute values up to `greatest`. */
 export function scaleFor(unit: string | undefined, greatest: number): Scale {
   const plain = unitText(unit ?? '');
   const found = /^(m|Pa|N|J|s|W|Hz)(²|³)?(\/.*)?$/.exec(plain);
   if (!found || !(greatest > 0) || !Number.isFinite(greatest)) return { factor: 1, unit: plain };
   const power = found[2] === '²' ? 2 : found[2] === '³' ? 3 : 1;
-  // No kiloseconds, square megametres and the like.
   const largest = found[1] === 's' || power > 1 ? 1 : found[1] === 'm' ? 1e3 : 1e12;
   let best = prefixes[0];
   for (const prefix of prefixes) {
@@ -41,7 +38,7 @@ export function scaleFor(unit: string | undefined, greatest: number): Scale {
   return { factor: best[0] ** power, unit: best[1] + plain };
 }
 
-/** Powers of ten as such, with a true minus sign. */
+/** With powers of ten and a true minus sign. */
 export function numberText(value: number, digits = 4): string {
   if (Number.isNaN(value)) return 'nan';
   if (!Number.isFinite(value)) return value > 0 ? '∞' : '−∞';
@@ -70,7 +67,7 @@ export function withUnit(value: number, unit: string | undefined): string {
   return `${numberText(value / scale.factor)}${scale.unit ? ' ' + scale.unit : ''}`;
 }
 
-/** "Ra [µm]", or only the name for a pure number. */
+/** "Ra [µm]"; only the name for a pure number. */
 export function label(name: string, scale: Scale): string {
   return scale.unit ? `${name} [${scale.unit}]` : name;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recorded knob values, and the run for a slider move: among runs with the new value, the run whose other
-// knobs differ by the fewest steps.
+// Recorded knob values, and the run for a slider move: the new value, with the fewest steps in other knobs.
 
 export type Recorded = Record<string, { value: number; text: string }>;
 
-/** The recorded values of a knob, ascending, without duplicates. */
+/** Ascending, without duplicates. */
 export function placesOf(runs: Recorded[], name: string): { value: number; text: string }[] {
   const known = new Map(runs.flatMap((r) => (r[name] ? [[r[name].value, r[name]] as const] : [])));
   return [...known.values()].sort((a, b) => a.value - b.value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only script in a saved run: it plays the pictures and switches between recorded knob values, without
-// computation. Without the script, and on paper, all pictures and runs are shown one below the other.
+// The only script in a saved run: plays pictures and switches between recorded knob values. Without it, and
+// on paper, all are shown in sequence.
 
 import { h } from '../dom';
 import { Scrubber } from '../scrub';
@@ -8,7 +8,6 @@ import { nearestTo, placesOf, type Recorded } from './places';
 
 const away = 'away'; // hidden on screen
 
-/** Pictures shown one at a time. */
 class Frames {
   private readonly figures: HTMLElement[];
   private readonly titles: string[];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of one script at several knob values in this tab, for the sliders of a saved run. The last run at
-// given values counts.
+// This tab's runs of one script at several knob values, for a saved run. Later runs replace runs with the
+// same values.
 
 import type { Api } from '../api';
 import { knobsIn } from '../knobs';
@@ -16,7 +16,7 @@ export class RecordedRuns {
     this.runs = [...this.runs, run].slice(-most);
   }
 
-  /** All runs with the knobs of `run`, including `run`, ordered by value. */
+  /** Ordered by value. */
   async beside(run: Run, api: Api): Promise<Run[]> {
     const ended = this.runs.filter((r) => r.script === run.script && (r.status === 'done' || r.status === 'failed'));
     await Promise.all([run, ...ended].map((r) => readKnobs(r, api)));
@@ -41,12 +41,12 @@ function valuesOf(run: Run): number[] {
   return run.knobs.map((k) => k.value);
 }
 
-/** A run with an immediate successor has not yet read its knobs. */
+/** A run replaced at once has not read its knobs. */
 async function readKnobs(run: Run, api: Api): Promise<void> {
   if (run.knobs.length > 0) return;
   try {
     run.knobs = knobsIn(JSON.parse(await (await api.file(run.id, 'manifest.json')).text()));
   } catch {
-    // A run stopped before its start has no record.
+    // Stopped before its start.
   }
 }

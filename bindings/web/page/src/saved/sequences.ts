@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbered pictures of a script: `press-1.png`, `press-2.png`, `press-3.png`. Two pictures, and SVG drawings,
-// form no sequence.
+// Numbered pictures: `press-1.png`, `press-2.png`, `press-3.png`. Two pictures, and SVG drawings, form no
+// sequence.
 
 const least = 3; // pictures
 
-/** The names in order; each sequence is at the place of its first name. */
+/** A sequence is at its first name. */
 export function sequencesOf(names: string[]): string[][] {
   const kinds = new Map<string, string[]>();
   for (const name of names) {
