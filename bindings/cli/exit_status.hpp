@@ -5,6 +5,6 @@
 namespace asperity::cli {
 
 inline constexpr int done = 0, failed = 1, bad_usage = 2;
-inline constexpr int cases_missing = 3;  // in a store filled by other processes
+inline constexpr int cases_missing = 3;  // in a shared store
 
 }  // namespace asperity::cli

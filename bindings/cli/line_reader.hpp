@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input. On a terminal, lines have editing, history and completion if the libedit part is
-// present, otherwise the terminal's own editing. Lines from a pipe or file are read unchanged, without
-// prompts. During a read, Ctrl-C discards the line, and SIGTERM or SIGHUP ends the input; at other times
-// these signals are blocked for the watchdog.
+// Lines of standard input: edited with history and completion on a terminal if the libedit part is present,
+// unchanged and without prompts from a pipe or file. During a read, Ctrl-C discards the line, and SIGTERM or
+// SIGHUP ends the input; otherwise these signals are blocked for the watchdog.
 #pragma once
 
 #include <filesystem>
@@ -17,18 +16,18 @@
 namespace asperity::cli {
 
 // The prompt's history in $XDG_STATE_HOME/asperity/history (default ~/.local/state/asperity/history), mode
-// 0600. Each line is appended at once, so that parallel or killed sessions lose nothing; the file is cut to
-// the last thousand lines at the start of a session. Read and write errors are ignored.
+// 0600. Lines are appended at once, so that parallel or killed sessions lose nothing; a session's start cuts
+// the file to a thousand lines. Errors are ignored.
 class LineHistory {
  public:
   static constexpr std::size_t most_lines = 1000;
-  // Without a file, nothing is stored.
+  // Without a file, in memory only.
   explicit LineHistory(std::filesystem::path file = {});
-  // From the environment; empty without a home.
+  // Empty without a home.
   static std::filesystem::path default_file();
 
   const std::vector<std::string>& lines() const { return lines_; }
-  // Skips empty lines, lines with a leading space, and repetitions.
+  // Skips empty lines, a leading space, and repetitions.
   bool add(const std::string& line);
 
  private:
@@ -40,7 +39,7 @@ class LineReader {
  public:
   using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
 
-  // Blocks the stop signals in this thread and its later threads: construct before any other thread.
+  // Blocks the stop signals in this thread and later threads: construct first.
   LineReader(LineHistory history, Complete complete);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -49,7 +48,7 @@ class LineReader {
   bool terminal() const { return terminal_; }
   enum class Event { line, given_up, end };
   Event read(const std::string& prompt, std::string& line);
-  // 0, or the number of the signal that ended the input.
+  // The signal that ended the input, or 0.
   int ended_by() const;
 
  private:
@@ -64,7 +63,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// The candidates as lines of this width; short lists have descriptions.
+// Short lists have descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

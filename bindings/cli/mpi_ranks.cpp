@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr LoadedPart part{"mpi", "cases are spread over the ranks of mpirun", "libopenmpi3"};
-// The wait of rank 0 for the other ranks at its end.
+// For other ranks at the end of rank 0.
 constexpr auto patience_done = std::chrono::seconds(60), patience_failed = std::chrono::seconds(3);
 
 std::optional<int> whole(const std::optional<std::string>& text) {
@@ -40,8 +40,8 @@ std::optional<int> whole(const std::optional<std::string>& text) {
   return std::stoi(*text);
 }
 
-// For `srun -n 3`. SLURM_NTASKS is not enough: a batch script is one process and has this variable. Only srun
-// sets the number of tasks of the step, and only PMIx sets the rank.
+// For `srun -n 3`. A batch script, one process, also has SLURM_NTASKS. Only srun sets the step's number of
+// tasks, and only PMIx sets the rank.
 std::optional<LaunchedRank> started_by_srun(bool share) {
   const auto rank = whole(environment_variable("PMIX_RANK"));
   const auto tasks = whole(environment_variable(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS"));
@@ -122,7 +122,7 @@ int MpiRanks::leave(int status) {
   std::fflush(nullptr);
   const bool stopped = stop_flag().reason() != StopReason::none;
   if (leads()) {
-    // A stop after the end of the run changes nothing.
+    // Too late for a stop.
     if (stopped && status != 0) mpi_->abort(status);
     return leave_leading(status);
   }
@@ -133,7 +133,7 @@ int MpiRanks::leave(int status) {
   return 0;
 }
 
-// Rank 0 was stopped, too, and ends all ranks when its record is safe; or rank 0 had already ended.
+// Rank 0 ends all ranks when its record is safe, or has already ended.
 void MpiRanks::leave_stopped(int status) {
   const auto begun = Clock::now();
   for (;;) {

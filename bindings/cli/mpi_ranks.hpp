@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ranks of `mpirun -n K asperity run SCRIPT`. MPI is loaded only if the environment shows a launch by
-// mpirun.
+// The ranks of `mpirun -n K asperity run SCRIPT`. MPI is loaded only after a launch by mpirun, as shown by
+// the environment.
 #pragma once
 
 #include <memory>
@@ -15,31 +15,30 @@ struct AsperityMpi;
 
 namespace asperity::cli {
 
-// The rank from the launcher, before MPI starts; none for a single process. Tasks of srun are single
-// processes if they `share` a store. Throws Error{bad_value} for srun tasks without MPI.
+// From the launcher, before MPI starts; none for a single process, or for srun tasks that `share` a store.
+// Throws Error{bad_value} for srun tasks without MPI.
 struct LaunchedRank {
   int rank = 0, size = 1;
   int on_this_machine = 1;
 };
 std::optional<LaunchedRank> launched_rank(bool share);
-// Default threads: the machine's processors divided among its ranks.
+// The machine's processors divided among its ranks.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {
  public:
-  // Starts MPI with the stop signals blocked, so that no MPI thread receives them. Throws Error{bad_file} in
-  // a build without MPI, Error{bad_value} if MPI joins fewer processes than the launcher `started`.
+  // Starts MPI with stop signals blocked in its threads. Throws Error{bad_file} in a build without MPI,
+  // Error{bad_value} if fewer processes join than the launcher `started`.
   explicit MpiRanks(int started);
   ~MpiRanks() override = default;
 
   Team& team() override;
 
-  // Temporary folder of a rank other than 0.
+  // Of a rank other than 0.
   std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 
-  // Ends the run in this process: waits for the other ranks and returns the exit status. Aborts all processes
-  // after a time limit.
+  // Waits for the other ranks and returns the exit status; aborts all after a time limit.
   int leave(int status);
 
  private:
@@ -50,7 +49,7 @@ class MpiRanks final : public Ranks {
   void leave_stopped(int status);
 
   const AsperityMpi* mpi_ = nullptr;
-  std::unique_ptr<Team> team_;              // made on first use
+  std::unique_ptr<Team> team_;              // on first use
   std::optional<TemporaryFolder> scratch_;  // not on rank 0
   std::string why_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Discards standard output during its lifetime, because a repeated script has already printed its output.
+// Discards standard output during its lifetime: a repeated script has already printed.
 #pragma once
 
 #include <fcntl.h>

@@ -19,7 +19,7 @@ namespace {
 struct PlainStream {
   int descriptor;
   Keeps keeps;
-  std::string tail{};  // an incomplete character or sequence
+  std::string tail{};  // of an incomplete character or sequence
 };
 
 // Length of a leading "ESC [ 1 ; 31 m"; 0 for other text, npos if incomplete.
@@ -34,7 +34,7 @@ std::size_t colour_sequence(std::string_view text) {
   return text.size() < longest ? std::string_view::npos : 0;
 }
 
-// Removes and returns the text that can be written now; an incomplete end stays.
+// Removes and returns the complete part.
 std::string shown_part(std::string& text, Keeps keeps) {
   std::string shown;
   std::size_t begin = 0;
@@ -73,7 +73,7 @@ ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
 
 // Null if out of memory.
 FILE* plain_stream(int descriptor, Keeps keeps) {
-  // C streams are flushed after all destructors: their state is never freed.
+  // Never freed: C streams are flushed after all destructors.
   static std::array<PlainStream*, STDERR_FILENO + 1> kept{};
   PlainStream*& stream = kept.at(static_cast<std::size_t>(descriptor));
   if (stream == nullptr) stream = new PlainStream{descriptor, keeps};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Standard streams without control characters. Messages repeat foreign text: file names, titles, errors of
-// scripts. A terminal would obey control characters in such text: change its title, overwrite lines, or send
-// input as if typed. A plain stream replaces each control character, and bytes outside UTF-8, by a question
-// mark (plain_text in engine/core/text.hpp). The streams of the C library are replaced, so that the script's
-// own output is covered, too.
+// Standard streams without control characters. Messages repeat foreign text (file names, titles, script
+// errors), whose control characters could change a terminal's title, overwrite lines, or send input as if
+// typed. A plain stream replaces each control character, and bytes outside UTF-8, by a question mark
+// (plain_text in engine/core/text.hpp). It replaces the C library's streams, and so covers the script's own
+// output.
 #pragma once
 
 #include <string_view>
@@ -12,14 +12,14 @@ namespace asperity::cli {
 
 enum class Keeps {
   text,     // characters, tabs, line ends
-  colours,  // also carriage return, and sequences that only set colour or weight
+  colours,  // also carriage return, colour and weight
 };
 
-// Until the end of the program. Not for programs that pass the streams to libedit.
+// Until the program ends. Not with libedit.
 void make_errors_plain();
 void make_output_plain(Keeps keeps);
 
-// The only sequence that the program writes to standard error.
+// The only sequence written to standard error by the program.
 inline constexpr std::string_view erase_line = "\r\033[K";
 void erase_shown_line();
 

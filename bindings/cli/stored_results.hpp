@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stored results of a run, and results from earlier runs: `--resume`, `--reuse` and `--store-limit` of
-// `asperity run`, `--from` of `asperity replay`.
+// Results of this run and of earlier runs: `--resume`, `--reuse` and `--store-limit` of `asperity run`,
+// `--from` of `asperity replay`.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,28 @@
 
 namespace asperity::cli {
 
-// The command that continues the run in `command.resume`, with its script, arguments, seed, store and share.
-// A directory without a manifest begins a new run. Empty if the run is done and undamaged (digests of the
-// manifest); otherwise the command names the damages and repeats the run. `leads`: takes the lock of the
-// directory, unless the command has it. Throws Error for
+// Continues the run in `command.resume` with its script, arguments, seed, store and share; without a
+// manifest, begins a new run. None if the run is done and undamaged; a damaged run is repeated, with its
+// damages named. `leads`: takes the directory's lock, unless held. Throws Error for
 // - another script, arguments or seed, without `reuse`;
 // - an unfinished or damaged run by another version, without `reuse`;
-// - another share of the cases, or a run with another `trust`;
-// - a directory without a run, and a run with links in place of its files;
+// - another share of the cases, or another `trust`;
+// - a directory without a run, or links in place of a run's files;
 // - a lock held by another process.
 std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
-// Throws Error{bad_value} for a session of the prompt, and for a trusted record unless the command trusts it,
-// too: a foreign directory must not grant itself all of Lua. `purpose` as in "go on with".
+// Throws Error{bad_value} for a prompt session, and for a trusted record unless the command trusts it: a
+// foreign directory must not grant itself all of Lua. `purpose` as in "go on with".
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
-// Loads script files from the copies in the recorded run, and names originals with other content.
+// From the record's copies; names originals with other content.
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell);
 
-// Where a run stores and finds results; the folder stays empty. Throws Error{bad_value} for a `reuse` that is
-// no folder, or a run whose store is a link.
+// The folder stays empty. Throws Error{bad_value} for a `reuse` that is no folder, or a run whose store is a
+// link.
 ResultFilesSetup result_files(const RunCommand& command);
 
-// A store without results from a journal line on.
+// Finds nothing from a journal line on.
 class UntilLine final : public ResultStore {
  public:
   UntilLine(ResultStore& store, const Journal& journal, std::int64_t line)

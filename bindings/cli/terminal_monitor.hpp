@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress and warnings on standard error. Work longer than a second shows its fraction done and the
-// estimated time left: one line, overwritten, on a terminal; a line every few seconds elsewhere. Standard
-// output is never touched.
+// Progress and warnings on standard error. After a second, work shows its fraction done and the time left:
+// one overwritten line on a terminal, else a line every few seconds.
 #pragma once
 
 #include <chrono>
@@ -23,13 +22,13 @@ class TerminalMonitor final : public Monitor {
  public:
   TerminalMonitor();
   ~TerminalMonitor() override;
-  // Also write warnings to this run's journal.
+  // Also to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
-  // Standard error is a pipe that ends at a terminal.
+  // For a pipe that ends at a terminal.
   void show_as_on_terminal() { terminal_ = true; }
-  // Redirects progress.
+  // Progress only.
   void report_to(RunObserver* observer) { observer_ = observer; }
-  // The store for results of heavy calls.
+  // For heavy calls.
   void keep_results_in(ResultStore* results) { results_ = results; }
 
   void progress(std::string_view what, double done) override;
@@ -37,8 +36,8 @@ class TerminalMonitor final : public Monitor {
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
   ResultStore* results() override { return results_; }
-  // From now on, warnings that differ only in numbers are shown once; tell_alike() reports the number of
-  // others. The journal has all.
+  // From now on, warnings that differ only in numbers are shown once, and counted by tell_alike(). The
+  // journal has all.
   void count_alike() { count_alike_ = true; }
   void tell_alike();
   // Erases the progress line.
@@ -46,8 +45,8 @@ class TerminalMonitor final : public Monitor {
 
  private:
   using Clock = std::chrono::steady_clock;
-  double pause() const;  // seconds between two lines
-  double quiet() const;  // s; shorter work shows nothing
+  double pause() const;  // s, between lines
+  double quiet() const;  // s, before the first line
   void show(const std::string& title, double done, double seconds);
   void clear_line();
 
@@ -59,7 +58,7 @@ class TerminalMonitor final : public Monitor {
   bool line_shown_ = false;
   std::string current_;
   Clock::time_point started_{}, shown_{};
-  Clock::time_point parts_shown_{};  // progress of parts has its own clock
+  Clock::time_point parts_shown_{};  // own clock for parts
   double last_done_ = 0;
   std::set<std::string> warned_;
   bool count_alike_ = false;

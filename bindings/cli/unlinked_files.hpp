@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Open files that a script has deleted. Such files use disk space until closed, but are invisible in the
-// directory. With `--limit-disk` and in page runs, a thread inside the confined process therefore watches
-// them and empties them beyond the limit. This loses no file that the run would leave.
+// Open but deleted files of a script: they use disk space, invisible in the directory. With `--limit-disk`
+// and in page runs, a thread in the confined process empties such files beyond the limit. No file of the
+// finished run is lost.
 #pragma once
 
 #include <atomic>
@@ -10,12 +10,12 @@
 
 namespace asperity::cli {
 
-// Bytes on the disk of open regular files without a name.
+// On the disk.
 std::int64_t unlinked_bytes();
-// Empties the files that are open for writing.
+// If open for writing.
 void empty_unlinked_files();
 
-// Checks about twenty times a second during its lifetime.
+// Checks about twenty times a second.
 class UnlinkedFilesBound {
  public:
   explicit UnlinkedFilesBound(std::int64_t most_bytes);

@@ -14,7 +14,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto grace = std::chrono::milliseconds(2000);
 constexpr auto look_every = std::chrono::milliseconds(50);
 
-// The first signal; 0 before.
 std::atomic<int> met_signal{0};
 }  // namespace
 
@@ -24,7 +23,7 @@ const sigset_t& stop_signals() {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
-    // A blocked signal arrives even if ignored: this respects nohup.
+    // For nohup: a blocked signal arrives even if ignored.
     struct sigaction hang_up {};
     if (::sigaction(SIGHUP, nullptr, &hang_up) != 0 || hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
     return set;
@@ -48,7 +47,6 @@ Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopR
 
 Watchdog::~Watchdog() {
   done_.store(true);
-  // Wakes the thread.
   pthread_kill(thread_.native_handle(), SIGTERM);
   thread_.join();
 }

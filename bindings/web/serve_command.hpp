@@ -18,8 +18,8 @@ struct ServeCommand {
   std::string names;                         // file of names, one a line
   std::string out;                           // "": runs/serve-<n>
   int runs = 0;                              // 0: chosen for the machine
-  std::optional<double> limit_time;          // seconds of one run
-  std::optional<std::int64_t> limit_memory;  // bytes of one run
+  std::optional<double> limit_time;          // seconds for a run
+  std::optional<std::int64_t> limit_memory;  // bytes for a run
 };
 
 cli::Command serve_command();

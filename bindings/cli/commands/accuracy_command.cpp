@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity accuracy`: a work-precision study (engine/study/work_precision.hpp) of a script that returns a
-// number. The script runs again with every `cells` times a factor, and with other contact tolerances.
+// number. The script runs with scaled `cells` and other contact tolerances.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -35,9 +35,9 @@ namespace {
 
 struct AccuracyCommand {
   RunCommand run;
-  double at_most = 300;         // seconds, all runs together
-  int repeats = 3;              // timed runs of each setting
-  std::optional<double> truth;  // exact value, SI; default: from the finest grid
+  double at_most = 300;         // seconds, all runs
+  int repeats = 3;              // timed, for each setting
+  std::optional<double> truth;  // SI; default: the finest grid
 };
 
 constexpr const char* study_name = "accuracy";
@@ -114,7 +114,7 @@ class ScriptWork final : public StudyWork {
 
  private:
   RunContext& context_;
-  std::optional<TemporaryFolder> scratch_;  // of repeated runs
+  std::optional<TemporaryFolder> scratch_;
   std::optional<ScriptRun> ready_;
 };
 
@@ -123,7 +123,7 @@ struct FirstRun {
   std::shared_ptr<lua::Refinement> used = std::make_shared<lua::Refinement>();
 };
 
-// The unchanged script in the run directory, with its output shown and its grids and contacts noted.
+// In the run directory, with output; notes grids and contacts.
 FirstRun run_as_written(RunContext& context) {
   FirstRun first;
   ScriptRun run(context, context.run, first.used);
@@ -148,7 +148,6 @@ StudyWay way(const std::string& name, std::vector<double> factors, std::vector<d
   return make_way(name, std::move(knobs));
 }
 
-// Chooses grids, tolerances and the reference.
 StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor& monitor) {
   const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
   if (!grids && !contacts)
@@ -158,7 +157,7 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
   StudyRequest request;
   request.repeats = command.repeats;
   request.at_most = std::max(command.at_most - first.seconds, 1e-9);
-  // Doubling the cells costs a little over four times as much; the reference may use half of the time limit.
+  // Doubling the cells costs just over four times as much; the reference may use half of the time.
   const double finest = command.truth || 4.4 * first.seconds < 0.5 * command.at_most ? 2 : 1;
   if (grids) {
     std::vector<double> factors;
@@ -192,7 +191,7 @@ double exact_value(const std::string& text) {
   }
 }
 
-// Exit status as in cli::run; also 1 if the script returns no number or has nothing to vary.
+// As cli::run; also 1 if the script returns no number or has nothing to vary.
 int accuracy(const AccuracyCommand& command) {
   return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
     const FirstRun first = run_as_written(context);

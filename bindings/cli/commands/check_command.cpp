@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity check`, `asperity explain` and `asperity cases`: dry runs of a script without heavy calls.
+// `asperity check`, `asperity explain` and `asperity cases`: a script without its heavy calls.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -28,9 +28,9 @@ namespace asperity::cli {
 
 namespace {
 
-// The script's line in an error with traceback. The error itself may come from a module.
+// From an error with traceback; the error itself may come from a module.
 std::string line_in_script(const std::string& message, const std::string& script) {
-  // Lua shortens chunk names like this.
+  // As Lua shortens chunk names.
   const std::string name =
       script.size() < LUA_IDSIZE ? script : "..." + script.substr(script.size() - (LUA_IDSIZE - 4));
   const std::string lead = "\n\t" + name + ":";
@@ -38,7 +38,7 @@ std::string line_in_script(const std::string& message, const std::string& script
   return lua::line_of(at == std::string::npos ? message : message.substr(at + lead.size() - 1));
 }
 
-// `report` prints the findings; `reached` is "" at the script's end, otherwise the reason of an earlier end.
+// `report` prints the findings; `reached`: the reason of an early end, or "".
 int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
             const std::function<void(const std::string& reached)>& report) {
   std::string text;
@@ -58,7 +58,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   session.dry_run = true;
   session.mistakes = std::make_shared<lua::Mistakes>();
   session.mistakes->script = text;
-  // Reports mistakes along the way, and the reason of an early end.
+  // Reports mistakes and the reason of an early end.
   const auto end = [&](const std::string& reached, const std::string& failure) {
     if (observer != nullptr)
       observer->made_knobs(session.knobs->json());
@@ -101,7 +101,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     }
     if (lua::stopped_at_placeholder(message))
       return end("to line " + line_in_script(message, command.script) + ": " + lua::cannot_follow, "");
-    // Either a result would have set this value in a real run, or the script forgot to.
+    // A result would set this value in a real run, or the script forgot to.
     if (session.gave_placeholders && lua::met_nothing(message))
       return end("to line " + line_in_script(message, command.script) + ", " + lua::without_place(message) +
                      ": a mistake, unless a result that is not known before the run sets it",
@@ -116,8 +116,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   return failed;
 }
 
-// The script's computations and their cost: makes surfaces, plans contacts, presses nothing. Exit status as
-// in run().
+// Computations and their cost: makes surfaces, plans contacts, presses nothing. Exit status as in run().
 int explain(const RunCommand& command, bool json) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -138,7 +137,7 @@ int explain(const RunCommand& command, bool json) {
   });
 }
 
-// The cases of the ensembles, numbered as for --case of `asperity run`.
+// Cases as numbered for --case of `asperity run`.
 int cases(const RunCommand& command, bool list) {
   TerminalMonitor monitor;
   lua::Session session(monitor);

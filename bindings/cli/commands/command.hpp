@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command of the program, such as `asperity run`: name, help, options and work. Each command is in its own
-// file; main() (bindings/main.cpp) has the list of commands.
+// A command of the program: name, help, options and work, each in its own file. main() (bindings/main.cpp)
+// has the list.
 #pragma once
 
 #include <functional>
@@ -13,30 +13,30 @@ class App;
 
 namespace asperity::cli {
 
-// Executes the command; returns the program's exit status.
+// Returns the program's exit status.
 using CommandWork = std::function<int()>;
 
-// Called once, after a command line with this command was parsed. Reads values from the parsed texts and
-// returns the work. Throws Error for a wrong option or combination; the program then exits with bad_usage.
+// Called once, after parsing. Converts parsed texts and returns the work. Throws Error for a wrong option or
+// combination (exit status bad_usage).
 using CommandReader = std::function<CommandWork()>;
 
-// The writer of standard output, which decides about control characters for a terminal (plain_streams.hpp).
+// The writer of standard output; decides about control characters (plain_streams.hpp).
 enum class Prints {
-  text,       // the program's own text: a terminal gets no control characters
-  of_script,  // a script's output: a terminal gets text and colours; a pipe or file gets every byte
-  by_editor,  // lines edited by libedit, which writes to the terminal itself
+  text,       // own text: no control characters on a terminal
+  of_script,  // of a script: text and colours on a terminal, every byte elsewhere
+  by_editor,  // libedit writes to the terminal itself
 };
 
 struct Command {
   std::string name;
-  std::string sentence;  // for --help and the manual page, without full stop
+  std::string sentence;  // without full stop
   std::string overview;  // lines in `asperity help`
   Prints prints = Prints::text;
-  // Adds the options. `options` outlives the returned reader.
+  // `options` outlives the returned reader.
   std::function<CommandReader(CLI::App& options)> declare;
 };
 
-// Each is defined in the source of its name; the last three in information_commands.cpp.
+// Defined in the source file of the same name; the last three in information_commands.cpp.
 Command accuracy_command();
 Command cases_command();
 Command check_command();
@@ -45,15 +45,14 @@ Command lesson_command();
 Command press_log_command();
 Command repl_command();
 Command status_command();
-// `overview` returns the overview lines of all commands.
+// `overview`: returns the lines for `asperity help`.
 Command help_command(std::string (*overview)());
 Command materials_command();
 Command version_command();
 
-// Pages generated from the parser (command_pages.cpp), so that they cannot disagree with it. The manual page
-// asperity(1) in man(7) macros:
+// Generated from the parser (command_pages.cpp). The manual page asperity(1) in man(7) macros:
 std::string manual_page(const CLI::App& app, const std::string& version);
-// Bash completion: commands, their options, scripts, run directories, the given lessons:
+// Completion for bash:
 std::string bash_completion(const CLI::App& app, const std::vector<std::string>& lessons);
 
 }  // namespace asperity::cli

@@ -12,7 +12,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_s
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-// Escapes roff commands and escapes.
+// Escapes commands and escapes of roff.
 std::string roff(const std::string& text) {
   std::string safe;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -28,7 +28,7 @@ std::string roff(const std::string& text) {
   return safe;
 }
 
-// "-h, --help", "--seed WHOLE NUMBER" or "script", with fixed words in bold.
+// "-h, --help", "--seed WHOLE NUMBER" or "script", fixed words in bold.
 std::string heading(const CLI::Option& option) {
   if (!option.nonpositional()) return "\\fI" + roff(option.get_name(true)) + "\\fR";
   std::string text;

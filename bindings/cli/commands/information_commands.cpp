@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands that print information only: `asperity help`, `asperity materials`, `asperity version`.
+// `asperity help`, `asperity materials` and `asperity version`.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -26,7 +26,7 @@ struct HelpRequest {
   bool reference = false, types = false, manual = false, completion = false;
 };
 
-// `program`: the whole parser, for manual page and completion.
+// `program`: the parser, for manual page and completion.
 std::string help_page(const HelpRequest& asked, const CLI::App& program, std::string (*overview)()) {
   if (asked.manual) return manual_page(program, lua::version_text());
   if (asked.completion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity lesson`: the lessons of the program, to read, copy and run in a terminal.
+// `asperity lesson`: lists, shows, copies and runs lessons.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -19,12 +19,12 @@ namespace {
 
 struct LessonCommand {
   std::string name;   // empty: list all
-  bool copy = false;  // copy the script to the working directory
+  bool copy = false;  // script to the working directory
   bool run = false;
-  RunCommand options;  // for the run of the lesson's script
+  RunCommand options;  // of the run
 };
 
-// Wraps the text at 100 characters and indents all lines after the first.
+// Wraps at 100 characters; indents later lines.
 std::string in_lines(const std::string& text, std::size_t indent) {
   std::string result, word;
   std::size_t column = indent;
@@ -68,7 +68,7 @@ void copy(const lua::Lesson& lesson) {
               lesson.file.c_str());
 }
 
-// Exit status: of the run; 0 without a run; 2 for an unknown lesson or an existing file.
+// Exit status: of the run, or 0; 2 for an unknown lesson or an existing file.
 int lesson(const LessonCommand& command) {
   try {
     if (command.name.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity press-log`: draws and replays the events of a press log with scripts/press_log.lua.
+// `asperity press-log`: draws and replays a press log with scripts/press_log.lua.
 #include <CLI/CLI.hpp>
 
 #include <memory>

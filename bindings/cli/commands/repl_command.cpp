@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity repl`: an interactive prompt. Lines come from a terminal, edited and completed, or unchanged from
-// a pipe; each line runs at once, and its value is printed. The first written file creates a run directory,
-// whose script.lua has all lines without errors.
+// `asperity repl`: an interactive prompt, edited and completed on a terminal, unchanged from a pipe. Each
+// line runs at once and prints its value. The first written file creates a run directory, whose script.lua
+// has the lines without errors.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct ReplCommand {
   int threads = 0;  // 0: one per processor
   std::uint64_t seed = 1;
   std::optional<std::int64_t> limit_memory;  // bytes
-  std::optional<double> limit_time;          // seconds, for each line
+  std::optional<double> limit_time;          // seconds, each line
   bool trust = false;
   bool no_history = false;
 };
@@ -89,7 +89,6 @@ class Conversation {
   }
 
  private:
-  // A Lua state with its session and prompt.
   struct Bench {
     explicit Bench(Monitor& monitor) : session(monitor) {}
     lua::Session session;
@@ -115,13 +114,12 @@ class Conversation {
     return bench;
   }
 
-  // Memory limit for results, bytes.
   static std::int64_t remembered(const ReplCommand& command) {
     constexpr std::int64_t most = std::int64_t{256} << 20;
     return command.limit_memory ? std::min(most, *command.limit_memory / 4) : most;
   }
 
-  // Runs all lines again with the knobs moved by the last line. On failure, the old state stays.
+  // Repeats all lines with moved knobs. On failure, the old state stays.
   lua::Prompt::Outcome run_again(Watchdog& watchdog) {
     GivenKnobs knobs = knobs_;
     std::string what;
@@ -144,7 +142,7 @@ class Conversation {
     {
       const Watchdog::Watching watching(watchdog, next->state.get());
       if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(next->state.get());
-      // A stop before this watch reached the old state only.
+      // An earlier stop reached the old state only.
       if (stop_flag().reason() != StopReason::none) lua::interrupt(next->state.get());
       outcome = next->prompt->run_again(bench_->prompt->script(), "now " + what);
     }
@@ -165,10 +163,10 @@ class Conversation {
     return outcome;
   }
 
-  // Makes the digests of equal prompt lines differ.
+  // Equal lines need different digests.
   std::string unique_digest() { return "line " + std::to_string(++lines_) + " of a prompt"; }
 
-  // Returns false at the end of the session.
+  // False at the end of the session.
   bool take(const std::string& line, int number) {
     lua::Prompt::Outcome outcome;
     bool terminated = false;
@@ -209,7 +207,7 @@ class Conversation {
     return !terminated;
   }
 
-  // Clears a stop, so that the next line runs.
+  // Clears a stop for the next line.
   void hear_stops() {
     stop_flag().clear();
     lua_sethook(bench_->state.get(), nullptr, 0, 0);
@@ -223,7 +221,7 @@ class Conversation {
            " a line was reached";
   }
 
-  // The message of a failed line. The position is useful for a limit, not for Ctrl-C.
+  // The position matters for a limit, not for Ctrl-C.
   std::string failure(StopReason stopped) const {
     if (stopped == StopReason::none) return error_;
     return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + error_);
@@ -258,19 +256,18 @@ class Conversation {
   }
 
   const ReplCommand& command_;
-  LineReader reader_;  // first: blocks signals for all later threads
+  LineReader reader_;  // first: blocks signals for later threads
   TerminalMonitor monitor_;
   std::optional<ResultMemory> memory_;
   std::shared_ptr<RunDirectory> run_;
   std::unique_ptr<Bench> bench_;
-  GivenKnobs knobs_, moves_;  // set knobs; knobs moved by the current line
+  GivenKnobs knobs_, moves_;  // set; moved by the current line
   std::string error_;         // of the last line
   int lines_ = 0;
   bool lines_failed_ = false, stopped_ = false;
 };
 
-// Exit status: 0; the value of os.exit; without a terminal, 1 after a failed line or expectation; 130 after a
-// signal.
+// Exit status: 0; from os.exit; without a terminal 1 after a failed line or expectation; 130 after a signal.
 int repl(const ReplCommand& command) {
   try {
     Conversation conversation(command);

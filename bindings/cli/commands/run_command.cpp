@@ -41,7 +41,7 @@ namespace asperity::cli {
 
 namespace {
 
-// Memory outside the counters (a library's heap) still ends in bad_alloc.
+// Uncounted memory (a library's heap) still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {
   if (sanitized) return;
   constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
@@ -51,7 +51,7 @@ void limit_address_space(std::int64_t bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-// Charts need more descriptors for fonts. Not a warning of the run, because it depends on the machine.
+// Charts need descriptors for fonts. No warning of the run, because it depends on the machine.
 void tell_of_few_handles() {
   constexpr rlim_t enough = 32;
   rlimit handles{};
@@ -62,7 +62,7 @@ void tell_of_few_handles() {
                  static_cast<int>(handles.rlim_cur));
 }
 
-// Why standard output was lost; "" if complete or if the reader closed the pipe.
+// "" if complete or if the reader closed the pipe.
 std::string output_fault() {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   struct ::stat facts {};
@@ -100,7 +100,7 @@ void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, s
   options
       .add_option("--reuse", run.reuse,
                   "take the results of heavy calls that are the same from this run; may be given again")
-      ->allow_extra_args(false);  // one value each: the next word may be the script
+      ->allow_extra_args(false);  // the next word may be the script
   options.add_option("--store-limit", limit,
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   options.add_option(
@@ -237,7 +237,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
                       name.c_str());
       return 1;
     }
-    // Trims trailing blanks, so that Lua reports an unfinished statement at the last line with text.
+    // Without trailing blanks, Lua reports an unfinished statement at the last line with text.
     const std::size_t end = std::max(skip, text.find_last_not_of(" \t\r\n") + 1);
     if (luaL_loadbufferx(state, text.data() + skip, end - skip, lua_tostring(state, -1), "t") != LUA_OK)
       return 1;
@@ -286,7 +286,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.anew = command.anew;
     setup.journal_lost = command.journal_lost;
     setup.lock = command.lock;
-    // Files of ranks other than 0 are deleted at the end.
+    // Files of other ranks than 0 are deleted at the end.
     setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
     setup.store = command.store.value_or("");
     if (command.shard) setup.shard = command.shard->text();
@@ -300,7 +300,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
     if (!command.store) kept.folder = run->store();
-    // After the run directory: an earlier run directory that contains this folder may have been moved aside.
+    // Now, because the moving aside of an earlier run may have moved this folder, too.
     if (command.store) make_folders(*command.store);
     kept.needed = run->needed_to_resume();
   } catch (const Error& error) {
@@ -326,7 +326,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (command.store_limit == 0) store = nullptr;
   std::optional<RankStore> of_ranks;
   if (command.ranks != nullptr) {
-    // A result in the temporary folder of another rank would be lost.
+    // Temporary folders of other ranks would lose results.
     command.ranks->own_store = command.ranks->leads() || command.store ? store : nullptr;
     store = &of_ranks.emplace(*command.ranks);
   }
@@ -346,7 +346,6 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
     for (const Verdict& verdict : run->expectations().verdicts())
       if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
-    // Saved time is reported from one second on.
     const std::string saved =
         counts.seconds_saved < 1
             ? ""
@@ -381,7 +380,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (command.limit_memory) limit_memory(*command.limit_memory);
 
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not lose the record
-  std::signal(SIGXFSZ, SIG_IGN);  // beyond a file-size limit, writing fails as on a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
 
   int status = done;
   std::string why;
@@ -395,7 +394,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
 
   RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
-  // The script may have caught the error; the limit was exceeded nevertheless.
+  // Even if the script caught the error.
   if (command.limit_memory && lua::memory_limit_met()) {
     stop_flag().raise(StopReason::memory_limit);
     if (status == done) why = "the script went on with less";
@@ -405,7 +404,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (stopped != StopReason::none) {
     status = exit_status(stopped);
     ended = stopped == StopReason::interrupt ? RunStatus::interrupted : RunStatus::failed;
-    // The position is useful for a limit, not for Ctrl-C.
+    // The position matters for a limit, not for Ctrl-C.
     const std::string met_at = stopped == StopReason::interrupt || why.empty() ? "" : "\n" + why;
     why = reason_text(stopped, command) + met_at;
   }
@@ -572,7 +571,7 @@ int run(const RunCommand& asked) {
     command.damages.clear();
     command.reuse.clear();
     command.anew = false;
-    command.limit_time.reset();  // rank 0 watches the limit for all ranks
+    command.limit_time.reset();  // rank 0 watches
   }
   return ranks->leave(in_run_directory(command, work));
 }

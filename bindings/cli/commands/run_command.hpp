@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run`, and functions for scripts and run directories that other commands share.
+// `asperity run`, and shared functions for scripts and run directories.
 #pragma once
 
 #include <cstdint>
@@ -40,53 +40,53 @@ struct RunCommand {
   bool trust = false;
   std::vector<std::string> arguments;
   GivenKnobs knobs;
-  std::optional<std::string> text;    // of the script, instead of its file
-  std::optional<std::string> resume;  // directory of an unfinished run
-  bool anew = false;          // another script in this directory: old files are moved aside, results stay
-  bool journal_lost = false;  // the resumed run starts a new journal
-  std::vector<std::string> damages;           // of the resumed run, a sentence each
-  std::shared_ptr<const LoadedFiles> loaded;  // files of the resumed or replayed run
-  std::shared_ptr<RunLock> lock;              // of the directory, if already taken
-  std::vector<std::string> reuse;             // runs or result folders to take results from
-  std::optional<std::string> store;           // shared folder of results instead of the run's own
+  std::optional<std::string> text;            // instead of the file
+  std::optional<std::string> resume;          // an unfinished run
+  bool anew = false;                          // with another script: old files are moved aside, results stay
+  bool journal_lost = false;                  // resumed with a new journal
+  std::vector<std::string> damages;           // one sentence each
+  std::shared_ptr<const LoadedFiles> loaded;  // by the resumed or replayed run
+  std::shared_ptr<RunLock> lock;              // of the directory, if held
+  std::vector<std::string> reuse;             // runs or result folders
+  std::optional<std::string> store;           // shared, instead of the run's own
   std::optional<Shard> shard;                 // of ensemble cases; needs `store`
-  std::optional<CaseNumber> one_case;         // compute only this case; needs `store`, leaves no directory
-  bool merge_only = false;                    // compute no case; needs `store`
-  std::optional<std::int64_t> store_limit;    // bytes of stored results; 0: none
-  // In a replay: no results from `reuse` from this journal line on.
+  std::optional<CaseNumber> one_case;         // only this case, without a directory; needs `store`
+  bool merge_only = false;                    // no computation; needs `store`
+  std::optional<std::int64_t> store_limit;    // bytes; 0: none
+  // In a replay: ignore `reuse` from this journal line on.
   std::optional<std::int64_t> afresh_from;
-  std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
-  RunObserver* observer = nullptr;            // receives the messages instead of standard error; may be null
-  MpiRanks* ranks = nullptr;                  // the processes of the run; null for a single process
+  std::shared_ptr<lua::Variation> variation;  // of a replay, or null
+  RunObserver* observer = nullptr;            // receives messages instead of standard error, or null
+  MpiRanks* ranks = nullptr;                  // null for a single process
 
-  std::shared_ptr<const TemporaryFolder> case_folder;  // of `one_case`: deleted at the end
+  std::shared_ptr<const TemporaryFolder> case_folder;  // deleted at the end
 
   // Behind the barriers of page runs (bindings/web/confined/confined_command.hpp).
   bool confined = false;
-  std::vector<std::string> read;  // further readable folders
-  std::string without_barriers;   // dispensable barriers: "files,network"
-  // Bytes of all files of the run directory and of new results in a shared store.
+  std::vector<std::string> read;  // readable folders
+  std::string without_barriers;   // not required: "files,network"
+  // Bytes of the run directory and of new results in a shared store.
   std::optional<std::int64_t> limit_disk;
-  // In the confined process: barriers and readable folders for the manifest; and whether its standard error,
-  // a pipe, is shown on a terminal.
+  // In the confined process: barriers and readable folders; and whether standard error, a pipe, ends at a
+  // terminal.
   Json barriers{};
   bool terminal = false;
 };
 
-// Executes a command in a confined process. bindings/main.cpp passes this from
-// bindings/web/confined/confined_command.hpp, which belongs to a higher layer.
+// Execution in a confined process; bindings/main.cpp passes it from
+// bindings/web/confined/confined_command.hpp, a higher layer.
 template <class Asked>
 struct BehindBarriers {
-  bool (*wanted)(const Asked& asked);    // by options, or by the resumed record
+  bool (*wanted)(const Asked& asked);    // by option or record
   int (*carry_out)(const Asked& asked);  // returns the exit status
 };
 
 Command run_command(BehindBarriers<RunCommand> barriers);
 
-// Exit status: 0 done; 1 the script or an expectation failed; 2 bad usage, or another process runs there; 3
-// cases are missing in the store; 130 interrupted; 143 SIGTERM; 129 SIGHUP.
+// Exit status: 0 done; 1 script or expectation failed; 2 bad usage or directory in use; 3 cases missing in
+// the store; 130 interrupted; 143 SIGTERM; 129 SIGHUP.
 int run(const RunCommand& command);
-// `asperity check`: a dry run without heavy calls. Exit status as in run().
+// `asperity check`. Exit status as in run().
 int check(const RunCommand& command);
 
 struct RunContext {
@@ -96,32 +96,31 @@ struct RunContext {
   TerminalMonitor& monitor;
   Watchdog& watchdog;
   ResultFiles& results;
-  std::function<void()> summary;  // prints the end of the run and the place of its results to standard error
+  std::function<void()> summary;  // prints the end to standard error
 };
 
 // Makes the run directory, sets limits, watches for stops, calls `work` (returns the reason of a failure, or
-// ""), and closes the directory. Returns the exit status.
+// ""), closes the directory. Returns the exit status.
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work);
 
-// Runs the script; returns the reason of a failure, or "". os.exit closes the directory and exits with
-// `at_exit` of the script's status.
+// Returns the reason of a failure, or "". os.exit closes the directory and exits with `at_exit` of the
+// script's status.
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit);
 
-// Why a given value set no knob of the finished script; "" if all did.
+// Why a given value set no knob; "" if all did.
 std::string unmade_knobs(const lua::Session& session);
 
-// A Lua state for the script, with the command's settings.
 lua::State make_state(lua::Session& session, const RunCommand& command);
 
-// Loads and runs the script. Leaves `results` values and returns LUA_OK, or leaves an error with traceback.
+// Leaves `results` values and returns LUA_OK, or leaves an error with traceback.
 int execute(lua_State* L, const RunCommand& command, const std::string& text, int results);
 
 // Throws Error{bad_file}.
 std::string read_script(const std::string& path);
 
-// Counts grids and Lua's heap; the system limits libraries.
+// Counts grids and Lua's heap; libraries have a system limit.
 void limit_memory(std::int64_t bytes);
-// Versions of the program and its libraries, for the manifest.
+// For the manifest.
 Json version_json();
 
 }  // namespace asperity::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity status STORE`: the stored and missing cases of ensembles that share a store, from the rosters in
-// the store (lua/ensemble/case_roster.hpp). Runs no script.
+// `asperity status STORE`: stored and missing cases of ensembles, from rosters in the store
+// (lua/ensemble/case_roster.hpp), without the script.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace asperity::cli {
 
 namespace {
 
-// Exit status: 0 complete; 1 a case failed; 3 cases are missing. Rosters of other builds count only if this
-// build has none.
+// Exit status: 0 complete; 1 a case failed; 3 cases missing. Other builds' rosters count only if this build
+// has none.
 int show_status(const std::string& store) {
   std::error_code problem;
   if (!std::filesystem::is_directory(store, problem)) {

@@ -81,7 +81,7 @@ unsigned char complete(EditLine* line, int) {
 extern "C" {
 
 __attribute__((visibility("default"))) void* asperity_edit_open(const AsperityEditHooks* hooks) {
-  // Only the character set: numbers keep their decimal point.
+  // Not the decimal point.
   if (std::setlocale(LC_CTYPE, "") == nullptr ||
       std::strstr(std::setlocale(LC_CTYPE, nullptr), "UTF-8") == nullptr)
     std::setlocale(LC_CTYPE, "C.UTF-8");
@@ -105,7 +105,7 @@ __attribute__((visibility("default"))) void* asperity_edit_open(const AsperityEd
   el_set(line, EL_GETCFN, read_character);
   el_set(line, EL_ADDFN, "asperity-complete", "offers what may come next", complete);
   el_set(line, EL_ADDFN, "asperity-give-up", "forgets the line", give_up);
-  el_source(line, nullptr);  // ~/.editrc: the user's keys
+  el_source(line, nullptr);  // the user's keys
   el_set(line, EL_BIND, "^I", "asperity-complete", nullptr);
   el_set(line, EL_BIND, "^C", "asperity-give-up", nullptr);
   el_set(line, EL_BIND, "^R", "em-inc-search-prev", nullptr);
@@ -118,7 +118,7 @@ __attribute__((visibility("default"))) int asperity_edit_read(void* pointer, con
   editor.prompt = prompt;
   editor.given_up = false;
   int count = 0;
-  // Before the prompt appears, so that an early Ctrl-D means the end of input.
+  // Before the prompt: an early Ctrl-D must mean the end of input.
   el_set(editor.line, EL_PREP_TERM, 1);
   const char* got = el_gets(editor.line, &count);
   if (editor.given_up) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of a script function as cases of an implicit ensemble: a case has the arguments, its row the answer.
+// Script function calls as cases of an implicit ensemble: arguments in, answer in the row.
 #include "bindings/lua/registry/call_batch.hpp"
 
 #include <array>
@@ -27,7 +27,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Makes `run` from the function.
+// From the function.
 constexpr char run_of_calls[] =
     "local call = ... return function(case) return { answer = call(case.a, case.b) } end";
 constexpr std::array<const char*, 2> names_of_arguments = {"a", "b"};
@@ -43,7 +43,7 @@ class BatchedCases final : public ScriptedCases {
 
   const std::string& reason(std::size_t k) const { return reasons_[k]; }
   std::string name(std::size_t k) const override { return "call " + std::to_string(k + 1); }
-  // The caller reports one failure; later calls are skipped. Calls start in order, so that the first failure
+  // Calls start in order, and later calls are skipped, so that the first failure, which the caller reports,
   // is the same for any number of threads.
   Finished compute(std::size_t k) override {
     if (k > first_failed_) return std::make_unique<CaseResult>();
@@ -57,11 +57,11 @@ class BatchedCases final : public ScriptedCases {
   }
 
  private:
-  std::vector<std::string> reasons_;  // each written by its own call's thread
+  std::vector<std::string> reasons_;  // each written by its call's thread
   std::atomic<std::size_t> first_failed_ = std::numeric_limits<std::size_t>::max();
 };
 
-// The scheduler's progress as a number of finished calls.
+// Progress as a number of calls.
 class BatchMonitor final : public Monitor {
  public:
   BatchMonitor(Monitor& outer, std::size_t count, const std::function<void(std::size_t)>& done)
@@ -148,10 +148,10 @@ class ScriptedBatch final : public CallBatch {
     return answer;
   }
 
-  // Adds the calls' inputs and knobs to the run or to the enclosing case.
+  // For the run or the enclosing case.
   void note(const CaseResult& result) {
     for (const RunKnob& knob : result.knobs) {
-      session_.knobs->make(knob);  // a stored call did not make the knob
+      session_.knobs->make(knob);  // not made by a stored call
       if (session_.notes != nullptr) session_.notes->knobs.push_back(knob);
     }
     note_inputs_of_case(session_, result.inputs);

@@ -26,7 +26,7 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::size_t most_cases = 1'000'000;
-// Nesting depth: each level has a thread and a Lua state.
+// Each level has a thread and a Lua state.
 constexpr int deepest_case = 8;
 
 enum class OnFailure { error, report };
@@ -47,7 +47,7 @@ struct EnsembleKeys {
     for (const Varied& varied : *over) product *= varied.values.size();
     return product;
   }
-  // Case k from 0: the last key varies fastest.
+  // From 0; the last key varies fastest.
   Values values(std::size_t k) const {
     if (cases) return (*cases)[k];
     Values result(over->size());
@@ -185,7 +185,7 @@ const Block<EnsembleKeys>& ensemble_block() {
   return block;
 }
 
-// A dry run calls `run` in the script's own state: nested ensembles are neither counted nor listed.
+// A dry run calls `run` in the script's own state; nested ensembles are neither counted nor listed.
 struct NestedEnsembles {
   explicit NestedEnsembles(Session& s)
       : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
@@ -200,7 +200,7 @@ struct NestedEnsembles {
   int numbered;
 };
 
-// The rows known in a dry run, from one case run in this state.
+// From one case run in this state.
 Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run) {
   lua_State* L = call.L;
   const std::size_t count = keys.count();
@@ -278,19 +278,19 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// Adds the cases' inputs and knobs to the run or to the enclosing case.
+// For the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {
-      session.knobs->make(knob);  // a stored or remote case did not make the knob
+      session.knobs->make(knob);  // not made by a stored or remote case
       if (session.notes != nullptr) session.notes->knobs.push_back(knob);
     }
   note_knobs(session);
   for (const CaseResult& result : results) note_inputs_of_case(session, result.inputs);
 }
 
-// Stores plain cells of finished rows in a notebook of the run, so that an error loses nothing. Returns the
-// file, or "" without a run directory.
+// Saves plain cells in a notebook, so that an error loses nothing. Returns the file, or "" without a run
+// directory.
 std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) {
   const Session& session = call.session();
   if (session.run == nullptr || session.is_case) return {};
@@ -323,7 +323,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   return any ? book->csv().filename().string() : std::string();
 }
 
-// One error for all failed cases, after the others are stored.
+// After the other cases are stored.
 [[noreturn]] void refuse_failures(const Call& call, const EnsembleKeys& keys,
                                   const std::vector<CaseResult>& results,
                                   const std::vector<std::size_t>& failed) {

@@ -20,7 +20,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Stores warnings; progress is reported for the whole ensemble.
+// Progress is reported for the whole ensemble.
 class CaseMonitor final : public Monitor {
  public:
   CaseMonitor(std::vector<std::string>& warnings, ResultStore* results)
@@ -79,14 +79,14 @@ int print_to_session(lua_State* L) {
   return written ? 0 : luaL_error(L, "there is no memory for what is printed");
 }
 
-// Redirects print, io.write and io.stdout to the session's output. Raises.
+// For print, io.write and io.stdout. Raises.
 void capture_output(lua_State* L) {
   lua_pushcfunction(L, print_to_session);
   lua_setglobal(L, "print");
   lua_getglobal(L, "io");
   lua_getfield(L, -1, "output");
   auto* stream = static_cast<luaL_Stream*>(lua_newuserdatauv(L, sizeof(luaL_Stream), 0));
-  stream->closef = nullptr;  // closed, until it has a file
+  stream->closef = nullptr;  // closed until it has a file
   luaL_setmetatable(L, LUA_FILEHANDLE);
   stream->f = Session::of(L).output;
   stream->closef = keep_open;
@@ -109,7 +109,6 @@ bool same(const Argument& a, const Argument& b) {
   return first != nullptr && second != nullptr && first->pointer == second->pointer;
 }
 
-// Leaves the returned table on the stack, or makes a table from the returned value.
 void make_table(lua_State* L) {
   const Argument returned(L, -1);
   if (returned.is_table()) return;
@@ -142,8 +141,8 @@ void refuse_other_values(const CaseSetup& setup, const Argument& returned, const
     });
 }
 
-// Seeds math.random and returns its next integer; has_drawn() compares this integer with the generator after
-// the case. Pushes math.random and math.randomseed.
+// Seeds math.random and returns its next integer, from which has_drawn() detects use. Pushes math.random and
+// math.randomseed.
 lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
   auto action = [seed](lua_State* s) {
     lua_getglobal(s, "math");
@@ -178,7 +177,7 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
-// Pushes the upvalues of a function, for a list its length. Returns their number.
+// For a list, pushes its length. Returns their number.
 int push_upvalues(lua_State* L, int function) {
   if (lua_checkstack(L, 300) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
   int count = 0;
@@ -190,8 +189,7 @@ int push_upvalues(lua_State* L, int function) {
   return count;
 }
 
-// Warns of changed upvalues: a case changes only its own copy. `before`: stack index of the first original
-// upvalue.
+// A case changes only its own copy of upvalues. `before`: stack index of the first original.
 void warn_of_lost_changes(lua_State* L, int function, int before) {
   const Argument::StackGuard guard(L);
   const int count = push_upvalues(L, function), after = lua_gettop(L) - count + 1;
@@ -215,7 +213,7 @@ std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup
   const int random = lua_gettop(L) - 1;
   lua_pushcfunction(L, traceback_handler);
   const int handler = lua_gettop(L);
-  // Two tables: `run` may change its own.
+  // `run` may change its own table.
   auto prepare = [&setup](lua_State* s) {
     capture_output(s);
     lua_createtable(s, 0, static_cast<int>(setup.values.size()));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One case of an ensemble in its own Lua state. The function and the case's values are copied into a fresh
-// state, and the returned row is copied out. Cases do not see each other. Output and warnings are stored and
-// later shown in the order of the cases.
+// One case of an ensemble in a fresh Lua state: function and values are copied in, the row is copied out.
+// Cases do not see each other; output and warnings are shown later, in the order of cases.
 #pragma once
 
 #include <cstdint>
@@ -33,38 +32,38 @@ struct CaseValue {
 
 struct CaseSetup {
   std::shared_ptr<const PackedValue> run;
-  std::vector<CaseValue> values;  // in the order of messages
+  std::vector<CaseValue> values;  // in message order
   std::uint64_t seed = 1;
   bool trusted = false;
-  int depth = 1;  // number of enclosing ensembles
+  int depth = 1;  // enclosing ensembles
   std::shared_ptr<Refinement> refinement;
   std::shared_ptr<Variation> variation;
   std::shared_ptr<RunKnobs> knobs;
   std::shared_ptr<Ledger> ledger;
-  ResultStore* results = nullptr;             // of the run; may be null
-  ScriptSpelling script;                      // spelling of the script's name
-  std::shared_ptr<const LoadedFiles> loaded;  // of a replayed or resumed run; may be null
-  std::string script_digest;                  // of script text and arguments
-  int ensemble = 0;                           // number in the run, from 1
-  bool watched = false;                       // check the stop flag every few thousand instructions
+  ResultStore* results = nullptr;  // of the run; may be null
+  ScriptSpelling script;
+  std::shared_ptr<const LoadedFiles> loaded;  // of a replayed or resumed run, or null
+  std::string script_digest;                  // of script and arguments
+  int ensemble = 0;                           // in the run, from 1
+  bool watched = false;                       // check the stop flag now and then
 };
 
 struct CaseResult : FinishedCase {
-  std::shared_ptr<const PackedValue> row;  // null after a failure
+  std::shared_ptr<const PackedValue> row;  // null on failure
   std::string digest;                      // of the row
   std::vector<CaseInput> inputs;
-  std::vector<RunKnob> knobs;  // used by the case
-  bool drew = false;           // used random numbers, so that the seed matters
+  std::vector<RunKnob> knobs;  // used
+  bool drew = false;           // used random numbers
   double seconds = 0;
 };
 
-// The current states, for stops. Thread-safe.
+// Thread-safe.
 class RunningStates {
  public:
-  // Raises "interrupted" in all states at their next instruction.
+  // All raise "interrupted" at their next instruction.
   void interrupt();
 
-  // Registers a state during its lifetime; destroy before closing the state.
+  // Destroy before closing the state.
   class Member {
    public:
     Member(RunningStates& states, lua_State* L);
@@ -84,10 +83,10 @@ class RunningStates {
 
 std::string case_name(const std::vector<CaseValue>& values);
 
-// Never throws: errors become the result's failure.
+// Never throws: errors become failures.
 CaseResult run_case(const CaseSetup& setup, RunningStates& states);
 
-// Allowed return values of `run`, as a sentence for errors.
+// A sentence about allowed values of `run`.
 std::string wrong_return(const std::string& found);
 
 }  // namespace asperity::lua

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Lua value outside any Lua state: a graph of tables, functions and native values, from which states get
-// fresh copies. Identity is preserved within a packed value: shared tables, shared upvalues and cycles.
-// Native values are shared, never copied. pack() (transfer.hpp) fills packed values; afterwards they are
-// immutable and thread-safe.
+// A Lua value outside any state: a graph of tables, functions and native values. States get fresh copies with
+// shared tables, upvalues and cycles preserved; native values are shared. Filled by pack() (transfer.hpp),
+// then immutable and thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -23,39 +22,38 @@ namespace asperity::lua {
 
 struct Module;
 
-// A table access in errors: ".bench", "[\"two words\"]".
+// For errors: ".bench", "[\"two words\"]".
 std::string step_text(std::string_view key);
 
 class PackedValue final : public StoredValue {
  public:
-  // Leaves a copy on the stack, with the script's additions to globals and Lua's tables. Functions need a
+  // Leaves a copy on the stack and adds the script's globals and changes to Lua's tables. Functions need a
   // state of make_state. Cost: linear. Raises if out of memory: call inside protect().
   void push(lua_State* L) const override;
 
-  // Of the data: equal for equal values, independent of the order of keys in memory.
+  // Of data: equal for equal values in any order of keys.
   std::string digest() const;
 
-  // Data as bytes, restored bit for bit by any process of this build. Native values in `given` are written as
-  // references. Surfaces without a generator, profiles and materials are written in full. Cost: linear.
-  // bytes() throws Error{not_permitted} for other values, with the path from `name`; from_bytes() throws
-  // Error{bad_file} for invalid bytes.
+  // Data as bytes, restored bit for bit by any process of this build; native values in `given` become
+  // references. Includes profiles, materials, and surfaces without a generator. Cost: linear. bytes() throws
+  // Error{not_permitted} for other values, with the path from `name`; from_bytes() throws Error{bad_file}.
   std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
   static std::shared_ptr<const PackedValue> from_bytes(std::string_view bytes,
                                                        const std::vector<Value>& given = {});
-  // The native value if it is the whole content, else null.
+  // Null unless the whole is a native value.
   const Value* native() const;
 
-  // Identifies data and the behaviour of functions, equally in every process of this build: code without file
-  // names and line numbers, upvalues, globals. The `require` folder, and the script's name in `arg[0]` unless
-  // a function uses `arg`, are excluded if they equal `spelling`.
+  // Identifies data and function behaviour in all processes of this build: code without file names and lines,
+  // upvalues, globals. Excluded if equal to `spelling`: the `require` folder, and the script's name in
+  // `arg[0]` unless a function uses `arg`.
   struct Content {
     std::string digest;
-    std::string lines;  // of the content with line numbers
-    bool whole = true;  // false: some values are not identified by the digest
+    std::string lines;  // also of line numbers
+    bool whole = true;  // false: the digest does not identify all values
   };
   Content content(const ScriptSpelling& spelling = {}) const;
 
-  // Globals that cannot be packed: name -> "`app.bench` is a contact".
+  // Name -> "`app.bench` is a contact".
   const std::map<std::string, std::string>& left_behind() const { return left_behind_; }
 
  private:
@@ -78,7 +76,7 @@ class PackedValue final : public StoredValue {
     Array<Entry> entries;
     Item metatable;
   };
-  // Code of a script function as dumped by Lua, and its upvalue cells.
+  // Code as dumped by Lua.
   struct ScriptFunction {
     std::string code;
     std::vector<std::uint32_t> cells;
@@ -88,7 +86,7 @@ class PackedValue final : public StoredValue {
     std::vector<Item> upvalues;
   };
   using Node = std::variant<Table, ScriptFunction, HostFunction, Value>;
-  // One upvalue, with its first function's node and upvalue index.
+  // With its first function's node and upvalue index.
   struct Cell {
     Item value;
     std::uint32_t node;

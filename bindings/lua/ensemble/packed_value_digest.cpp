@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digests of a packed value: of rows, for journals; and of functions with everything they reach, equal in all
-// processes of this build. Digests depend neither on addresses nor on the order of keys in memory: nodes are
-// numbered in the order of a traversal with sorted keys.
+// Digests of rows, for journals, and of functions with everything they reach; equal in all processes of this
+// build. Independent of addresses and of key order in memory: nodes are numbered by a traversal with sorted
+// keys.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void add(Digester& digester, const Material& material) {
     add(digester, property);
 }
 
-// Numbers nodes or cells in order of first visit.
+// By first visit.
 class MetOrder {
  public:
   explicit MetOrder(std::size_t count) : numbers_(count, -1) {}
@@ -44,7 +44,6 @@ class MetOrder {
     }
     return numbers_[id];
   }
-  // The next unprocessed node.
   std::optional<std::uint32_t> next() {
     return done_ < order_.size() ? std::optional(order_[done_++]) : std::nullopt;
   }
@@ -78,7 +77,7 @@ bool PackedValue::before(const Entry& a, const Entry& b) {
   return number_of(a.key) < number_of(b.key);
 }
 
-// Keys without an order keep their memory order: two runs may then differ and miss stored results.
+// Keys without an order keep their memory order: stored results may then be missed.
 Array<PackedValue::Entry> PackedValue::in_order(Array<Entry> entries) {
   std::sort(entries.begin(), entries.end(), before);
   return entries;
@@ -88,7 +87,7 @@ struct PackedValue::RowDigest : ValueVisitor {
   const PackedValue& packed;
   Digester digester{};
   MetOrder nodes{packed.nodes_.size()};
-  const Value* value = nullptr;  // being visited
+  const Value* value = nullptr;
 
   explicit RowDigest(const PackedValue& row) : packed(row) {}
 
@@ -160,12 +159,12 @@ struct PackedValue::ContentDigest : ValueVisitor {
   Digester digester{}, lines{};
   bool whole = true;
   MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
-  std::optional<std::uint32_t> arguments{};  // the node of `arg`, if only its name leads there
+  std::optional<std::uint32_t> arguments{};  // only if its name leads there
   bool names_arguments = false;
 
   ContentDigest(const PackedValue& reached, const ScriptSpelling& names) : packed(reached), spelling(names) {}
 
-  // A function of the program: its offset in the loaded file.
+  // By its offset in the loaded file.
   void add_place(const void* address) {
     Dl_info file{};
     if (address == nullptr || ::dladdr(address, &file) == 0 || file.dli_fbase == nullptr) {
@@ -207,7 +206,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
       asperity::lua::add(digester, surface.traits().aliased_share);
       digester.add(surface.material() ? 1 : 0);
       if (surface.material()) asperity::lua::add(digester, *surface.material());
-      if (surface.recipe() != nullptr) whole = false;  // its values on other cells are unknown
+      if (surface.recipe() != nullptr) whole = false;  // values on other cells are unknown
     } else if (object.type == &class_of<Profile>()) {
       digester.add(static_cast<const Profile*>(object.pointer.get())->digest());
     } else {
@@ -253,7 +252,6 @@ struct PackedValue::ContentDigest : ValueVisitor {
   }
   void add(const BasePath& path) { digester.add(path.library).add(path.key); }
 
-  // The script's own name as typed.
   bool is_script_name(const Entry& entry) const {
     const auto* key = std::get_if<std::int64_t>(&entry.key);
     const auto* name = std::get_if<std::string>(&entry.value);
@@ -273,7 +271,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
     return base.library == "package" && base.key.empty() && key != nullptr && *key == "path" &&
            path != nullptr && !spelling.folder.empty() && *path == search_path(spelling.folder);
   }
-  // A string constant "arg" in dumped code: marked length plus one, then the bytes.
+  // "arg" as a constant in dumped code: marked length plus one, then bytes.
   static bool names_arg(const ScriptFunction& function) {
     return function.code.find(
                "\x84"
@@ -330,7 +328,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
       if (first.library != second.library) return first.library < second.library;
       return before(a->entry, b->entry);
     });
-    // Last: other globals may be functions that use `arg`.
+    // Last, because other globals may use `arg`.
     const Addition* last = nullptr;
     for (const Addition* addition : additions) {
       if (is_path_of_script(*addition)) continue;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases of a lab.ensemble for the scheduler: calls of the script's function in separate Lua states, stored
-// with the run.
+// Cases of a lab.ensemble for the scheduler: script calls in separate Lua states, stored with the run.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +16,10 @@
 
 namespace asperity::lua {
 
-// The common setup of a new ensemble's cases, without values and seed.
+// Without values and seed.
 CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const PackedValue> run);
 
-// `setup(k)` describes case k; called concurrently.
+// `setup(k)`: case k; called concurrently.
 class ScriptedCases : public EnsembleCases {
  public:
   ScriptedCases(std::size_t count, std::function<CaseSetup(std::size_t)> setup, const StoredCases& kept)
@@ -44,8 +43,8 @@ class ScriptedCases : public EnsembleCases {
   RunningStates states_;
 };
 
-// `setup(k)` describes case k; called concurrently. Throws like the scheduler's run_cases. `place`: of the
-// ensemble in the script. `reports_failures`: the script continues after failed cases.
+// `setup(k)`: case k; called concurrently. Throws like the scheduler's run_cases. `place`: in the script.
+// `reports_failures`: the script continues after failed cases.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
                                   const StoredCases& kept, const std::string& place, bool reports_failures,
                                   Session& session);

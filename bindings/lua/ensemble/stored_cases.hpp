@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole cases of an ensemble in the store of the run. A key consists of the function's behaviour (not its
-// file), the case's values, the seed if random numbers were used, and the given knobs if knobs were used.
-// Resumed runs, edited scripts and other processes find the cases. A stored case also has its input files and
-// is valid only while these are unchanged; clock and environment are not checked. Not for trusted scripts
-// (--trust), studies and variations.
+// Whole cases of an ensemble in the run's store, for resumed runs, edited scripts and other processes. The
+// key: behaviour of the function (not its file), the case's values, and if used, the seed and the given
+// knobs. A stored case is valid while its input files are unchanged; clock and environment are not checked.
+// Not for trusted scripts (--trust), studies and variations.
 #pragma once
 
 #include <optional>
@@ -18,15 +17,15 @@ namespace asperity::lua {
 
 class Session;
 
-// A finished case as bytes, exact to the bit. `given`: the case's values, written as references. Throws
-// Error{not_permitted} for a row without a bytes form, Error{bad_file} for invalid bytes.
+// Exact to the bit. `given`: the case's values, written as references. Throws Error{not_permitted} for a row
+// without a bytes form, Error{bad_file} for invalid bytes.
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given);
 CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>& given);
 
-// The store for heavy calls in cases; null for none. Used by other threads.
+// Used by other threads; may be null.
 ResultStore* results_for_cases(const Session& session);
 
-// A failure has a separate key, so it never hides a later result of another process.
+// Separate, so that a failure never hides a later result.
 inline constexpr std::string_view failed_case = "failed ";
 
 // Of one ensemble. Thread-safe.
@@ -34,13 +33,12 @@ class StoredCases {
  public:
   StoredCases(const Session& session, const PackedValue& run);
 
-  // None if missing or outdated. Failures count only `with_failures`.
+  // None if missing or outdated. Failures only `with_failures`.
   std::optional<CaseResult> find(const CaseSetup& setup, bool with_failures) const;
   bool keeps() const { return store_ != nullptr; }
-  // Possible keys of a case, with and without random numbers and knobs. Keys of failures begin with
-  // `failed_case`.
+  // With and without random numbers and knobs. Keys of failures begin with `failed_case`.
   std::vector<std::string> keys(const CaseSetup& setup) const;
-  // Stores failures and cheap cases only if `always`. Never fails.
+  // Failures and cheap cases only if `always`. Never fails.
   void keep(const CaseSetup& setup, const CaseResult& result, bool always) const;
 
  private:
@@ -50,7 +48,7 @@ class StoredCases {
   ResultStore* store_ = nullptr;
   PackedValue::Content content_;
   std::string folder_;  // of the script
-  std::string script_;  // identifies values without a digest
+  std::string script_;  // replaces an incomplete digest
 };
 
 }  // namespace asperity::lua

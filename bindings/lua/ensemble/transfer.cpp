@@ -42,7 +42,7 @@ std::string step_of(const Argument& key) {
   return "[" + key.describe() + "]";
 }
 
-// "an open file", "an iterator": the kind of a foreign userdata.
+// "an open file", "an iterator": a foreign userdata.
 std::string kind_of_userdata(const Argument& value) {
   lua_State* L = value.state();
   const Argument::StackGuard guard(L);
@@ -57,8 +57,8 @@ std::string kind_of_userdata(const Argument& value) {
 
 }  // namespace
 
-// Depth-first traversal without recursion. A table or function in progress is a frame; its value is on the
-// Lua stack at the frame's index.
+// Depth first, without recursion: a table or function in progress is a frame, with its value on the Lua
+// stack.
 class Packer {
  public:
   Packer(lua_State* state, PackedValue& packed, Cargo cargo, std::string name, std::string hint)
@@ -74,7 +74,6 @@ class Packer {
     return root;
   }
 
-  // The globals, and additions to Lua's own tables.
   void pack_additions() {
     with_globals([&](const Argument& globals) {
       const Argument::StackGuard guard(L);
@@ -94,10 +93,10 @@ class Packer {
     enum class Phase { begin, metatable, entries, value } phase = Phase::begin;  // of a table
     std::uint32_t node = 0;
     int index = 0;    // of the table or function on the Lua stack
-    int upvalue = 0;  // last one read
+    int upvalue = 0;  // last read
   };
 
-  // Converts the top of the stack to an item and pops it; a new frame pops its value at its end.
+  // Pops the top of the stack as an item; a new frame pops it later.
   PackedValue::Item take() {
     if (lua_checkstack(L, 16) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     const Argument value(L, -1);
@@ -166,8 +165,8 @@ class Packer {
     const lua_CFunction function = lua_tocfunction(L, -1);
     const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
     if (has_state) lua_pop(L, 1);
-    // A case has its own print, which keeps the order of output, and its own loops in fixed order, for every
-    // host of the module.
+    // A case has its own print for ordered output, and its own loops in fixed order, for every host of the
+    // module.
     const BasePath* path = base_function(function);
     const auto own = [path](const char* name) { return *path == BasePath{"_G", name}; };
     if (path != nullptr && (has_state || own("print") || own("pairs") || own("next")))
@@ -194,7 +193,7 @@ class Packer {
     refuse(kind_of_userdata(value));
   }
 
-  // Made on demand: most packed values are numbers.
+  // On demand: most packed values are numbers.
   const BaseLibrary& base_library() {
     if (!base_library_) base_library_.emplace(L);
     return *base_library_;
@@ -232,7 +231,7 @@ class Packer {
     return {index};
   }
 
-  // Reads the next part of the innermost frame. take() may add a frame and so invalidate references.
+  // Reads the next part of the innermost frame. take() may invalidate references by adding a frame.
   void advance() {
     const std::uint32_t node = frames_.back().node;
     if (std::holds_alternative<PackedValue::Table>(packed_.nodes_[node]))
@@ -318,7 +317,7 @@ class Packer {
     }
   }
 
-  // "`run` uses the upvalue `app.bench`, which is a contact", from the frames.
+  // "`run` uses the upvalue `app.bench`, which is a contact"
   [[noreturn]] void refuse(const std::string& kind, bool the_table_itself = false) const {
     std::vector<std::string> chain = {name_};
     bool held_by_host = false;
@@ -371,7 +370,7 @@ class Packer {
     });
   }
 
-  // Equal to the value of this name in a fresh state.
+  // As in a fresh state.
   bool is_original(const Argument& value, const std::string& library, const Argument& key) {
     if (!key.is_text()) return false;
     const BasePath own{library, std::string(key.text())};
@@ -384,7 +383,7 @@ class Packer {
     return path != nullptr && (*path == own || (library == "_G" && *path == BasePath{own.key, ""}));
   }
 
-  // Removes nodes and cells beyond these numbers.
+  // Removes later nodes and cells.
   void forget(std::size_t nodes, std::size_t cells) {
     frames_.clear();
     for (; order_.size() > nodes; order_.pop_back()) seen_.erase(order_.back());

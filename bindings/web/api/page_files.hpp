@@ -26,7 +26,7 @@ class PageFiles {
   std::map<std::string, File> files_;  // by path: "/index.html"
 };
 
-// How to build the page.
+// A sentence about building the page.
 extern const char* const page_needs;
 
 void add_safe_headers(HttpResponse& response);

@@ -237,7 +237,7 @@ export class PicturePane {
     );
     this.colourChoice.select.value = this.colour.name;
     this.reliefChoice.select.value = this.relief?.name ?? 'flat';
-    // Pictures of one kind share a factor for comparison.
+    // Pictures with equal reliefs share a factor for comparison.
     if (this.relief && (!previous || previous.name !== this.relief.name)) {
       this.step = fittingExaggeration(spanOf(this.relief.values), Math.max(this.relief.sizeX, this.relief.sizeY));
     }
