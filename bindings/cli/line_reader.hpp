@@ -27,7 +27,7 @@ class LineHistory {
   static std::filesystem::path default_file();
 
   const std::vector<std::string>& lines() const { return lines_; }
-  // Skips empty lines, a leading space, and repetitions.
+  // Skips empty lines, lines with a leading space, and repetitions.
   bool add(const std::string& line);
 
  private:
@@ -63,7 +63,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// Short lists have descriptions.
+// The lines for a terminal of `columns`; short lists have descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

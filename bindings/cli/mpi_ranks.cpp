@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr LoadedPart part{"mpi", "cases are spread over the ranks of mpirun", "libopenmpi3"};
-// For other ranks at the end of rank 0.
+// How long rank 0 waits for the other ranks at its end.
 constexpr auto patience_done = std::chrono::seconds(60), patience_failed = std::chrono::seconds(3);
 
 std::optional<int> whole(const std::optional<std::string>& text) {

@@ -22,7 +22,7 @@ struct LaunchedRank {
   int on_this_machine = 1;
 };
 std::optional<LaunchedRank> launched_rank(bool share);
-// The machine's processors divided among its ranks.
+// Default threads: the machine's processors divided among its ranks.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {
@@ -34,7 +34,7 @@ class MpiRanks final : public Ranks {
 
   Team& team() override;
 
-  // Of a rank other than 0.
+  // For files of a rank other than 0.
   std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 

@@ -13,9 +13,9 @@
 
 namespace asperity::cli {
 
-// Continues the run in `command.resume` with its script, arguments, seed, store and share; without a
-// manifest, begins a new run. None if the run is done and undamaged; a damaged run is repeated, with its
-// damages named. `leads`: takes the directory's lock, unless held. Throws Error for
+// The command that continues the run in `command.resume` with its script, arguments, seed, store and share.
+// Without a manifest, the command begins a new run. None if the run is done and undamaged; a damaged run is
+// repeated, with its damages named. `leads`: takes the directory's lock, unless held. Throws Error for
 // - another script, arguments or seed, without `reuse`;
 // - an unfinished or damaged run by another version, without `reuse`;
 // - another share of the cases, or another `trust`;
@@ -27,14 +27,14 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 // foreign directory must not grant itself all of Lua. `purpose` as in "go on with".
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
-// From the record's copies; names originals with other content.
+// Loads script files from the record's copies; names originals with other content.
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell);
 
-// The folder stays empty. Throws Error{bad_value} for a `reuse` that is no folder, or a run whose store is a
-// link.
+// Where a run stores and finds results; the folder stays empty. Throws Error{bad_value} for a `reuse` that is
+// no folder, or a run whose store is a link.
 ResultFilesSetup result_files(const RunCommand& command);
 
-// Finds nothing from a journal line on.
+// A store without results from a journal line on.
 class UntilLine final : public ResultStore {
  public:
   UntilLine(ResultStore& store, const Journal& journal, std::int64_t line)

@@ -28,10 +28,10 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // SIGTERM or SIGHUP: ends the whole program.
+  // After SIGTERM or SIGHUP, which end the whole program.
   bool terminated() const { return terminated_.load(); }
 
-  // Stops reach this state; destroy before closing the state.
+  // During its lifetime, stops reach this state; destroy before closing the state.
   class Watching {
    public:
     Watching(Watchdog& watchdog, lua_State* L) : watchdog_(watchdog) { watchdog_.watch(L); }
@@ -56,7 +56,7 @@ class Watchdog {
   std::thread thread_;
 };
 
-// SIGINT, SIGTERM, and SIGHUP unless ignored at start (nohup). Call before setting handlers.
+// SIGINT, SIGTERM, and SIGHUP unless ignored at start (nohup). Call first before any handler is set.
 const sigset_t& stop_signals();
 
 // For signals 128 plus the number: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.

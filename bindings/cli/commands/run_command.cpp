@@ -394,7 +394,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
 
   RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
-  // Even if the script caught the error.
+  // The limit was exceeded, even if the script caught the error.
   if (command.limit_memory && lua::memory_limit_met()) {
     stop_flag().raise(StopReason::memory_limit);
     if (status == done) why = "the script went on with less";

@@ -40,12 +40,12 @@ struct RunCommand {
   bool trust = false;
   std::vector<std::string> arguments;
   GivenKnobs knobs;
-  std::optional<std::string> text;            // instead of the file
-  std::optional<std::string> resume;          // an unfinished run
+  std::optional<std::string> text;            // of the script, instead of its file
+  std::optional<std::string> resume;          // directory of an unfinished run
   bool anew = false;                          // with another script: old files are moved aside, results stay
   bool journal_lost = false;                  // resumed with a new journal
-  std::vector<std::string> damages;           // one sentence each
-  std::shared_ptr<const LoadedFiles> loaded;  // by the resumed or replayed run
+  std::vector<std::string> damages;           // of the resumed run, one sentence each
+  std::shared_ptr<const LoadedFiles> loaded;  // files of the resumed or replayed run
   std::shared_ptr<RunLock> lock;              // of the directory, if held
   std::vector<std::string> reuse;             // runs or result folders
   std::optional<std::string> store;           // shared, instead of the run's own
@@ -59,11 +59,11 @@ struct RunCommand {
   RunObserver* observer = nullptr;            // receives messages instead of standard error, or null
   MpiRanks* ranks = nullptr;                  // null for a single process
 
-  std::shared_ptr<const TemporaryFolder> case_folder;  // deleted at the end
+  std::shared_ptr<const TemporaryFolder> case_folder;  // of `one_case`; deleted at the end
 
   // Behind the barriers of page runs (bindings/web/confined/confined_command.hpp).
   bool confined = false;
-  std::vector<std::string> read;  // readable folders
+  std::vector<std::string> read;  // further readable folders
   std::string without_barriers;   // not required: "files,network"
   // Bytes of the run directory and of new results in a shared store.
   std::optional<std::int64_t> limit_disk;
@@ -73,8 +73,8 @@ struct RunCommand {
   bool terminal = false;
 };
 
-// Execution in a confined process; bindings/main.cpp passes it from
-// bindings/web/confined/confined_command.hpp, a higher layer.
+// Executes a command in a confined process; passed by bindings/main.cpp from the higher layer
+// bindings/web/confined/confined_command.hpp.
 template <class Asked>
 struct BehindBarriers {
   bool (*wanted)(const Asked& asked);    // by option or record
@@ -96,15 +96,15 @@ struct RunContext {
   TerminalMonitor& monitor;
   Watchdog& watchdog;
   ResultFiles& results;
-  std::function<void()> summary;  // prints the end to standard error
+  std::function<void()> summary;  // prints how and where the run ended
 };
 
 // Makes the run directory, sets limits, watches for stops, calls `work` (returns the reason of a failure, or
 // ""), closes the directory. Returns the exit status.
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work);
 
-// Returns the reason of a failure, or "". os.exit closes the directory and exits with `at_exit` of the
-// script's status.
+// Runs the script; returns the reason of a failure, or "". os.exit closes the directory and exits with
+// `at_exit` of the script's status.
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit);
 
 // Why a given value set no knob; "" if all did.
@@ -118,9 +118,9 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
 // Throws Error{bad_file}.
 std::string read_script(const std::string& path);
 
-// Counts grids and Lua's heap; libraries have a system limit.
+// Limits grids and Lua's heap by counting, libraries by the system.
 void limit_memory(std::int64_t bytes);
-// For the manifest.
+// Versions of the program and its libraries, for the manifest.
 Json version_json();
 
 }  // namespace asperity::cli

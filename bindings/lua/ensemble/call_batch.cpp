@@ -27,7 +27,7 @@ namespace asperity::lua {
 
 namespace {
 
-// From the function.
+// Makes `run` from the function.
 constexpr char run_of_calls[] =
     "local call = ... return function(case) return { answer = call(case.a, case.b) } end";
 constexpr std::array<const char*, 2> names_of_arguments = {"a", "b"};
@@ -148,7 +148,7 @@ class ScriptedBatch final : public CallBatch {
     return answer;
   }
 
-  // For the run or the enclosing case.
+  // Adds inputs and knobs of a call to the run or the enclosing case.
   void note(const CaseResult& result) {
     for (const RunKnob& knob : result.knobs) {
       session_.knobs->make(knob);  // not made by a stored call

@@ -278,7 +278,7 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// For the run or the enclosing case.
+// Adds inputs and knobs of the cases to the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {

@@ -79,7 +79,7 @@ int print_to_session(lua_State* L) {
   return written ? 0 : luaL_error(L, "there is no memory for what is printed");
 }
 
-// For print, io.write and io.stdout. Raises.
+// Redirects print, io.write and io.stdout to the session. Raises.
 void capture_output(lua_State* L) {
   lua_pushcfunction(L, print_to_session);
   lua_setglobal(L, "print");
@@ -177,7 +177,7 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
-// For a list, pushes its length. Returns their number.
+// Pushes the upvalues, for a list its length, and returns their number.
 int push_upvalues(lua_State* L, int function) {
   if (lua_checkstack(L, 300) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
   int count = 0;

@@ -53,17 +53,17 @@ struct CaseResult : FinishedCase {
   std::string digest;                      // of the row
   std::vector<CaseInput> inputs;
   std::vector<RunKnob> knobs;  // used
-  bool drew = false;           // used random numbers
+  bool drew = false;           // used random numbers: the seed matters
   double seconds = 0;
 };
 
-// Thread-safe.
+// The current states, for stops. Thread-safe.
 class RunningStates {
  public:
-  // All raise "interrupted" at their next instruction.
+  // All states raise "interrupted" at their next instruction.
   void interrupt();
 
-  // Destroy before closing the state.
+  // Registers a state; destroy before closing the state.
   class Member {
    public:
     Member(RunningStates& states, lua_State* L);

@@ -39,7 +39,7 @@ int clipped(std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, 1 
 struct PackedValue::Pusher {
   const PackedValue& packed;
   lua_State* L;
-  int made;   // list
+  int made;   // list of nodes
   int bases;  // list of values of Lua's library
 
   void item(const Item& value) const {

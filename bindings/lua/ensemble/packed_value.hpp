@@ -31,7 +31,7 @@ class PackedValue final : public StoredValue {
   // state of make_state. Cost: linear. Raises if out of memory: call inside protect().
   void push(lua_State* L) const override;
 
-  // Of data: equal for equal values in any order of keys.
+  // Digest of data: equal for equal values, independent of the order of keys in memory.
   std::string digest() const;
 
   // Data as bytes, restored bit for bit by any process of this build; native values in `given` become
@@ -40,7 +40,7 @@ class PackedValue final : public StoredValue {
   std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
   static std::shared_ptr<const PackedValue> from_bytes(std::string_view bytes,
                                                        const std::vector<Value>& given = {});
-  // Null unless the whole is a native value.
+  // The native value, or null if the value is something else.
   const Value* native() const;
 
   // Identifies data and function behaviour in all processes of this build: code without file names and lines,
@@ -48,12 +48,12 @@ class PackedValue final : public StoredValue {
   // `arg[0]` unless a function uses `arg`.
   struct Content {
     std::string digest;
-    std::string lines;  // also of line numbers
+    std::string lines;  // the same with line numbers
     bool whole = true;  // false: the digest does not identify all values
   };
   Content content(const ScriptSpelling& spelling = {}) const;
 
-  // Name -> "`app.bench` is a contact".
+  // Globals that cannot be packed: name -> "`app.bench` is a contact".
   const std::map<std::string, std::string>& left_behind() const { return left_behind_; }
 
  private:

@@ -32,7 +32,7 @@ void add(Digester& digester, const Material& material) {
     add(digester, property);
 }
 
-// By first visit.
+// Numbers nodes or cells in order of first visit.
 class MetOrder {
  public:
   explicit MetOrder(std::size_t count) : numbers_(count, -1) {}
@@ -159,12 +159,12 @@ struct PackedValue::ContentDigest : ValueVisitor {
   Digester digester{}, lines{};
   bool whole = true;
   MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
-  std::optional<std::uint32_t> arguments{};  // only if its name leads there
+  std::optional<std::uint32_t> arguments{};  // node of `arg`, if only its name leads there
   bool names_arguments = false;
 
   ContentDigest(const PackedValue& reached, const ScriptSpelling& names) : packed(reached), spelling(names) {}
 
-  // By its offset in the loaded file.
+  // A native function is identified by its offset in the loaded file.
   void add_place(const void* address) {
     Dl_info file{};
     if (address == nullptr || ::dladdr(address, &file) == 0 || file.dli_fbase == nullptr) {

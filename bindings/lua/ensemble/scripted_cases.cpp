@@ -29,7 +29,7 @@ CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const Pac
   common.loaded = session.loaded;
   common.script_digest = session.script_digest;
   common.ensemble = ++session.ensembles;
-  if (session.notes != nullptr) session.notes->drew = true;  // seeds of cases derive from it
+  if (session.notes != nullptr) session.notes->drew = true;  // the cases' seeds derive from this case's seed
   return common;
 }
 

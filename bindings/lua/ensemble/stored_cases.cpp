@@ -155,7 +155,7 @@ std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) c
     whole = whole && content.whole;
     digester.add(value.key).add(content.digest);
   }
-  // Values without an identifying digest: script and place identify them.
+  // The script and its place identify values without an identifying digest.
   if (!whole)
     digester.add(script_.empty() ? setup.script_digest + " " + std::to_string(setup.ensemble) : script_);
   if (drew) digester.add(static_cast<std::int64_t>(setup.seed));

@@ -22,10 +22,10 @@ class Session;
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given);
 CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>& given);
 
-// Used by other threads; may be null.
+// The store for heavy calls in cases, or null. Used by other threads.
 ResultStore* results_for_cases(const Session& session);
 
-// Separate, so that a failure never hides a later result.
+// Prefix of failure keys: a failure must never hide a later result.
 inline constexpr std::string_view failed_case = "failed ";
 
 // Of one ensemble. Thread-safe.
@@ -33,12 +33,12 @@ class StoredCases {
  public:
   StoredCases(const Session& session, const PackedValue& run);
 
-  // None if missing or outdated. Failures only `with_failures`.
+  // None if missing or outdated. Returns failures only `with_failures`.
   std::optional<CaseResult> find(const CaseSetup& setup, bool with_failures) const;
   bool keeps() const { return store_ != nullptr; }
   // With and without random numbers and knobs. Keys of failures begin with `failed_case`.
   std::vector<std::string> keys(const CaseSetup& setup) const;
-  // Failures and cheap cases only if `always`. Never fails.
+  // Stores failures and cheap cases only if `always`. Never fails.
   void keep(const CaseSetup& setup, const CaseResult& result, bool always) const;
 
  private:

@@ -383,7 +383,7 @@ class Packer {
     return path != nullptr && (*path == own || (library == "_G" && *path == BasePath{own.key, ""}));
   }
 
-  // Removes later nodes and cells.
+  // Removes nodes and cells beyond these numbers.
   void forget(std::size_t nodes, std::size_t cells) {
     frames_.clear();
     for (; order_.size() > nodes; order_.pop_back()) seen_.erase(order_.back());

@@ -14,7 +14,7 @@
 
 namespace asperity::web {
 
-// 256 random bits in 43 characters without URL escapes.
+// 258 random bits in 43 characters without URL escapes.
 std::string new_token();
 // Time depends on the lengths only.
 bool same_text(std::string_view one, std::string_view other);

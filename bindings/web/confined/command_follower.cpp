@@ -147,7 +147,7 @@ void CommandFollower::watch_limits(Clock::time_point now) {
   if (use.files > bounds_.files) end("it wrote more than " + std::to_string(bounds_.files) + " files");
   if (use.bytes > bounds_.directory_bytes)
     end("its files take more than " + format_bytes(bounds_.directory_bytes) + " (--limit-disk)");
-  // Still writing: kill.
+  // The run still writes: kill.
   if (use.bytes > bounds_.directory_bytes + bounds_.directory_bytes / 4) process_.send(SIGKILL);
 }
 

@@ -194,7 +194,7 @@ class Undertaking {
   int carry_through() {
     check_options();
     if (replay_ != nullptr) take_record(replay_->recorded, "replay");
-    // First: a refused run stays unchanged.
+    // Before any change: a refused run stays as it is.
     if (run_.resume) refuse_links(*run_.resume);
     if (run_.resume) take_record(*run_.resume, "go on with");
     if (!run_.script.empty()) read_script();

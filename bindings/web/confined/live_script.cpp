@@ -75,7 +75,7 @@ Question question_in(const std::string& text) {
   return question;
 }
 
-// The newest question and the interruptible run.
+// The newest question, and the run that it may interrupt.
 class Questions {
  public:
   explicit Questions(int socket) : socket_(socket), listener_([this] { listen(); }) { listener_.detach(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Live scripts (confined/live_script.hpp): one confined process for each tab. It ends with its tab, for
-// another script, when idle, at a limit, or to make room. Moves take turns (shares.hpp); only a tab's newest
-// waiting move counts.
+// Live scripts (confined/live_script.hpp): one confined process for each tab. The process ends with its tab,
+// for another script, when idle, at a limit, or to make room. Moves take turns (shares.hpp); only a tab's
+// newest waiting move counts.
 #pragma once
 
 #include <atomic>
@@ -35,6 +35,7 @@ struct LiveSetup {
   std::chrono::milliseconds idle = std::chrono::minutes(2);
 };
 
+// Thread-safe.
 class LiveSession {
  public:
   using Clock = std::chrono::steady_clock;
@@ -51,7 +52,7 @@ class LiveSession {
 
   // Sends a question; returns its move number. `share` is held until the newest move is answered.
   std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
-  // `piece`: a frame or nothing yet. False after the last.
+  // The next part of a move's answer: a frame or nothing yet. False after the last.
   bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
   // Whether a move waits, holding a share.
   bool busy() const;

@@ -172,7 +172,7 @@ void RunFollower::watch_limits(Clock::time_point now) {
     end(RunState::limit, "it wrote more than " + std::to_string(limits_.files) + " files");
   if (use.bytes > limits_.directory_bytes)
     end(RunState::limit, "its files take more than " + mebibytes(limits_.directory_bytes));
-  // Still writing: kill.
+  // The run still writes: kill.
   if (use.bytes > limits_.directory_bytes + limits_.directory_bytes / 4 || use.files > 2 * limits_.files)
     process_.send(SIGKILL);
 }

@@ -11,8 +11,8 @@ namespace asperity::web {
 
 namespace {
 
-constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // to begin a run
-constexpr std::size_t told_places = 3;                       // reported to one person
+constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // least free space to begin a run
+constexpr std::size_t told_places = 3;                       // runs of one person with a reported place
 
 }  // namespace
 

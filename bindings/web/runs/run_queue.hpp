@@ -25,9 +25,9 @@ struct QueueSetup {
   bool shared = false;                                     // by several people
   std::size_t most_waiting = 500;                          // in all
   std::size_t most_waiting_of_one = 500;                   // of one person
-  std::size_t most_kept = 5000;                            // runs
+  std::size_t most_kept = 5000;                            // runs of the session
   std::int64_t most_bytes_of_one = std::int64_t{8} << 30;  // on disk
-  std::vector<std::string> barriers;                       // found by the trial
+  std::vector<std::string> barriers;                       // that held in the trial
 };
 
 // Thread-safe.
@@ -53,7 +53,7 @@ class RunQueue {
 
  private:
   void work();
-  // These need the lock.
+  // The functions below need the lock.
   std::vector<std::size_t> people_waiting() const;
   std::shared_ptr<PageRun> next();
   // On disk, plus the bytes that current runs may write.

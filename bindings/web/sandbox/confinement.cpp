@@ -115,7 +115,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   note(own_root_barrier, go_to_own_root(confinement, own));
   note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
-  // Dies with the server, even a killed one. Set after the change of credentials, which resets this.
+  // Dies with the server, even a killed one. Set after the change of credentials, which resets this signal.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
   if (::getppid() != parent) ::_exit(1);
   note("no new rights", ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "" : std::strerror(errno));

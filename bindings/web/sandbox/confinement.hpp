@@ -28,7 +28,7 @@ struct Place {
 struct Confinement {
   Confined as = Confined::script;
   std::vector<Place> places{};                        // of a script; none: the working directory, as /run
-  std::string work{};                                 // working folder; unlisted unless a place
+  std::string work{};                                 // working folder; cannot be listed unless a place
   std::int64_t memory_bytes = std::int64_t{1} << 30;  // data; plus 0.5 GiB for libraries
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
   std::int64_t processor_seconds = 60;                // all threads

@@ -86,7 +86,7 @@ scmp_arg_cmp with(unsigned argument, scmp_datum_t bits) { return {argument, SCMP
 extern "C" __attribute__((visibility("default"))) const char* asperity_confine_system_calls(Confined as) {
   Filter filter;
   for (const char* name : allowed) filter.allow(name);
-  // Threads but no processes. The filter cannot inspect clone3's arguments: ENOSYS.
+  // Threads but no processes. A filter cannot inspect the arguments of clone3, which fails with ENOSYS.
   filter.allow("clone", with(0, 0x00010000 /* CLONE_THREAD */));
   filter.rule(SCMP_ACT_ERRNO(ENOSYS), "clone3");
   // To this process only.

@@ -2,7 +2,7 @@
 // Readable numbers from SI data: one prefix for a column, axis or legend (4.2e-6 m is 4.2 µm).
 
 export interface Scale {
-  factor: number; // shown times `factor` is SI
+  factor: number; // shown value times `factor` is SI
   unit: string; // with prefix; empty for a pure number
 }
 
