@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's built files, read once at server start. Every answer carries a content policy: load from this
-// server only, and run no script except these files.
+// The page's built files, read once at server start, so that no request reads the disk. Every answer carries
+// a content policy: load from this server only, and run no script except these files.
 #pragma once
 
 #include <filesystem>
