@@ -40,7 +40,7 @@ struct RunCommand {
   bool trust = false;
   std::vector<std::string> arguments;
   GivenKnobs knobs;
-  std::optional<std::string> text;            // of the script, instead of its file
+  std::optional<std::string> text;            // script text instead of the file
   std::optional<std::string> resume;          // directory of an unfinished run
   bool anew = false;                          // with another script: old files are moved aside, results stay
   bool journal_lost = false;                  // resumed with a new journal
