@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// In one piece, so that lines of two sessions do not mix.
+// One write: lines of sessions must not mix.
 void append(const fs::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND, 0600);
   if (descriptor < 0) return;
@@ -48,7 +48,7 @@ void note_signal(int signal) {
 
 void install(int signal) {
   struct sigaction action {};
-  action.sa_handler = note_signal;  // without SA_RESTART: a read that waits comes back
+  action.sa_handler = note_signal;  // no SA_RESTART: interrupts read
   sigemptyset(&action.sa_mask);
   sigaction(signal, &action, nullptr);
 }
@@ -103,7 +103,6 @@ LineHistory::LineHistory(fs::path file) : file_(std::move(file)) {
   try {
     write_atomically(file_, whole, Durable::no, 0600);
   } catch (const Error&) {
-    // the file stays as long as it is
   }
 }
 
@@ -250,7 +249,7 @@ LineReader::Event LineReader::read_plain(const std::string& prompt, std::string&
   pthread_sigmask(SIG_UNBLOCK, &stop_signals(), nullptr);
   line.clear();
   int c = EOF;
-  // Through the same buffer that io.read has.
+  // Shares io.read's buffer.
   while (interrupted == 0 && terminated == 0 && (c = std::getc(stdin)) != EOF && c != '\n')
     line += static_cast<char>(c);
   pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
@@ -271,7 +270,7 @@ AsperityEditAnswer LineReader::answer(std::string_view line, std::size_t before)
   lua::Completion found;
   try {
     found = complete_(line, before);
-  } catch (const std::exception&) {  // nothing to offer
+  } catch (const std::exception&) {
   }
   const std::vector<lua::Candidate>& all = found.candidates;
   if (!all.empty()) {

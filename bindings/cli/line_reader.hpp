@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input. From a terminal they are edited, with those of earlier sessions to come back to
-// and Tab to complete, if the part that brings libedit is there; without it the terminal's own editing does.
-// From a pipe or a file they are read as they are, without prompts. While it waits, Ctrl-C gives up the line
-// and SIGTERM or SIGHUP ends the input; both are blocked otherwise, for whoever watches over the work.
+// Lines of standard input: edited with history and completion on a terminal if the libedit part is present,
+// unchanged and without prompts from a pipe or file. During a read, Ctrl-C discards the line, and SIGTERM or
+// SIGHUP ends the input; otherwise these signals are blocked for the watchdog.
 #pragma once
 
 #include <filesystem>
@@ -16,20 +15,19 @@
 
 namespace asperity::cli {
 
-// The lines typed at a prompt, kept from session to session in $XDG_STATE_HOME/asperity/history
-// (~/.local/state/asperity/history without it), readable by nobody else. A line is added as it is typed, so
-// that sessions side by side and one that is killed lose nothing; when a session begins the file is cut to
-// the last thousand lines. What cannot be read or written is passed over: a prompt works without it.
+// The prompt's history in $XDG_STATE_HOME/asperity/history (default ~/.local/state/asperity/history), mode
+// 0600. Lines are appended at once, so that parallel or killed sessions lose nothing; a session's start cuts
+// the file to a thousand lines. Errors are ignored.
 class LineHistory {
  public:
   static constexpr std::size_t most_lines = 1000;
-  // Without a file nothing is kept.
+  // Without a file, in memory only.
   explicit LineHistory(std::filesystem::path file = {});
-  // Where the environment says it goes; empty if there is no home.
+  // Empty without a home.
   static std::filesystem::path default_file();
 
   const std::vector<std::string>& lines() const { return lines_; }
-  // Empty lines, those that begin with a space, and the same line again are not kept.
+  // Skips empty lines, lines with a leading space, and repetitions.
   bool add(const std::string& line);
 
  private:
@@ -41,7 +39,7 @@ class LineReader {
  public:
   using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
 
-  // Blocks the signals of a stop in this thread and those it starts: construct it before any other thread.
+  // Blocks the stop signals in this thread and later threads: construct first.
   LineReader(LineHistory history, Complete complete);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -49,9 +47,8 @@ class LineReader {
 
   bool terminal() const { return terminal_; }
   enum class Event { line, given_up, end };
-  // The next line goes into `line`.
   Event read(const std::string& prompt, std::string& line);
-  // Why it ended without being asked to; 0, or the number of a signal.
+  // The signal that ended the input, or 0.
   int ended_by() const;
 
  private:
@@ -66,7 +63,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// The candidates as lines for a terminal of this width; a few candidates get their descriptions.
+// The lines for a terminal of `columns`; short lists have descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

@@ -30,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr LoadedPart part{"mpi", "cases are spread over the ranks of mpirun", "libopenmpi3"};
-// How long rank 0 waits for the others once it has come to its end.
+// How long rank 0 waits for the other ranks at its end.
 constexpr auto patience_done = std::chrono::seconds(60), patience_failed = std::chrono::seconds(3);
 
 std::optional<int> whole(const std::optional<std::string>& text) {
@@ -40,8 +40,8 @@ std::optional<int> whole(const std::optional<std::string>& text) {
   return std::stoi(*text);
 }
 
-// For `srun -n 3`. SLURM_NTASKS is not enough: a batch script has this variable and is one process. Only srun
-// sets the number of tasks of the step, and only PMIx sets the rank.
+// For `srun -n 3`. A batch script, one process, also has SLURM_NTASKS. Only srun sets the step's number of
+// tasks, and only PMIx sets the rank.
 std::optional<LaunchedRank> started_by_srun(bool share) {
   const auto rank = whole(environment_variable("PMIX_RANK"));
   const auto tasks = whole(environment_variable(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS"));
@@ -93,7 +93,7 @@ MpiRanks::MpiRanks(int started) {
                 "start them by srun --mpi=pmix or by the mpirun of Open MPI");
   if (leads()) return;
   scratch_.emplace("rank");
-  // Rank 0 speaks for all.
+  // Only rank 0 prints.
   std::fflush(nullptr);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -122,7 +122,7 @@ int MpiRanks::leave(int status) {
   std::fflush(nullptr);
   const bool stopped = stop_flag().reason() != StopReason::none;
   if (leads()) {
-    // A stop after the end of the run changes nothing.
+    // Too late for a stop.
     if (stopped && status != 0) mpi_->abort(status);
     return leave_leading(status);
   }
@@ -133,7 +133,7 @@ int MpiRanks::leave(int status) {
   return 0;
 }
 
-// Rank 0 was stopped too, and ends all ranks once it has the record; or it had come to its end before.
+// Rank 0 ends all ranks when its record is safe, or has already ended.
 void MpiRanks::leave_stopped(int status) {
   const auto begun = Clock::now();
   for (;;) {
@@ -179,7 +179,7 @@ int MpiRanks::leave_leading(int status) {
   for (const std::string& loss : losses()) std::fprintf(stderr, "asperity: %s\n", loss.c_str());
   if (!losses().empty()) {
     if (status == 0) status = 1;
-    // One that went another way may never come to its end.
+    // A rank on another path may never end.
     std::fflush(nullptr);
     mpi_->abort(status);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ranks of `mpirun -n K asperity run SCRIPT`, by messages of MPI. Nothing of MPI is loaded unless the
-// environment says that this process is one of several that mpirun started.
+// The ranks of `mpirun -n K asperity run SCRIPT`. MPI is loaded only after a launch by mpirun, as shown by
+// the environment.
 #pragma once
 
 #include <memory>
@@ -15,33 +15,30 @@ struct AsperityMpi;
 
 namespace asperity::cli {
 
-// The rank that the launcher gave to this process, before MPI starts; none for a single process. Tasks of
-// srun are single processes if they `share` a store. Throws Error{bad_value} for tasks that srun started
-// without MPI.
+// From the launcher, before MPI starts; none for a single process, or for srun tasks that `share` a store.
+// Throws Error{bad_value} for srun tasks without MPI.
 struct LaunchedRank {
   int rank = 0, size = 1;
   int on_this_machine = 1;
 };
 std::optional<LaunchedRank> launched_rank(bool share);
-// Default threads of each rank: its processors, divided among the ranks of a machine.
+// Default threads: the machine's processors divided among its ranks.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {
  public:
-  // Joins the others; the signals of a stop are blocked first, so that no thread of MPI takes them. Throws
-  // Error{bad_file} where the program was built without it, Error{bad_value} where MPI joins fewer processes
-  // than the launcher `started`.
+  // Starts MPI with stop signals blocked in its threads. Throws Error{bad_file} in a build without MPI,
+  // Error{bad_value} if fewer processes join than the launcher `started`.
   explicit MpiRanks(int started);
   ~MpiRanks() override = default;
 
   Team& team() override;
 
-  // Temporary folder for files of a rank other than 0.
+  // For files of a rank other than 0.
   std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 
-  // The end of the run in this process: waits for the others, and returns the exit status. Where they do not
-  // come to their end, ends every process.
+  // Waits for the other ranks and returns the exit status; aborts all after a time limit.
   int leave(int status);
 
  private:
@@ -52,8 +49,8 @@ class MpiRanks final : public Ranks {
   void leave_stopped(int status);
 
   const AsperityMpi* mpi_ = nullptr;
-  std::unique_ptr<Team> team_;              // made when it is first needed
-  std::optional<TemporaryFolder> scratch_;  // of every rank but 0
+  std::unique_ptr<Team> team_;              // on first use
+  std::optional<TemporaryFolder> scratch_;  // not on rank 0
   std::string why_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Standard output goes nowhere while this lives: what a script prints when it is run again was printed
-// before.
+// Discards standard output during its lifetime: a repeated script has already printed.
 #pragma once
 
 #include <fcntl.h>

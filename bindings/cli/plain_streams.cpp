@@ -19,10 +19,10 @@ namespace {
 struct PlainStream {
   int descriptor;
   Keeps keeps;
-  std::string tail{};  // the begin of a character or a sequence whose rest is still to come
+  std::string tail{};  // of an incomplete character or sequence
 };
 
-// Bytes of "ESC [ 1 ; 31 m" at the front: 0 if it is something else, npos if its end is not there yet.
+// Length of a leading "ESC [ 1 ; 31 m"; 0 for other text, npos if incomplete.
 std::size_t colour_sequence(std::string_view text) {
   constexpr std::size_t longest = 32;
   for (std::size_t k = 0; k < std::min(text.size(), longest); ++k) {
@@ -34,7 +34,7 @@ std::size_t colour_sequence(std::string_view text) {
   return text.size() < longest ? std::string_view::npos : 0;
 }
 
-// What of the text may be written now; the rest stays in it.
+// Removes and returns the complete part.
 std::string shown_part(std::string& text, Keeps keeps) {
   std::string shown;
   std::size_t begin = 0;
@@ -71,9 +71,9 @@ ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
   return 0;
 }
 
-// A stream of the C library that writes there; null where there is no memory for one.
+// Null if out of memory.
 FILE* plain_stream(int descriptor, Keeps keeps) {
-  // Streams of C are written out after everything else has ended: what they write with is never given back.
+  // Never freed: C streams are flushed after all destructors.
   static std::array<PlainStream*, STDERR_FILENO + 1> kept{};
   PlainStream*& stream = kept.at(static_cast<std::size_t>(descriptor));
   if (stream == nullptr) stream = new PlainStream{descriptor, keeps};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Standard streams whose text is shown and never obeyed. Messages repeat what others wrote: names of files,
-// titles, errors raised by scripts. A terminal would take their control characters for orders: to retitle its
-// window, to write over lines, to answer as if somebody had typed. On a plain stream each becomes a question
-// mark, as do bytes that are not UTF-8 (plain_text in engine/core/text.hpp). Every writer of stdout and
-// stderr is covered, the script's own included, for it is the streams of the C library that are exchanged.
+// Standard streams without control characters. Messages repeat foreign text (file names, titles, script
+// errors), whose control characters could change a terminal's title, overwrite lines, or send input as if
+// typed. A plain stream replaces each control character, and bytes outside UTF-8, by a question mark
+// (plain_text in engine/core/text.hpp). It replaces the C library's streams, and so covers the script's own
+// output.
 #pragma once
 
 #include <string_view>
@@ -11,16 +11,15 @@
 namespace asperity::cli {
 
 enum class Keeps {
-  text,     // characters, tabs and ends of lines
-  colours,  // besides, the return to the begin of a line, and sequences that only set colour or weight
+  text,     // characters, tabs, line ends
+  colours,  // also carriage return, colour and weight
 };
 
-// From here on, to the end of the program. Not for a program that gives the streams to libedit.
+// Until the program ends. Not with libedit.
 void make_errors_plain();
 void make_output_plain(Keeps keeps);
 
-// The one sequence that the program itself writes to standard error: back to the begin of the line, and erase
-// it.
+// The only sequence written to standard error by the program.
 inline constexpr std::string_view erase_line = "\r\033[K";
 void erase_shown_line();
 

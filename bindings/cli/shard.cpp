@@ -38,7 +38,7 @@ Shard from_slurm() {
   const long last =
       environment_variable("SLURM_ARRAY_TASK_MAX") ? read("SLURM_ARRAY_TASK_MAX") : first + count - 1;
   const long index = id - first + 1;
-  // A task that is submitted again does not know the size of the first array.
+  // A resubmitted task does not know the first array's size.
   const bool whole = (first == 0 || first == 1) && last - first + 1 == count;
   if (!whole || count > 1'000'000 || index < 1 || index > count)
     throw Error(ErrorCode::bad_value,

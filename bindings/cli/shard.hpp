@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `--shard 2/3` and `--shard slurm`: which of several processes that share the cases of ensembles this is.
+// `--shard 2/3` and `--shard slurm`: this process's share of ensemble cases.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace asperity::cli {
 
 std::optional<std::string> environment_variable(const char* name);
 
-// "2/3" is the second of three; "slurm" what SLURM_ARRAY_TASK_ID, _MIN and _COUNT say, for job arrays whose
-// numbers follow each other. Throws Error{bad_value}.
+// "slurm" reads SLURM_ARRAY_TASK_ID, _MIN and _COUNT of a job array with consecutive numbers. Throws
+// Error{bad_value}.
 Shard parse_shard(const std::string& text);
 
 }  // namespace asperity::cli

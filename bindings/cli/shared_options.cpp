@@ -90,7 +90,6 @@ std::optional<double> seconds_of(const std::string& text) {
     const Quantity q = parse_quantity(text);
     if ((q.dimension == dimension::time || q.dimension == dimension::number) && q.value > 0) return q.value;
   } catch (const Error&) {
-    // Whatever it is, it is no time.
   }
   throw Error(ErrorCode::bad_value, "a time limit is " + asperity::quoted(text),
               "give a time such as 60s or \"2 min\"");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that several commands share, each worded and checked in one place: the script and its seed, the
-// machine, the run directory, barriers. Where a value is a quantity, the parser keeps its text, and
-// seconds_of or bytes_of reads the text once the whole command line is known to parse.
+// Options of several commands. The parser stores quantities as text; seconds_of and bytes_of read the text
+// after parsing.
 #pragma once
 
 #include <cstdint>
@@ -18,29 +17,28 @@ class Option;
 
 namespace asperity::cli {
 
-// The parser writes what it reads into the references given here, which outlive the parsing.
+// The referenced variables must outlive the parsing.
 
 void add_seed(CLI::App& options, std::uint64_t& seed);
-// The script, which is required, its seed, --limit-time and its arguments. Returns the option of the script.
+// Script (required), seed, --limit-time and arguments. Returns the script's option.
 CLI::Option* add_script_options(CLI::App& options, RunCommand& run, std::string& limit_time);
-// --knob, which may be given again; knobs_of reads it.
+// Repeatable; read by knobs_of.
 void add_knobs(CLI::App& options, std::vector<std::string>& knobs);
-// --threads and --limit-memory.
 void add_machine_options(CLI::App& options, int& threads, std::string& memory);
-// --out and those of the machine.
+// --out and the machine options.
 void add_run_options(CLI::App& options, RunCommand& run, std::string& memory);
 void add_trust(CLI::App& options, bool& trust);
-// --confined and what belongs to a confined run alone.
+// --confined and its options.
 void add_confinement(CLI::App& options, RunCommand& run, std::string& limit_disk);
 
-// Throws Error{bad_value} where an option of a confined run was given and the run is not confined.
+// Throws Error{bad_value} for a confined run's option in another run.
 void check_confinement(const RunCommand& run);
 
-// "60s", "2 min", or a number of seconds, above zero; none of "". Throws Error{bad_value}.
+// "60s", "2 min", or positive seconds; none for "". Throws Error{bad_value}.
 std::optional<double> seconds_of(const std::string& text);
 // "pressure=50 MPa" each. Throws Error{bad_value}.
 GivenKnobs knobs_of(const std::vector<std::string>& texts);
-// "4G", "512M", "64KiB", "1000000"; none of "". Throws Error{bad_value} in which `what` names the limit.
+// "4G", "512M", "64KiB", "1000000"; none for "". Throws Error{bad_value} naming the limit `what`.
 std::optional<std::int64_t> bytes_of(const std::string& text, const std::string& what = "a memory limit");
 
 }  // namespace asperity::cli

@@ -19,7 +19,7 @@ namespace asperity::cli {
 
 namespace {
 
-// A run directory keeps its results in `store`; a folder of results is named itself.
+// `store` of a run directory, or the folder itself.
 std::filesystem::path results_of(const std::string& named) {
   const std::filesystem::path folder(named);
   std::error_code problem;
@@ -36,7 +36,6 @@ std::filesystem::path results_of(const std::string& named) {
   return store;
 }
 
-// The run begins in the directory that was to be resumed.
 RunCommand begun_there(RunCommand command) {
   if (command.script.empty())
     throw Error(ErrorCode::bad_file, "there is no run " + asperity::quoted(*command.resume) + " to resume",
@@ -45,7 +44,7 @@ RunCommand begun_there(RunCommand command) {
   return command;
 }
 
-// Whether the moving aside of an earlier run may have been cut off there.
+// After a crash during the moving aside of an earlier run.
 bool holds_earlier_run(const std::filesystem::path& root) {
   std::error_code problem;
   if (std::filesystem::exists(std::filesystem::symlink_status(root / run_names::manifest, problem)))
@@ -62,7 +61,6 @@ std::vector<std::string> damages_of(const RecordedRun& recorded) {
   return damages;
 }
 
-// What the command asks for and the run was not made with.
 std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun& recorded) {
   std::vector<std::string> changed;
   if (!command.script.empty() &&
@@ -84,8 +82,8 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   return changed;
 }
 
-// A resumed run keeps its share and its store. A confined run takes no folder from a record, because a record
-// may come from elsewhere.
+// A resumed run keeps its share and store. A confined run takes no folder from a record, which may come from
+// elsewhere.
 void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (recorded.store.empty()) return;
   if (!command.barriers.is_null() && !command.store)
@@ -97,7 +95,7 @@ void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (!command.shard && !recorded.shard.empty()) command.shard = parse_shard(recorded.shard);
 }
 
-// Another version rounds otherwise, and has other laws: what it adds does not belong to the same run.
+// Another version has other rounding and laws.
 void require_same_version(const RecordedRun& recorded) {
   const std::string version = program_version(recorded);
   if (version == lua::version_text()) return;
@@ -167,13 +165,13 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   }
   refuse_links(root);
   RecordedRun recorded = read_run(root, true);
-  // Nothing is written where all is as it should be, and nothing locked.
+  // Complete: neither written nor locked.
   if (recorded.status == "done" && changes_of(command, recorded).empty() && damages_of(recorded).empty())
     return {};
   if (command.reuse.empty()) require_same_version(recorded);
   if (leads && command.lock == nullptr) {
     command.lock = RunLock::take(root);
-    recorded = read_run(root, true);  // as whoever had the lock left it
+    recorded = read_run(root, true);  // after the last holder of the lock
     if (command.reuse.empty()) require_same_version(recorded);
   }
   const std::vector<std::string> changed = changes_of(command, recorded);
@@ -203,7 +201,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     if (command.damages.empty()) return {};
     command.journal_lost = !recorded.journal_fault.empty();
   } else if (!recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty())) {
-    // Failed cases may succeed now, so the journal is made again from the script and the store.
+    // Failed cases may succeed now: rebuild the journal from script and store.
     command.journal_lost = true;
   } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run keeps of its heavy calls, and what it takes from runs before it: `--resume`, `--reuse` and
-// `--store-limit` of `asperity run`, `--from` of `asperity replay`.
+// Results of this run and of earlier runs: `--resume`, `--reuse` and `--store-limit` of `asperity run`,
+// `--from` of `asperity replay`.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,28 @@
 
 namespace asperity::cli {
 
-// The command that continues the run in `command.resume`, with its script, arguments, seed, store and share.
-// A directory without a manifest begins a new run. The result is empty if the run is done and its journal and
-// outputs have the digests of the manifest; otherwise the command names the damages and makes the run again.
-// `leads`: takes the lock of the directory, unless the command has it already. Throws Error for
-// - another script, other arguments or another seed, unless `reuse` is given;
-// - an unfinished or damaged run by another version, unless `reuse` is given;
-// - another share of the cases, or a run with another `trust`;
-// - a directory without a run, and a run with links in place of its files;
+// The command that continues the run in `command.resume` with its script, arguments, seed, store and share.
+// Without a manifest, the command begins a new run. None if the run is done and undamaged; a damaged run is
+// repeated, with its damages named. `leads`: takes the directory's lock, unless held. Throws Error for
+// - another script, arguments or seed, without `reuse`;
+// - an unfinished or damaged run by another version, without `reuse`;
+// - another share of the cases, or another `trust`;
+// - a directory without a run, or links in place of a run's files;
 // - a lock held by another process.
 std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
-// Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the
-// recorded run did: a directory from elsewhere shall not give itself the whole of Lua. `purpose` as in "go on
-// with".
+// Throws Error{bad_value} for a prompt session, and for a trusted record unless the command trusts it: a
+// foreign directory must not grant itself all of Lua. `purpose` as in "go on with".
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
-// Loads script files from the copies in the recorded run, and names originals with other content.
+// Loads script files from the record's copies; names originals with other content.
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell);
 
-// How results of a run are kept, and where else they are looked for; the folder is left open. Throws
-// Error{bad_value} for a `reuse` that is no folder, or a run whose store is a link.
+// Where a run stores and finds results; the folder stays empty. Throws Error{bad_value} for a `reuse` that is
+// no folder, or a run whose store is a link.
 ResultFilesSetup result_files(const RunCommand& command);
 
-// A store from which nothing is taken from a line of the journal on.
+// A store without results from a journal line on.
 class UntilLine final : public ResultStore {
  public:
   UntilLine(ResultStore& store, const Journal& journal, std::int64_t line)

@@ -13,7 +13,7 @@
 namespace asperity::cli {
 
 namespace {
-constexpr double quiet_seconds = 1.0;   // work shorter than this shows nothing
+constexpr double quiet_seconds = 1.0;   // shorter work shows nothing
 constexpr double redraw_seconds = 0.2;  // on a terminal
 constexpr double relist_seconds = 5.0;  // elsewhere
 }  // namespace

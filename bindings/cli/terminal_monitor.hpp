@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress and warnings on standard error. Work that takes over a second shows its share done and an
-// estimate of the time left: one line that is written over on a terminal, a line every few seconds
-// elsewhere. Standard output is never touched.
+// Progress and warnings on standard error. After a second, work shows its fraction done and the time left:
+// one overwritten line on a terminal, else a line every few seconds.
 #pragma once
 
 #include <chrono>
@@ -23,13 +22,13 @@ class TerminalMonitor final : public Monitor {
  public:
   TerminalMonitor();
   ~TerminalMonitor() override;
-  // Warnings also go to this run's journal.
+  // Also to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
-  // Standard error is a pipe to somebody who shows it on a terminal.
+  // For a pipe that ends at a terminal.
   void show_as_on_terminal() { terminal_ = true; }
-  // Progress goes there instead.
+  // Progress only.
   void report_to(RunObserver* observer) { observer_ = observer; }
-  // Heavy calls take their results from here and keep them here.
+  // For heavy calls.
   void keep_results_in(ResultStore* results) { results_ = results; }
 
   void progress(std::string_view what, double done) override;
@@ -37,17 +36,17 @@ class TerminalMonitor final : public Monitor {
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
   ResultStore* results() override { return results_; }
-  // From now on, warnings with equal text except for numbers are shown once; tell_alike() counts the others.
-  // The journal holds all of them.
+  // From now on, warnings that differ only in numbers are shown once, and counted by tell_alike(). The
+  // journal has all.
   void count_alike() { count_alike_ = true; }
   void tell_alike();
-  // Takes the progress line away.
+  // Erases the progress line.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  double pause() const;  // seconds between two lines
-  double quiet() const;  // work shorter than this shows nothing
+  double pause() const;  // s, between lines
+  double quiet() const;  // s, before the first line
   void show(const std::string& title, double done, double seconds);
   void clear_line();
 
@@ -59,14 +58,13 @@ class TerminalMonitor final : public Monitor {
   bool line_shown_ = false;
   std::string current_;
   Clock::time_point started_{}, shown_{};
-  Clock::time_point parts_shown_{};  // other work between the parts shows itself at its own times
+  Clock::time_point parts_shown_{};  // own clock for parts
   double last_done_ = 0;
   std::set<std::string> warned_;
   bool count_alike_ = false;
   WarningKinds kinds_;
 };
 
-// "42 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
 }  // namespace asperity::cli

@@ -37,7 +37,7 @@ std::int64_t unlinked_bytes() {
 
 void empty_unlinked_files() {
   each_unlinked_file([](int descriptor, std::int64_t) {
-    // One that is open for reading alone is emptied where it is written, or grows no more.
+    // Fails for a read-only descriptor; its file has a writable descriptor or no longer grows.
     if (::ftruncate(descriptor, 0) != 0) errno = 0;
   });
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that a script has open and removed: they take space on the disk until they are closed, and nobody who
-// looks at its directory sees them. A script of somebody else's (`--limit-disk`, runs of the page) is watched
-// for them from inside its process, where alone they can be seen; what it holds so beyond its limit is
-// emptied. Nothing that the run would leave is lost by that.
+// Open but deleted files of a script: they use disk space, invisible in the directory. With `--limit-disk`
+// and in page runs, a thread in the confined process empties such files beyond the limit. No file of the
+// finished run is lost.
 #pragma once
 
 #include <atomic>
@@ -11,12 +10,12 @@
 
 namespace asperity::cli {
 
-// Bytes on the disk of the regular files without a name that this process has open.
+// On the disk.
 std::int64_t unlinked_bytes();
-// Empties those that are open for writing.
+// If open for writing.
 void empty_unlinked_files();
 
-// Looks some twenty times a second, from its construction to its end.
+// Checks about twenty times a second.
 class UnlinkedFilesBound {
  public:
   explicit UnlinkedFilesBound(std::int64_t most_bytes);

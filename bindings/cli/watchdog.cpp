@@ -14,7 +14,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto grace = std::chrono::milliseconds(2000);
 constexpr auto look_every = std::chrono::milliseconds(50);
 
-// The first signal that a watchdog met; 0 before.
 std::atomic<int> met_signal{0};
 }  // namespace
 
@@ -24,7 +23,7 @@ const sigset_t& stop_signals() {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
-    // A signal that is blocked comes even where it is ignored: nohup means what it says.
+    // For nohup: a blocked signal arrives even if ignored.
     struct sigaction hang_up {};
     if (::sigaction(SIGHUP, nullptr, &hang_up) != 0 || hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
     return set;
@@ -48,7 +47,6 @@ Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopR
 
 Watchdog::~Watchdog() {
   done_.store(true);
-  // Wakes the thread out of its wait.
   pthread_kill(thread_.native_handle(), SIGTERM);
   thread_.join();
 }
@@ -68,7 +66,6 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
   const auto start = Clock::now();
   std::optional<Clock::time_point> patience_ends;
   for (;;) {
-    // Sleep until the next thing that can happen: a signal, the limit, or the end of patience.
     auto wait = std::chrono::duration<double>(3600);
     if (limit_seconds && !patience_ends)
       wait = std::min(wait, std::chrono::duration<double>(start - Clock::now()) +

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C and limits. A thread of its own takes SIGINT, SIGTERM and SIGHUP and watches the clock. It asks
-// first: it raises the stop flag, which native work polls, and sets a hook, which Lua code runs into.
-// Work that does neither (a pattern that backtracks for ever) is ended after a grace period: the
-// journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait. At a prompt
-// Ctrl-C waits: what it stops may take its time, and only a second one after the grace period ends all.
+// Ctrl-C and limits. A thread receives SIGINT, SIGTERM and SIGHUP and watches the clock. A stop raises the
+// stop flag for native work and sets a hook for Lua code. Work that reacts to neither (endless pattern
+// backtracking) is ended after a grace period: journal and notebooks are made safe, and the process exits. A
+// second Ctrl-C ends the process at once. At a prompt, only a second Ctrl-C after the grace period does.
 #pragma once
 
 #include <atomic>
@@ -20,8 +19,8 @@ namespace asperity::cli {
 
 class Watchdog {
  public:
-  // Blocks the signals in the calling thread and those it starts: construct it before any other
-  // thread. `last_words` is called from the watchdog's thread before the process is ended.
+  // Blocks the signals in this thread and later threads: construct first. The watchdog's thread calls
+  // `last_words` before the process ends.
   enum class CtrlC { ends_within_grace, waits };
   Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
            CtrlC ctrl_c = CtrlC::ends_within_grace);
@@ -29,10 +28,10 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // Whether SIGTERM or SIGHUP came: it ends the whole program, not only the current work.
+  // After SIGTERM or SIGHUP, which end the whole program.
   bool terminated() const { return terminated_.load(); }
 
-  // While it lives, stops reach this Lua state; it must go before the state is closed.
+  // During its lifetime, stops reach this state; destroy before closing the state.
   class Watching {
    public:
     Watching(Watchdog& watchdog, lua_State* L) : watchdog_(watchdog) { watchdog_.watch(L); }
@@ -51,18 +50,16 @@ class Watchdog {
 
   std::function<void(StopReason)> last_words_;
   CtrlC ctrl_c_;
-  std::mutex mutex_;  // of state_: it may not be closed between being read and being interrupted
+  std::mutex mutex_;  // state_ must not close between read and interrupt
   lua_State* state_ = nullptr;
   std::atomic<bool> done_{false}, terminated_{false};
   std::thread thread_;
 };
 
-// What ends a run in order: SIGINT and SIGTERM, and SIGHUP unless the program was started to ignore it
-// (nohup). Asked for the first time before any handler is set.
+// SIGINT, SIGTERM, and SIGHUP unless ignored at start (nohup). Call first before any handler is set.
 const sigset_t& stop_signals();
 
-// The exit status of a run that was stopped for this reason: for a signal 128 and its number, as shells have
-// it (130 Ctrl-C, 143 SIGTERM, 129 SIGHUP).
+// For signals 128 plus the number: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.
 int exit_status(StopReason reason);
 
 }  // namespace asperity::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Folders of files that come with the program: share/asperity beside the bin it was installed in, and for a
-// program in the folder it was built in, that folder and the sources.
+// Folders of files that come with the program.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +8,8 @@
 
 namespace asperity::web {
 
-// share/asperity/<installed>, or <build>/<built>, or <sources>/<built>; the first that is there.
+// The first existing: share/asperity/<installed> next to the bin of an installation, <build>/<built>,
+// <sources>/<built>.
 std::optional<std::filesystem::path> shared_folder(const std::string& installed, const std::string& built);
 
 }  // namespace asperity::web

@@ -36,9 +36,9 @@ namespace asperity::web {
 namespace {
 
 constexpr const char* open_page = "open.html";
-constexpr int usual_port = 8137;  // the same each time: a browser keeps what was written by address and port
+constexpr int usual_port = 8137;  // browsers store edits by address and port
 
-// Asked before there is a port, answered after: what Host may say depends on it.
+// Api needs the port for the allowed Host values.
 class LateHandler final : public HttpHandler {
  public:
   std::unique_ptr<Api> api;
@@ -68,8 +68,7 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
   return server;
 }
 
-// By a page that leads to the address: what stands in the arguments of a program every user of the machine
-// can read, and the address is a key.
+// Through a page that redirects: the address contains the token, and every user can read program arguments.
 void open_in_browser(const std::string& url, const std::filesystem::path& folder) {
   const std::filesystem::path page = folder / open_page;
   const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
@@ -93,7 +92,6 @@ void open_in_browser(const std::string& url, const std::filesystem::path& folder
                  "asperity: no browser could be opened (xdg-open is not there); open the address above\n");
 }
 
-// Each connection and each run takes a few.
 void allow_many_files() {
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
@@ -119,7 +117,6 @@ void print_addresses(const ServeCommand& command, const Access& access, int port
   std::fflush(stdout);
 }
 
-// Ctrl-C, or a request of the system to end.
 void wait_for_end(const sigset_t& signals) {
   int signal = 0;
   while (::sigwait(&signals, &signal) != 0) {
@@ -132,7 +129,7 @@ int serve_until_stopped(const ServeCommand& command) {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGHUP);
-  // Before any thread, which all inherit it.
+  // Before any thread, which inherits the mask.
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   allow_many_files();

@@ -112,7 +112,6 @@ fs::path session_folder(const ServeCommand& command) {
       throw Error(ErrorCode::bad_value,
                   "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
                   "give a new folder");
-    // What runs record is for whoever serves them.
     if (::chmod(command.out.c_str(), 0700) != 0)
       throw_file_error("keep to yourself the folder", command.out, errno);
     return fs::canonical(command.out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `asperity serve` makes of its options and of the machine: people, limits, and where runs are kept.
+// People, limits and folder of `asperity serve`.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,14 @@
 
 namespace asperity::web {
 
-// The one who started it, and the students of a room. Throws Error{bad_value} or Error{bad_file}.
+// Owner and students. Throws Error{bad_value} or Error{bad_file}.
 std::vector<Person> people_of(const ServeCommand& command);
-// The queue's bounds; folder and barriers are left empty.
+// Without folder and barriers.
 QueueSetup queue_of(const ServeCommand& command);
-// runs/serve-<n>, or the folder that was named, which must be new or empty. Throws Error.
+// runs/serve-<n>, or the named new or empty folder. Throws Error.
 std::filesystem::path session_folder(const ServeCommand& command);
-// What a browser may call the server.
 std::vector<std::string> hosts_of(const ServeCommand& command, int port);
-// The address as it stands in a URL.
+// In URL form.
 std::string shown_address(const ServeCommand& command);
 
 }  // namespace asperity::web

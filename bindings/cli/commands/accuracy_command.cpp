@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity accuracy`: what accuracy costs a script that returns a number. The script is run again with
-// every `cells` it gives multiplied by a factor, and with another tolerance for its contacts, and what
-// comes out is a study of work and precision (engine/study/work_precision.hpp).
+// `asperity accuracy`: a work-precision study (engine/study/work_precision.hpp) of a script that returns a
+// number. The script runs with scaled `cells` and other contact tolerances.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -36,9 +35,9 @@ namespace {
 
 struct AccuracyCommand {
   RunCommand run;
-  double at_most = 300;         // seconds, for all runs of the script
-  int repeats = 3;              // timed runs a setting
-  std::optional<double> truth;  // the exact value, SI; otherwise the finest grid gives it
+  double at_most = 300;         // seconds, all runs
+  int repeats = 3;              // timed, for each setting
+  std::optional<double> truth;  // SI; default: the finest grid
 };
 
 constexpr const char* study_name = "accuracy";
@@ -46,7 +45,6 @@ constexpr const char* wanted =
     "`asperity accuracy` studies a script that returns one number: end it with one, as in `return "
     "st.area_fraction`";
 
-// The script in a state of its own, ready to run.
 class ScriptRun {
  public:
   ScriptRun(RunContext& context, std::shared_ptr<RunDirectory> run,
@@ -85,7 +83,7 @@ class ScriptRun {
   RunContext& context_;
   lua::Session session_;
   lua::State state_;
-  std::optional<Watchdog::Watching> watching_;  // goes before the state
+  std::optional<Watchdog::Watching> watching_;  // destroyed before the state
 };
 
 class ScriptWork final : public StudyWork {
@@ -116,7 +114,7 @@ class ScriptWork final : public StudyWork {
 
  private:
   RunContext& context_;
-  std::optional<TemporaryFolder> scratch_;  // of a repeated run
+  std::optional<TemporaryFolder> scratch_;
   std::optional<ScriptRun> ready_;
 };
 
@@ -125,7 +123,7 @@ struct FirstRun {
   std::shared_ptr<lua::Refinement> used = std::make_shared<lua::Refinement>();
 };
 
-// The script as it stands, in the run directory: its output is shown, and what it uses is noted.
+// In the run directory, with output; notes grids and contacts.
 FirstRun run_as_written(RunContext& context) {
   FirstRun first;
   ScriptRun run(context, context.run, first.used);
@@ -150,7 +148,6 @@ StudyWay way(const std::string& name, std::vector<double> factors, std::vector<d
   return make_way(name, std::move(knobs));
 }
 
-// Which grids and tolerances to try, and what to take for the truth.
 StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor& monitor) {
   const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
   if (!grids && !contacts)
@@ -160,7 +157,7 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
   StudyRequest request;
   request.repeats = command.repeats;
   request.at_most = std::max(command.at_most - first.seconds, 1e-9);
-  // Twice the cells cost a little over four times as much; a truth may take half of what there is.
+  // Doubling the cells costs just over four times as much; the reference may use half of the time.
   const double finest = command.truth || 4.4 * first.seconds < 0.5 * command.at_most ? 2 : 1;
   if (grids) {
     std::vector<double> factors;
@@ -194,7 +191,7 @@ double exact_value(const std::string& text) {
   }
 }
 
-// Exit status as of cli::run; 1 also for a script that returns no number, or gives nothing to vary.
+// As cli::run; also 1 if the script returns no number or has nothing to vary.
 int accuracy(const AccuracyCommand& command) {
   return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
     const FirstRun first = run_as_written(context);

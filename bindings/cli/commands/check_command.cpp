@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity check`, `asperity explain` and `asperity cases`: a script followed without its heavy calls.
+// `asperity check`, `asperity explain` and `asperity cases`: a script without its heavy calls.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -28,9 +28,9 @@ namespace asperity::cli {
 
 namespace {
 
-// The line of the script in an error with its traceback. The error itself may come from a module.
+// From an error with traceback; the error itself may come from a module.
 std::string line_in_script(const std::string& message, const std::string& script) {
-  // As Lua shortens the name of a chunk.
+  // As Lua shortens chunk names.
   const std::string name =
       script.size() < LUA_IDSIZE ? script : "..." + script.substr(script.size() - (LUA_IDSIZE - 4));
   const std::string lead = "\n\t" + name + ":";
@@ -38,8 +38,7 @@ std::string line_in_script(const std::string& message, const std::string& script
   return lua::line_of(at == std::string::npos ? message : message.substr(at + lead.size() - 1));
 }
 
-// A run without its heavy calls. `report` tells what was found, and how far the script could be followed: ""
-// to its end, otherwise why no further.
+// `report` prints the findings; `reached`: the reason of an early end, or "".
 int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
             const std::function<void(const std::string& reached)>& report) {
   std::string text;
@@ -59,7 +58,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   session.dry_run = true;
   session.mistakes = std::make_shared<lua::Mistakes>();
   session.mistakes->script = text;
-  // Mistakes that were gone past, and what ended the dry run, if anything did.
+  // Reports mistakes and the reason of an early end.
   const auto end = [&](const std::string& reached, const std::string& failure) {
     if (observer != nullptr)
       observer->made_knobs(session.knobs->json());
@@ -85,7 +84,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     std::_Exit(status);
   };
   try {
-    RunCommand unlimited = command;  // a dry run has a time limit of its own
+    RunCommand unlimited = command;  // dry runs have their own limit
     unlimited.limit_time.reset();
     const lua::State state = make_state(session, unlimited);
     const Watchdog::Watching watching(watchdog, state.get());
@@ -102,7 +101,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     }
     if (lua::stopped_at_placeholder(message))
       return end("to line " + line_in_script(message, command.script) + ": " + lua::cannot_follow, "");
-    // What a result would have set is not set here; or the script forgot to.
+    // A result would set this value in a real run, or the script forgot to.
     if (session.gave_placeholders && lua::met_nothing(message))
       return end("to line " + line_in_script(message, command.script) + ", " + lua::without_place(message) +
                      ": a mistake, unless a result that is not known before the run sets it",
@@ -117,8 +116,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   return failed;
 }
 
-// What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.
-// Exit statuses are those of run().
+// Computations and their cost: makes surfaces, plans contacts, presses nothing. Exit status as in run().
 int explain(const RunCommand& command, bool json) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -139,7 +137,7 @@ int explain(const RunCommand& command, bool json) {
   });
 }
 
-// The cases of its ensembles, as --case of `asperity run` numbers them.
+// Cases as numbered for --case of `asperity run`.
 int cases(const RunCommand& command, bool list) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -160,13 +158,12 @@ int cases(const RunCommand& command, bool list) {
 
 enum class Follows { check, explain, cases };
 
-// Options of these commands.
 struct FollowedScript {
   RunCommand run;
   std::string time;
   std::vector<std::string> knobs;
-  bool json = false;  // of `explain`
-  bool list = false;  // of `cases`
+  bool json = false;  // for `explain`
+  bool list = false;  // for `cases`
 };
 
 CommandReader declare(CLI::App& options, Follows follows) {

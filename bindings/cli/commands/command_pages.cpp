@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages made from the command line as the program reads it, so that they cannot say anything else: the manual
-// page asperity(1), and what a shell completes.
+// Pages generated from the parser: the manual page asperity(1) and shell completion.
 #include <CLI/CLI.hpp>
 
 #include "bindings/cli/commands/command.hpp"
@@ -13,7 +12,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) { return app.get_s
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-// A line of its own: what roff would read as a command or an escape is made harmless.
+// Escapes commands and escapes of roff.
 std::string roff(const std::string& text) {
   std::string safe;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -29,7 +28,7 @@ std::string roff(const std::string& text) {
   return safe;
 }
 
-// "-h, --help", "--seed WHOLE NUMBER" or "script", the fixed words in bold.
+// "-h, --help", "--seed WHOLE NUMBER" or "script", fixed words in bold.
 std::string heading(const CLI::Option& option) {
   if (!option.nonpositional()) return "\\fI" + roff(option.get_name(true)) + "\\fR";
   std::string text;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands that tell and compute nothing: `asperity help`, of the language and of the program's own command
-// line; `asperity materials`; `asperity version`.
+// `asperity help`, `asperity materials` and `asperity version`.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -27,8 +26,7 @@ struct HelpRequest {
   bool reference = false, types = false, manual = false, completion = false;
 };
 
-// `program` is the whole command line as it is read: what the manual page and a shell's completion are made
-// of.
+// `program`: the parser, for manual page and completion.
 std::string help_page(const HelpRequest& asked, const CLI::App& program, std::string (*overview)()) {
   if (asked.manual) return manual_page(program, lua::version_text());
   if (asked.completion) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity lesson`: the lessons that come with the program, to be read, copied and run in a terminal.
+// `asperity lesson`: lists, shows, copies and runs lessons.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -18,13 +18,13 @@ namespace asperity::cli {
 namespace {
 
 struct LessonCommand {
-  std::string name;   // empty: list them all
-  bool copy = false;  // writes the script into the present folder
+  std::string name;   // empty: list all
+  bool copy = false;  // script to the working directory
   bool run = false;
-  RunCommand options;  // of a run; its script is the lesson's
+  RunCommand options;  // of the run
 };
 
-// The words of a text in lines of at most 100 letters, each after the first behind an indent.
+// Wraps at 100 characters; indents later lines.
 std::string in_lines(const std::string& text, std::size_t indent) {
   std::string result, word;
   std::size_t column = indent;
@@ -68,8 +68,7 @@ void copy(const lua::Lesson& lesson) {
               lesson.file.c_str());
 }
 
-// Exit status: that of the run, 0 otherwise, 2 for a lesson that is not there or a file that is there
-// already.
+// Exit status: of the run, or 0; 2 for an unknown lesson or an existing file.
 int lesson(const LessonCommand& command) {
   try {
     if (command.name.empty()) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity press-log`: the events of a log of a press, drawn and replayed, as a run of
-// scripts/press_log.lua.
+// `asperity press-log`: draws and replays a press log with scripts/press_log.lua.
 #include <CLI/CLI.hpp>
 
 #include <memory>
@@ -20,7 +19,6 @@ CommandReader declare_press_log(CLI::App& options) {
   struct Given {
     RunCommand run;
     std::string log, time, memory;
-    // Arguments of the script, by name.
     std::vector<std::pair<std::string, std::string>> words{
         {"log", ""}, {"area", ""}, {"skip", ""}, {"columns", ""}, {"turn_step", ""}, {"specimen", ""}};
   };

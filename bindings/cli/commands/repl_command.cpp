@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity repl`: a conversation with the laboratory. Lines come from a terminal, edited and completed, or
-// from a pipe, read as they are; each is run as it comes, and its value is shown. A run directory is made
-// when the first file is written; its script.lua is what was said, less the lines that failed.
+// `asperity repl`: an interactive prompt, edited and completed on a terminal, unchanged from a pipe. Each
+// line runs at once and prints its value. The first written file creates a run directory, whose script.lua
+// has the lines without errors.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -35,10 +35,10 @@ namespace {
 
 struct ReplCommand {
   std::optional<std::string> out;
-  int threads = 0;  // 0: one a processor
+  int threads = 0;  // 0: one per processor
   std::uint64_t seed = 1;
   std::optional<std::int64_t> limit_memory;  // bytes
-  std::optional<double> limit_time;          // seconds, of one line
+  std::optional<double> limit_time;          // seconds, each line
   bool trust = false;
   bool no_history = false;
 };
@@ -89,7 +89,6 @@ class Conversation {
   }
 
  private:
-  // What the lines work on: a Lua state and what it holds.
   struct Bench {
     explicit Bench(Monitor& monitor) : session(monitor) {}
     lua::Session session;
@@ -115,14 +114,12 @@ class Conversation {
     return bench;
   }
 
-  // Bytes of results that stay in memory.
   static std::int64_t remembered(const ReplCommand& command) {
     constexpr std::int64_t most = std::int64_t{256} << 20;
     return command.limit_memory ? std::min(most, *command.limit_memory / 4) : most;
   }
 
-  // What was entered, from its start, with the knobs that the last line moved. Where that fails, the bench is
-  // the one that was.
+  // Repeats all lines with moved knobs. On failure, the old state stays.
   lua::Prompt::Outcome run_again(Watchdog& watchdog) {
     GivenKnobs knobs = knobs_;
     std::string what;
@@ -145,7 +142,7 @@ class Conversation {
     {
       const Watchdog::Watching watching(watchdog, next->state.get());
       if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(next->state.get());
-      // Asked for before it was watched, a stop reached the state that was.
+      // An earlier stop reached the old state only.
       if (stop_flag().reason() != StopReason::none) lua::interrupt(next->state.get());
       outcome = next->prompt->run_again(bench_->prompt->script(), "now " + what);
     }
@@ -166,10 +163,10 @@ class Conversation {
     return outcome;
   }
 
-  // No two lines of a prompt are the same text of a script.
+  // Equal lines need different digests.
   std::string unique_digest() { return "line " + std::to_string(++lines_) + " of a prompt"; }
 
-  // False where the session is to end.
+  // False at the end of the session.
   bool take(const std::string& line, int number) {
     lua::Prompt::Outcome outcome;
     bool terminated = false;
@@ -210,7 +207,7 @@ class Conversation {
     return !terminated;
   }
 
-  // Takes back what a stop left behind, so that the next line runs.
+  // Clears a stop for the next line.
   void hear_stops() {
     stop_flag().clear();
     lua_sethook(bench_->state.get(), nullptr, 0, 0);
@@ -224,8 +221,7 @@ class Conversation {
            " a line was reached";
   }
 
-  // What a line that failed is told with. Where a limit was met is worth knowing; where Ctrl-C was pressed is
-  // not.
+  // The position matters for a limit, not for Ctrl-C.
   std::string failure(StopReason stopped) const {
     if (stopped == StopReason::none) return error_;
     return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + error_);
@@ -260,19 +256,18 @@ class Conversation {
   }
 
   const ReplCommand& command_;
-  LineReader reader_;  // first: it blocks signals for the threads of all that follows
+  LineReader reader_;  // first: blocks signals for later threads
   TerminalMonitor monitor_;
   std::optional<ResultMemory> memory_;
   std::shared_ptr<RunDirectory> run_;
   std::unique_ptr<Bench> bench_;
-  GivenKnobs knobs_, moves_;  // in force; and those that the line moved
+  GivenKnobs knobs_, moves_;  // set; moved by the current line
   std::string error_;         // of the last line
   int lines_ = 0;
   bool lines_failed_ = false, stopped_ = false;
 };
 
-// Exit status: 0; what os.exit was given; without a terminal 1 where a line or an expectation failed; 130
-// where a signal ended it.
+// Exit status: 0; from os.exit; without a terminal 1 after a failed line or expectation; 130 after a signal.
 int repl(const ReplCommand& command) {
   try {
     Conversation conversation(command);

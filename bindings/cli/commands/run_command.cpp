@@ -41,7 +41,7 @@ namespace asperity::cli {
 
 namespace {
 
-// A limit that the counters cannot see (a library's own heap) still ends in bad_alloc.
+// Uncounted memory (a library's heap) still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {
   if (sanitized) return;
   constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
@@ -51,8 +51,7 @@ void limit_address_space(std::int64_t bytes) {
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-// Pictures need more handles for their fonts. This is no warning of the run, because another machine would
-// not give it.
+// Charts need descriptors for fonts. No warning of the run, because it depends on the machine.
 void tell_of_few_handles() {
   constexpr rlim_t enough = 32;
   rlimit handles{};
@@ -63,7 +62,7 @@ void tell_of_few_handles() {
                  static_cast<int>(handles.rlim_cur));
 }
 
-// The reason for lost standard output; "" if nothing was lost or if the reader went away.
+// "" if complete or if the reader closed the pipe.
 std::string output_fault() {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   struct ::stat facts {};
@@ -101,7 +100,7 @@ void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, s
   options
       .add_option("--reuse", run.reuse,
                   "take the results of heavy calls that are the same from this run; may be given again")
-      ->allow_extra_args(false);  // one value each time: the next word may be the script
+      ->allow_extra_args(false);  // the next word may be the script
   options.add_option("--store-limit", limit,
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   options.add_option(
@@ -187,7 +186,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
   };
 }
 
-// A run of one case writes into a temporary folder; only the store keeps its result.
+// With --case, only the store keeps a result.
 void remove_case_folder(const RunCommand& command) {
   if (command.case_folder) command.case_folder->remove();
 }
@@ -238,7 +237,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
                       name.c_str());
       return 1;
     }
-    // Without the line ends at its end: what Lua finds missing there is told of the last line that has words.
+    // Without trailing blanks, Lua reports an unfinished statement at the last line with text.
     const std::size_t end = std::max(skip, text.find_last_not_of(" \t\r\n") + 1);
     if (luaL_loadbufferx(state, text.data() + skip, end - skip, lua_tostring(state, -1), "t") != LUA_OK)
       return 1;
@@ -287,7 +286,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.anew = command.anew;
     setup.journal_lost = command.journal_lost;
     setup.lock = command.lock;
-    // What another rank than the first one writes is taken away at its end.
+    // Files of other ranks than 0 are deleted at the end.
     setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
     setup.store = command.store.value_or("");
     if (command.shard) setup.shard = command.shard->text();
@@ -301,7 +300,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
     if (!command.store) kept.folder = run->store();
-    // A folder in a run directory that was moved meanwhile would not be made again.
+    // Now, because the moving aside of an earlier run may have moved this folder, too.
     if (command.store) make_folders(*command.store);
     kept.needed = run->needed_to_resume();
   } catch (const Error& error) {
@@ -327,7 +326,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (command.store_limit == 0) store = nullptr;
   std::optional<RankStore> of_ranks;
   if (command.ranks != nullptr) {
-    // What another rank than 0 keeps would be gone with its folder.
+    // Temporary folders of other ranks would lose results.
     command.ranks->own_store = command.ranks->leads() || command.store ? store : nullptr;
     store = &of_ranks.emplace(*command.ranks);
   }
@@ -347,7 +346,6 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
     for (const Verdict& verdict : run->expectations().verdicts())
       if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
-    // What was saved is worth a word from a second on.
     const std::string saved =
         counts.seconds_saved < 1
             ? ""
@@ -381,8 +379,8 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   if (command.limit_memory) limit_memory(*command.limit_memory);
 
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away must not take the record with it
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met like a full disk: by an error
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not lose the record
+  std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
 
   int status = done;
   std::string why;
@@ -396,7 +394,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
 
   RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
-  // A script may have caught the error of a memory limit; the limit was met all the same.
+  // The limit was exceeded, even if the script caught the error.
   if (command.limit_memory && lua::memory_limit_met()) {
     stop_flag().raise(StopReason::memory_limit);
     if (status == done) why = "the script went on with less";
@@ -406,7 +404,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (stopped != StopReason::none) {
     status = exit_status(stopped);
     ended = stopped == StopReason::interrupt ? RunStatus::interrupted : RunStatus::failed;
-    // Where a limit was met is worth knowing; where Ctrl-C was pressed is not.
+    // The position matters for a limit, not for Ctrl-C.
     const std::string met_at = stopped == StopReason::interrupt || why.empty() ? "" : "\n" + why;
     why = reason_text(stopped, command) + met_at;
   }
@@ -573,7 +571,7 @@ int run(const RunCommand& asked) {
     command.damages.clear();
     command.reuse.clear();
     command.anew = false;
-    command.limit_time.reset();  // rank 0 watches it for all
+    command.limit_time.reset();  // rank 0 watches
   }
   return ranks->leave(in_run_directory(command, work));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity status STORE`: which cases of the ensembles that share a store are there, from the lists that
-// their runs leave in it (lua/ensemble/case_roster.hpp). No script is run.
+// `asperity status STORE`: stored and missing cases of ensembles, from rosters in the store
+// (lua/ensemble/case_roster.hpp), without the script.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace asperity::cli {
 
 namespace {
 
-// Exit status 0: all are there; 1: a case failed; 3: cases are missing. Lists of another build count only
-// where this build has none.
+// Exit status: 0 complete; 1 a case failed; 3 cases missing. Other builds' rosters count only if this build
+// has none.
 int show_status(const std::string& store) {
   std::error_code problem;
   if (!std::filesystem::is_directory(store, problem)) {

@@ -30,7 +30,6 @@ Editor& of(EditLine* line) {
 
 char* prompt_of(EditLine* line) { return of(line).prompt.data(); }
 
-// Bytes of UTF-8 as one character.
 int read_character(EditLine* line, wchar_t* character) {
   Editor& editor = of(line);
   unsigned char byte = 0;
@@ -82,7 +81,7 @@ unsigned char complete(EditLine* line, int) {
 extern "C" {
 
 __attribute__((visibility("default"))) void* asperity_edit_open(const AsperityEditHooks* hooks) {
-  // Only what a character is: numbers keep their point.
+  // Not the decimal point.
   if (std::setlocale(LC_CTYPE, "") == nullptr ||
       std::strstr(std::setlocale(LC_CTYPE, nullptr), "UTF-8") == nullptr)
     std::setlocale(LC_CTYPE, "C.UTF-8");
@@ -106,7 +105,7 @@ __attribute__((visibility("default"))) void* asperity_edit_open(const AsperityEd
   el_set(line, EL_GETCFN, read_character);
   el_set(line, EL_ADDFN, "asperity-complete", "offers what may come next", complete);
   el_set(line, EL_ADDFN, "asperity-give-up", "forgets the line", give_up);
-  el_source(line, nullptr);  // ~/.editrc: keys as the user likes them
+  el_source(line, nullptr);  // the user's keys
   el_set(line, EL_BIND, "^I", "asperity-complete", nullptr);
   el_set(line, EL_BIND, "^C", "asperity-give-up", nullptr);
   el_set(line, EL_BIND, "^R", "em-inc-search-prev", nullptr);
@@ -119,7 +118,7 @@ __attribute__((visibility("default"))) int asperity_edit_read(void* pointer, con
   editor.prompt = prompt;
   editor.given_up = false;
   int count = 0;
-  // Before the prompt is shown: who types Ctrl-D at its sight does not mean the end of a line.
+  // Before the prompt: an early Ctrl-D must mean the end of input.
   el_set(editor.line, EL_PREP_TERM, 1);
   const char* got = el_gets(editor.line, &count);
   if (editor.given_up) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of a function of the script as cases of an ensemble that nobody has written: the case holds the
-// arguments, and its row the answer.
+// Script function calls as cases of an implicit ensemble: arguments in, answer in the row.
 #include "bindings/lua/registry/call_batch.hpp"
 
 #include <array>
@@ -28,7 +27,7 @@ namespace asperity::lua {
 
 namespace {
 
-// `run` of the cases, made of the function.
+// Makes `run` from the function.
 constexpr char run_of_calls[] =
     "local call = ... return function(case) return { answer = call(case.a, case.b) } end";
 constexpr std::array<const char*, 2> names_of_arguments = {"a", "b"};
@@ -36,17 +35,16 @@ constexpr int deepest_batch = 8;
 
 class BatchedCases final : public ScriptedCases {
  public:
-  // The setups must outlive them.
+  // `setups` must outlive this object.
   BatchedCases(const std::vector<CaseSetup>& setups, const StoredCases& kept)
       : ScriptedCases(
             setups.size(), [&setups](std::size_t k) { return setups[k]; }, kept),
         reasons_(setups.size()) {}
 
-  // Why a call failed.
   const std::string& reason(std::size_t k) const { return reasons_[k]; }
   std::string name(std::size_t k) const override { return "call " + std::to_string(k + 1); }
-  // A failure is told by who called, once; calls behind it are left out. Calls are taken in order, so that
-  // the first failure is the same for any number of threads.
+  // Calls start in order, and later calls are skipped, so that the first failure, which the caller reports,
+  // is the same for any number of threads.
   Finished compute(std::size_t k) override {
     if (k > first_failed_) return std::make_unique<CaseResult>();
     Finished found = ScriptedCases::compute(k);
@@ -59,11 +57,11 @@ class BatchedCases final : public ScriptedCases {
   }
 
  private:
-  std::vector<std::string> reasons_;  // each written by the thread of its call
+  std::vector<std::string> reasons_;  // each written by its call's thread
   std::atomic<std::size_t> first_failed_ = std::numeric_limits<std::size_t>::max();
 };
 
-// The progress of the scheduler as the number of calls that are done.
+// Progress as a number of calls.
 class BatchMonitor final : public Monitor {
  public:
   BatchMonitor(Monitor& outer, std::size_t count, const std::function<void(std::size_t)>& done)
@@ -150,10 +148,10 @@ class ScriptedBatch final : public CallBatch {
     return answer;
   }
 
-  // What calls read, and the knobs they asked for, are of the run, or of the case that the study stands in.
+  // Adds inputs and knobs of a call to the run or the enclosing case.
   void note(const CaseResult& result) {
     for (const RunKnob& knob : result.knobs) {
-      session_.knobs->make(knob);  // a call that was kept has not
+      session_.knobs->make(knob);  // not made by a stored call
       if (session_.notes != nullptr) session_.notes->knobs.push_back(knob);
     }
     note_inputs_of_case(session_, result.inputs);

@@ -92,7 +92,7 @@ std::vector<CaseRoster> rosters_in(const fs::path& store) {
     try {
       rosters.push_back(roster_from(Json::parse(text.str(), quoted(entry->path().string()))));
     } catch (const Error&) {
-      // Results are found by their keys without this list.
+      // Results are also found without this list.
     }
   }
   std::ranges::sort(rosters, {}, [](const CaseRoster& roster) {

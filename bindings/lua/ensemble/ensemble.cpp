@@ -26,7 +26,7 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::size_t most_cases = 1'000'000;
-// Ensembles in cases of ensembles: each level holds a thread and a Lua state.
+// Each level has a thread and a Lua state.
 constexpr int deepest_case = 8;
 
 enum class OnFailure { error, report };
@@ -47,7 +47,7 @@ struct EnsembleKeys {
     for (const Varied& varied : *over) product *= varied.values.size();
     return product;
   }
-  // Case k from 0: the last key varies fastest.
+  // From 0; the last key varies fastest.
   Values values(std::size_t k) const {
     if (cases) return (*cases)[k];
     Values result(over->size());
@@ -185,7 +185,7 @@ const Block<EnsembleKeys>& ensemble_block() {
   return block;
 }
 
-// A dry run calls `run` in the script's own state: ensembles in there are not counted and not listed.
+// A dry run calls `run` in the script's own state; nested ensembles are neither counted nor listed.
 struct NestedEnsembles {
   explicit NestedEnsembles(Session& s)
       : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
@@ -200,7 +200,7 @@ struct NestedEnsembles {
   int numbered;
 };
 
-// What a dry run can say of the rows from running one of the cases here.
+// From one case run in this state.
 Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run) {
   lua_State* L = call.L;
   const std::size_t count = keys.count();
@@ -256,7 +256,6 @@ std::vector<std::size_t> failed_cases(const std::vector<CaseResult>& results) {
   return failed;
 }
 
-// One line: how many cases there were, which failed, and what came out.
 void record(const Session& session, const EnsembleKeys& keys, const std::vector<CaseResult>& results) {
   if (session.run == nullptr || session.is_case) return;
   Digester digester;
@@ -279,19 +278,19 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// What cases read, and the knobs they asked for, are of the run, or of the case that this ensemble stands in.
+// Adds inputs and knobs of the cases to the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {
-      session.knobs->make(knob);  // a case that was kept, or ran in another process, has not
+      session.knobs->make(knob);  // not made by a stored or remote case
       if (session.notes != nullptr) session.notes->knobs.push_back(knob);
     }
   note_knobs(session);
   for (const CaseResult& result : results) note_inputs_of_case(session, result.inputs);
 }
 
-// The plain cells of the rows there are, in a notebook of the run, so that an error loses nothing.
-// Returns its file; "" where nothing is recorded.
+// Saves plain cells in a notebook, so that an error loses nothing. Returns the file, or "" without a run
+// directory.
 std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) {
   const Session& session = call.session();
   if (session.run == nullptr || session.is_case) return {};
@@ -324,7 +323,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   return any ? book->csv().filename().string() : std::string();
 }
 
-// One error for all that failed, once the others are safe.
+// After the other cases are stored.
 [[noreturn]] void refuse_failures(const Call& call, const EnsembleKeys& keys,
                                   const std::vector<CaseResult>& results,
                                   const std::vector<std::size_t>& failed) {
@@ -351,7 +350,6 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   throw Error(ErrorCode::bad_value, sentence);
 }
 
-// A plain table of the values of a case, shared with its rows.
 Map case_values(const std::vector<CaseValue>& values) {
   Map map;
   for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);

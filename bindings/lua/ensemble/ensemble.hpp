@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.ensemble: a function of a case, for every case of a study, on threads.
+// lab.ensemble: a function for every case of a study, on threads.
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"

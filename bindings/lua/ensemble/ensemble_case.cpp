@@ -20,7 +20,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Warnings are kept; progress is that of the whole ensemble.
+// Progress is reported for the whole ensemble.
 class CaseMonitor final : public Monitor {
  public:
   CaseMonitor(std::vector<std::string>& warnings, ResultStore* results)
@@ -34,7 +34,6 @@ class CaseMonitor final : public Monitor {
   ResultStore* results_;
 };
 
-// A file in memory.
 class OutputBuffer {
  public:
   OutputBuffer() : file_(open_memstream(&data_, &size_)) {
@@ -80,14 +79,14 @@ int print_to_session(lua_State* L) {
   return written ? 0 : luaL_error(L, "there is no memory for what is printed");
 }
 
-// print, io.write and io.stdout write to the session's output. Raises.
+// Redirects print, io.write and io.stdout to the session. Raises.
 void capture_output(lua_State* L) {
   lua_pushcfunction(L, print_to_session);
   lua_setglobal(L, "print");
   lua_getglobal(L, "io");
   lua_getfield(L, -1, "output");
   auto* stream = static_cast<luaL_Stream*>(lua_newuserdatauv(L, sizeof(luaL_Stream), 0));
-  stream->closef = nullptr;  // closed, until it has a file
+  stream->closef = nullptr;  // closed until it has a file
   luaL_setmetatable(L, LUA_FILEHANDLE);
   stream->f = Session::of(L).output;
   stream->closef = keep_open;
@@ -102,7 +101,7 @@ void capture_output(lua_State* L) {
   throw Error(ErrorCode::bad_value, error_text(L, -1));
 }
 
-// Whether two values are the same without asking Lua code.
+// Equality without metamethods.
 bool same(const Argument& a, const Argument& b) {
   if (lua_rawequal(a.state(), a.index(), b.index()) != 0) return true;
   const Object* first = a.as_any_object();
@@ -110,7 +109,6 @@ bool same(const Argument& a, const Argument& b) {
   return first != nullptr && second != nullptr && first->pointer == second->pointer;
 }
 
-// Leaves the table that `run` returned on top, whatever it returned.
 void make_table(lua_State* L) {
   const Argument returned(L, -1);
   if (returned.is_table()) return;
@@ -143,8 +141,8 @@ void refuse_other_values(const CaseSetup& setup, const Argument& returned, const
     });
 }
 
-// The next integer of math.random, and the generator as the seed leaves it: what comes first shows afterwards
-// whether the case drew any number. Pushes math.random and math.randomseed.
+// Seeds math.random and returns its next integer, from which has_drawn() detects use. Pushes math.random and
+// math.randomseed.
 lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
   auto action = [seed](lua_State* s) {
     lua_getglobal(s, "math");
@@ -166,7 +164,6 @@ lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
   return first;
 }
 
-// Whether the next number is another than `first`.
 bool has_drawn(lua_State* L, int random, lua_Integer first) {
   lua_pushvalue(L, random);
   auto action = [](lua_State* s) {
@@ -180,7 +177,7 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
-// Pushes the upvalues of a function; for a list, its length. Returns their number.
+// Pushes the upvalues, for a list its length, and returns their number.
 int push_upvalues(lua_State* L, int function) {
   if (lua_checkstack(L, 300) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
   int count = 0;
@@ -192,8 +189,7 @@ int push_upvalues(lua_State* L, int function) {
   return count;
 }
 
-// A case changes its own copy of a variable outside `run`. `before`: the place of the first upvalue as it
-// was.
+// A case changes only its own copy of upvalues. `before`: stack index of the first original.
 void warn_of_lost_changes(lua_State* L, int function, int before) {
   const Argument::StackGuard guard(L);
   const int count = push_upvalues(L, function), after = lua_gettop(L) - count + 1;
@@ -217,7 +213,7 @@ std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup
   const int random = lua_gettop(L) - 1;
   lua_pushcfunction(L, traceback_handler);
   const int handler = lua_gettop(L);
-  // The values go into two tables: `run` may change its own.
+  // `run` may change its own table.
   auto prepare = [&setup](lua_State* s) {
     capture_output(s);
     lua_createtable(s, 0, static_cast<int>(setup.values.size()));
@@ -234,7 +230,7 @@ std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup
     return 3;
   };
   if (protect(L, 0, 3, prepare) != LUA_OK) fail(L);
-  const int function = handler + 2;  // then its argument
+  const int function = handler + 2;  // followed by its argument
   push_upvalues(L, function);
   lua_pushvalue(L, function);
   lua_pushvalue(L, function + 1);

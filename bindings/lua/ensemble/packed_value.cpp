@@ -35,12 +35,12 @@ int clipped(std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, 1 
 
 }  // namespace
 
-// Lua may raise out of any of these calls, so nothing here owns anything.
+// Any call may raise: nothing here owns memory.
 struct PackedValue::Pusher {
   const PackedValue& packed;
   lua_State* L;
-  int made;   // list of the nodes
-  int bases;  // list of the values of Lua's library that the packed value refers to
+  int made;   // list of nodes
+  int bases;  // list of values of Lua's library
 
   void item(const Item& value) const {
     std::visit(
@@ -72,7 +72,6 @@ struct PackedValue::Pusher {
   }
   void make(const Value& value) const { lua::push(L, value); }
 
-  // Fills what make() left on the stack.
   void fill(const Table& table, std::size_t) const {
     for (const Entry& entry : table.entries) {
       item(entry.key);
@@ -106,7 +105,7 @@ struct PackedValue::Pusher {
   void fill(const Value&, std::size_t) const {}
 
   void everything() const {
-    // Lua's own values first: the script may have put others in their place.
+    // First, because the script may have replaced them.
     for (std::size_t k = 0; k < packed.bases_.size(); ++k) {
       push_base(L, packed.bases_[k]);
       lua_rawseti(L, bases, static_cast<lua_Integer>(k) + 1);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Lua value outside any Lua state: a graph of tables, functions and native values that can be put
-// into other states, as often as wanted, each time as a fresh copy. Identity is kept within one
-// packed value: a table met twice is one table, local functions that share an upvalue go on sharing it,
-// cycles stay cycles. Native values are shared, never copied. Packed values are filled by pack() of
-// transfer.hpp and are immutable from then on; any number of threads may put one into their states.
+// A Lua value outside any state: a graph of tables, functions and native values. States get fresh copies with
+// shared tables, upvalues and cycles preserved; native values are shared. Filled by pack() (transfer.hpp),
+// then immutable and thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -24,42 +22,38 @@ namespace asperity::lua {
 
 struct Module;
 
-// How a table leads on to what it holds under a text, in the words of an error: ".bench", "[\"two words\"]".
+// For errors: ".bench", "[\"two words\"]".
 std::string step_text(std::string_view key);
 
 class PackedValue final : public StoredValue {
  public:
-  // Makes the value in a state and leaves it on the stack; one made by make_state if functions came
-  // along. What the script added to the globals and to Lua's own tables is made there too. Cost: linear
-  // in the packed value. Raises on lack of memory: call inside protect().
+  // Leaves a copy on the stack and adds the script's globals and changes to Lua's tables. Functions need a
+  // state of make_state. Cost: linear. Raises if out of memory: call inside protect().
   void push(lua_State* L) const override;
 
-  // Of the content of data: the same for equal values, whatever the order of keys in memory.
+  // Digest of data: equal for equal values, independent of the order of keys in memory.
   std::string digest() const;
 
-  // Data as bytes, and out of them again bit for bit, in any process of this build. `given` are values that
-  // both sides have at hand: a native value that is one of them is not written but named. Surfaces that are
-  // no longer, or never were, those of a generator go by their heights, profiles and materials likewise.
-  // Cost: linear. bytes() throws Error{not_permitted} for what bytes cannot carry, saying how it is reached
-  // from `name`; from_bytes() Error{bad_file} for anything that bytes() did not write.
+  // Data as bytes, restored bit for bit by any process of this build; native values in `given` become
+  // references. Includes profiles, materials, and surfaces without a generator. Cost: linear. bytes() throws
+  // Error{not_permitted} for other values, with the path from `name`; from_bytes() throws Error{bad_file}.
   std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
   static std::shared_ptr<const PackedValue> from_bytes(std::string_view bytes,
                                                        const std::vector<Value>& given = {});
-  // The native value that is the whole of it; null where it is something else.
+  // The native value, or null if the value is something else.
   const Value* native() const;
 
-  // What the value is and, of functions, what they do, the same in every process of this build: code without
-  // the names of its files and lines, upvalues, globals. The folder in which `require` looks, and the
-  // script's own name in `arg[0]` unless a function names `arg`, are left out where they are as `spelling`
-  // says.
+  // Identifies data and function behaviour in all processes of this build: code without file names and lines,
+  // upvalues, globals. Excluded if equal to `spelling`: the `require` folder, and the script's name in
+  // `arg[0]` unless a function uses `arg`.
   struct Content {
     std::string digest;
-    std::string lines;  // of the same with the numbers of its lines
-    bool whole = true;  // false where it holds values that a digest does not tell from all others
+    std::string lines;  // the same with line numbers
+    bool whole = true;  // false: the digest does not identify all values
   };
   Content content(const ScriptSpelling& spelling = {}) const;
 
-  // Globals that could not come along: name -> "`app.bench` is a contact".
+  // Globals that cannot be packed: name -> "`app.bench` is a contact".
   const std::map<std::string, std::string>& left_behind() const { return left_behind_; }
 
  private:
@@ -82,7 +76,7 @@ class PackedValue final : public StoredValue {
     Array<Entry> entries;
     Item metatable;
   };
-  // A function of the script: its code as Lua dumps it, and the cells its upvalues share.
+  // Code as dumped by Lua.
   struct ScriptFunction {
     std::string code;
     std::vector<std::uint32_t> cells;
@@ -92,7 +86,7 @@ class PackedValue final : public StoredValue {
     std::vector<Item> upvalues;
   };
   using Node = std::variant<Table, ScriptFunction, HostFunction, Value>;
-  // One upvalue, and the first function that has it: its node, and which of its upvalues it is.
+  // With its first function's node and upvalue index.
   struct Cell {
     Item value;
     std::uint32_t node;
@@ -103,7 +97,7 @@ class PackedValue final : public StoredValue {
     Entry entry;
   };
 
-  // Numbers in their order, then strings, then the rest.
+  // Numbers in order, then strings, then the rest.
   static bool before(const Entry& a, const Entry& b);
   static Array<Entry> in_order(Array<Entry> entries);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of cases as bytes: how they travel between processes and into files. A point of a surface that was not
-// measured is NaN among its heights.
+// Case rows as bytes. Missing surface points are NaN heights.
 #include <algorithm>
 #include <type_traits>
 
@@ -16,7 +15,7 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::string_view form = "asperity value 1";
-// Results within results: more than any has, and less than the stack holds.
+// Nested results: above real depths, within the stack.
 constexpr int deepest_packed = 200;
 
 enum class Tag : std::uint8_t {
@@ -37,7 +36,7 @@ enum class Tag : std::uint8_t {
   rows
 };
 
-// What bytes cannot carry, in a few words; "" where they can.
+// "" if it has one.
 std::string no_bytes_for(const Object& object) {
   if (object.pointer == nullptr) return object.type->article_name + " that was closed";
   if (object.type == &class_of<Surface>())
@@ -76,7 +75,7 @@ struct PackedValue::Writer : ValueVisitor {
     if (value) out.number(*value);
   }
 
-  // "run(case).bench": through the tables that lead to a node.
+  // "run(case).bench"
   std::string path_to(std::uint32_t to, int steps = 0) const {
     if (const auto* root = std::get_if<NodeId>(&packed.root_);
         steps > 50 || (root != nullptr && root->index == to))
@@ -410,7 +409,6 @@ struct PackedValue::Reader {
       for (std::size_t left = in.count(2); left > 0; --left) {
         Entry entry;
         entry.key = item();
-        // Lua has no such keys.
         const auto* number = std::get_if<double>(&entry.key);
         if (std::holds_alternative<std::monostate>(entry.key) || (number != nullptr && *number != *number))
           ByteReader::damaged();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digests of a packed value: of a row, which journals hold; and of what a function and everything it reaches
-// would do, which other processes of this build come to as well. Nothing in them depends on addresses or on
-// the order of keys in memory: what is met is numbered in the order in which sorted keys and upvalues lead to
-// it.
+// Digests of rows, for journals, and of functions with everything they reach; equal in all processes of this
+// build. Independent of addresses and of key order in memory: nodes are numbered by a traversal with sorted
+// keys.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ void add(Digester& digester, const Material& material) {
     add(digester, property);
 }
 
-// Numbers of nodes or cells in the order in which they are met, each of which is gone through once.
+// Numbers nodes or cells in order of first visit.
 class MetOrder {
  public:
   explicit MetOrder(std::size_t count) : numbers_(count, -1) {}
@@ -45,7 +44,6 @@ class MetOrder {
     }
     return numbers_[id];
   }
-  // The next one that was met and not gone through.
   std::optional<std::uint32_t> next() {
     return done_ < order_.size() ? std::optional(order_[done_++]) : std::nullopt;
   }
@@ -79,7 +77,7 @@ bool PackedValue::before(const Entry& a, const Entry& b) {
   return number_of(a.key) < number_of(b.key);
 }
 
-// Keys that have no order of their own keep that of memory: two runs may then differ, and not find.
+// Keys without an order keep their memory order: stored results may then be missed.
 Array<PackedValue::Entry> PackedValue::in_order(Array<Entry> entries) {
   std::sort(entries.begin(), entries.end(), before);
   return entries;
@@ -89,7 +87,7 @@ struct PackedValue::RowDigest : ValueVisitor {
   const PackedValue& packed;
   Digester digester{};
   MetOrder nodes{packed.nodes_.size()};
-  const Value* value = nullptr;  // being visited
+  const Value* value = nullptr;
 
   explicit RowDigest(const PackedValue& row) : packed(row) {}
 
@@ -117,7 +115,7 @@ struct PackedValue::RowDigest : ValueVisitor {
   void leaf(const auto&) { digester.add(show(*value)); }
 
   void add(const Item& item) {
-    digester.add(static_cast<int>(item.index()));  // "1" is not 1
+    digester.add(static_cast<int>(item.index()));  // distinguishes "1" from 1
     std::visit(
         [&](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
@@ -161,12 +159,12 @@ struct PackedValue::ContentDigest : ValueVisitor {
   Digester digester{}, lines{};
   bool whole = true;
   MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
-  std::optional<std::uint32_t> arguments{};  // the node of `arg`, where only its name leads there
+  std::optional<std::uint32_t> arguments{};  // node of `arg`, if only its name leads there
   bool names_arguments = false;
 
   ContentDigest(const PackedValue& reached, const ScriptSpelling& names) : packed(reached), spelling(names) {}
 
-  // A function of the program: where it lies in the file it was loaded from.
+  // A native function is identified by its offset in the loaded file.
   void add_place(const void* address) {
     Dl_info file{};
     if (address == nullptr || ::dladdr(address, &file) == 0 || file.dli_fbase == nullptr) {
@@ -208,7 +206,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
       asperity::lua::add(digester, surface.traits().aliased_share);
       digester.add(surface.material() ? 1 : 0);
       if (surface.material()) asperity::lua::add(digester, *surface.material());
-      if (surface.recipe() != nullptr) whole = false;  // what it gives on other cells is not known
+      if (surface.recipe() != nullptr) whole = false;  // values on other cells are unknown
     } else if (object.type == &class_of<Profile>()) {
       digester.add(static_cast<const Profile*>(object.pointer.get())->digest());
     } else {
@@ -221,7 +219,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
   }
   void add(const Value& value) { visit_value(value, *this); }
   void add(const Item& item) {
-    digester.add(static_cast<int>(item.index()));  // "1" is not 1
+    digester.add(static_cast<int>(item.index()));  // distinguishes "1" from 1
     std::visit(
         [&](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
@@ -254,7 +252,6 @@ struct PackedValue::ContentDigest : ValueVisitor {
   }
   void add(const BasePath& path) { digester.add(path.library).add(path.key); }
 
-  // The script's own name, as it was typed.
   bool is_script_name(const Entry& entry) const {
     const auto* key = std::get_if<std::int64_t>(&entry.key);
     const auto* name = std::get_if<std::string>(&entry.value);
@@ -266,7 +263,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
     return base.library == "_G" && base.key.empty() && key != nullptr && *key == "arg" &&
            std::holds_alternative<NodeId>(addition.entry.value);
   }
-  // The path of `require` as a script's state begins with it.
+  // The initial path of `require`.
   bool is_path_of_script(const Addition& addition) const {
     const BasePath& base = packed.bases_[addition.table.index];
     const auto *key = std::get_if<std::string>(&addition.entry.key),
@@ -274,7 +271,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
     return base.library == "package" && base.key.empty() && key != nullptr && *key == "path" &&
            path != nullptr && !spelling.folder.empty() && *path == search_path(spelling.folder);
   }
-  // A constant of that text in the code, as Lua dumps it: its length and one, marked, and its bytes.
+  // "arg" as a constant in dumped code: marked length plus one, then bytes.
   static bool names_arg(const ScriptFunction& function) {
     return function.code.find(
                "\x84"
@@ -331,7 +328,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
       if (first.library != second.library) return first.library < second.library;
       return before(a->entry, b->entry);
     });
-    // Globals may be functions that name `arg`: all of them come before it.
+    // Last, because other globals may use `arg`.
     const Addition* last = nullptr;
     for (const Addition* addition : additions) {
       if (is_path_of_script(*addition)) continue;

@@ -29,7 +29,7 @@ CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const Pac
   common.loaded = session.loaded;
   common.script_digest = session.script_digest;
   common.ensemble = ++session.ensembles;
-  if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's
+  if (session.notes != nullptr) session.notes->drew = true;  // the cases' seeds derive from this case's seed
   return common;
 }
 
@@ -69,7 +69,7 @@ EnsembleCases::Finished ScriptedCases::from_bytes(std::size_t k, std::string_vie
 
 namespace {
 
-// Decides which cases this process computes, and reports the others.
+// Chooses this process's cases.
 class SharedEnsemble {
  public:
   SharedEnsemble(const ScriptedCases& cases, const std::function<CaseSetup(std::size_t)>& setup,
@@ -149,7 +149,7 @@ class SharedEnsemble {
     return ": " + cases_text(missing, cases_.count(), shards);
   }
 
-  // Another build may round otherwise: its cases are not taken.
+  // Other builds may round differently.
   std::string of_other_builds(const StoreReport& report) const {
     std::string text;
     for (const CaseRoster& roster : rosters_in(shared_.folder)) {
@@ -173,7 +173,7 @@ class SharedEnsemble {
   const StoredCases& kept_;
   const std::string& place_;
   const bool reports_failures_;
-  const bool here_;  // this ensemble holds the case given by --case
+  const bool here_;  // with the case of --case
   CaseRoster roster_;
 };
 
@@ -185,7 +185,7 @@ std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSet
   ScriptedCases scripted(cases, setup, kept);
   CaseSchedule schedule{session.monitor()};
   schedule.ensemble = session.ensembles;
-  // A case inside a case has no other processes to share its own with.
+  // Nested ensembles are not distributed.
   if (!session.is_case) schedule.ranks = session.ranks;
   const bool follows = session.ranks != nullptr && !session.ranks->leads();
   std::optional<SharedEnsemble> shared;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cases of one lab.ensemble for the scheduler: each a call of the script's function in a Lua state of its
-// own, kept in the store of the run.
+// Cases of a lab.ensemble for the scheduler: script calls in separate Lua states, stored with the run.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +16,10 @@
 
 namespace asperity::lua {
 
-// What the cases of one more ensemble of the run have in common: all of a setup but its values and its seed.
+// Without values and seed.
 CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const PackedValue> run);
 
-// Cases that setup(k) describes; it is called from several threads at once.
+// `setup(k)`: case k; called concurrently.
 class ScriptedCases : public EnsembleCases {
  public:
   ScriptedCases(std::size_t count, std::function<CaseSetup(std::size_t)> setup, const StoredCases& kept)
@@ -44,9 +43,8 @@ class ScriptedCases : public EnsembleCases {
   RunningStates states_;
 };
 
-// setup(k) describes case k and is called from several threads at once. Throws what run_cases of the
-// scheduler throws; `place` is that of the ensemble in the script, `reports_failures` whether the script goes
-// on past cases that failed.
+// `setup(k)`: case k; called concurrently. Throws like the scheduler's run_cases. `place`: in the script.
+// `reports_failures`: the script continues after failed cases.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
                                   const StoredCases& kept, const std::string& place, bool reports_failures,
                                   Session& session);

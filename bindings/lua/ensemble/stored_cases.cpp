@@ -21,12 +21,11 @@ namespace {
 
 constexpr std::string_view case_form = "asperity case 4";
 constexpr std::size_t most_bytes_of_many = 16384;
-// Whether a case used random numbers, and knobs.
+// Uses of random numbers, and of knobs.
 constexpr std::array<std::pair<bool, bool>, 4> ways = {
     {{false, false}, {true, false}, {false, true}, {true, true}}};
-constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
+constexpr std::size_t bytes_a_number = 6;  // exact in a double
 
-// Bytes in a field of a kept result.
 Field packed(std::string_view bytes) {
   const std::size_t numbers = (bytes.size() + bytes_a_number - 1) / bytes_a_number;
   Field field(static_cast<int>(std::max<std::size_t>(numbers, 1)), 1);
@@ -55,7 +54,7 @@ std::vector<Value> natives(const std::vector<CaseValue>& values) {
   return given;
 }
 
-// Whether a text names a line, as errors that a case caught do: "fig9.lua:12: ".
+// "fig9.lua:12: ", as in errors caught by a case.
 bool names_a_line(std::string_view text) {
   for (std::size_t at = text.find(':'); at != std::string_view::npos; at = text.find(':', at + 1)) {
     std::size_t end = at + 1;
@@ -147,7 +146,7 @@ StoredCases::StoredCases(const Session& session, const PackedValue& run) {
 
 std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) const {
   Digester digester;
-  // A case's own arithmetic is the C library's: machines where that rounds otherwise do not share cases.
+  // Machines whose C library rounds differently do not share cases.
   digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
   digester.add(static_cast<std::int64_t>(setup.values.size()));
   bool whole = content_.whole;
@@ -156,7 +155,7 @@ std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) c
     whole = whole && content.whole;
     digester.add(value.key).add(content.digest);
   }
-  // Values of which the digest is not the whole: the same script reaches the same ones at the same place.
+  // The script and its place identify values without an identifying digest.
   if (!whole)
     digester.add(script_.empty() ? setup.script_digest + " " + std::to_string(setup.ensemble) : script_);
   if (drew) digester.add(static_cast<std::int64_t>(setup.seed));
@@ -208,7 +207,7 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
     bytes = case_bytes(result, setup.values);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::not_permitted || always) throw;
-    return;  // it is computed again; the heavy calls in it are found
+    return;  // computed again from stored heavy calls
   }
   ResultFacts facts;
   facts.cost.seconds = result.seconds;

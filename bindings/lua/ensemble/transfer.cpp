@@ -27,7 +27,7 @@ int append_code(lua_State*, const void* piece, std::size_t size, void* code) {
   }
 }
 
-// Whether another thread may read a value.
+// Whether other threads may read a value.
 struct Shareable : ValueVisitor {
   bool all = true;
   void leaf(const Object& object) { all = all && object.type->shareable && !object.closed; }
@@ -35,7 +35,6 @@ struct Shareable : ValueVisitor {
   void leaf(const auto&) {}
 };
 
-// ".bench", "[3]", "[\"two words\"]".
 std::string step_of(const Argument& key) {
   if (key.is_text()) return step_text(key.text());
   if (key.is_number())
@@ -43,7 +42,7 @@ std::string step_of(const Argument& key) {
   return "[" + key.describe() + "]";
 }
 
-// "an open file", "an iterator": a userdata that is no value of ours, by the name of its kind.
+// "an open file", "an iterator": a foreign userdata.
 std::string kind_of_userdata(const Argument& value) {
   lua_State* L = value.state();
   const Argument::StackGuard guard(L);
@@ -58,8 +57,8 @@ std::string kind_of_userdata(const Argument& value) {
 
 }  // namespace
 
-// Goes through the graph depth first. Every table or function that is being read is a frame; the
-// value itself stays on the Lua stack at the frame's index, so nothing is recursive.
+// Depth first, without recursion: a table or function in progress is a frame, with its value on the Lua
+// stack.
 class Packer {
  public:
   Packer(lua_State* state, PackedValue& packed, Cargo cargo, std::string name, std::string hint)
@@ -75,7 +74,6 @@ class Packer {
     return root;
   }
 
-  // The globals, and what the script keeps in Lua's own tables.
   void pack_additions() {
     with_globals([&](const Argument& globals) {
       const Argument::StackGuard guard(L);
@@ -95,11 +93,10 @@ class Packer {
     enum class Phase { begin, metatable, entries, value } phase = Phase::begin;  // of a table
     std::uint32_t node = 0;
     int index = 0;    // of the table or function on the Lua stack
-    int upvalue = 0;  // the last one read
+    int upvalue = 0;  // last read
   };
 
-  // The value on top of the stack as an item. It is popped, unless it opens a frame, which pops it
-  // when it is done.
+  // Pops the top of the stack as an item; a new frame pops it later.
   PackedValue::Item take() {
     if (lua_checkstack(L, 16) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     const Argument value(L, -1);
@@ -168,8 +165,8 @@ class Packer {
     const lua_CFunction function = lua_tocfunction(L, -1);
     const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
     if (has_state) lua_pop(L, 1);
-    // A case has a print of its own, which keeps the order of what cases print, and loops in a fixed order,
-    // whatever the host of the loadable module does.
+    // A case has its own print for ordered output, and its own loops in fixed order, for every host of the
+    // module.
     const BasePath* path = base_function(function);
     const auto own = [path](const char* name) { return *path == BasePath{"_G", name}; };
     if (path != nullptr && (has_state || own("print") || own("pairs") || own("next")))
@@ -196,7 +193,7 @@ class Packer {
     refuse(kind_of_userdata(value));
   }
 
-  // Most values that are packed are numbers and never ask.
+  // On demand: most packed values are numbers.
   const BaseLibrary& base_library() {
     if (!base_library_) base_library_.emplace(L);
     return *base_library_;
@@ -234,8 +231,7 @@ class Packer {
     return {index};
   }
 
-  // Reads one more thing of the innermost frame. take() may open another, so nothing is held by
-  // reference across it.
+  // Reads the next part of the innermost frame. take() may invalidate references by adding a frame.
   void advance() {
     const std::uint32_t node = frames_.back().node;
     if (std::holds_alternative<PackedValue::Table>(packed_.nodes_[node]))
@@ -321,7 +317,7 @@ class Packer {
     }
   }
 
-  // "`run` uses the upvalue `app.bench`, which is a contact": how the frames lead to the value.
+  // "`run` uses the upvalue `app.bench`, which is a contact"
   [[noreturn]] void refuse(const std::string& kind, bool the_table_itself = false) const {
     std::vector<std::string> chain = {name_};
     bool held_by_host = false;
@@ -374,7 +370,7 @@ class Packer {
     });
   }
 
-  // What a fresh state has under the same name anyway.
+  // As in a fresh state.
   bool is_original(const Argument& value, const std::string& library, const Argument& key) {
     if (!key.is_text()) return false;
     const BasePath own{library, std::string(key.text())};
@@ -387,7 +383,7 @@ class Packer {
     return path != nullptr && (*path == own || (library == "_G" && *path == BasePath{own.key, ""}));
   }
 
-  // Takes back what was packed after there were so many nodes and cells.
+  // Removes nodes and cells beyond these numbers.
   void forget(std::size_t nodes, std::size_t cells) {
     frames_.clear();
     for (; order_.size() > nodes; order_.pop_back()) seen_.erase(order_.back());

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Taking a value out of a Lua state, to be put into another. Data travels by copy, immutable native
-// values are shared, and functions of the script travel with everything they reach: their code, their
-// upvalues, the globals, and what the script added to Lua's own tables. Functions and tables of Lua's
-// library and of the laboratory are found again by name. What cannot travel (a coroutine, an open
-// file, an iterator, a native value that changes) is an error that says how the function reaches it.
+// Packs a Lua value for other states. Data are copied; immutable native values are shared; functions include
+// code, upvalues, globals, and additions to Lua's own tables. Lua's library and the laboratory are found by
+// name. Other values (coroutines, open files, iterators, mutable native values) are errors with the path to
+// the value.
 #pragma once
 
 #include <memory>
@@ -16,12 +15,11 @@ namespace asperity::lua {
 
 enum class Cargo {
   data,       // nil, booleans, numbers, strings, plain tables of these, native values, results
-  functions,  // these, functions and metatables, and the globals with them
+  functions,  // also functions, metatables, globals
 };
 
-// Packs the value at an index, which the messages call `name`; `hint` ends them. Reads without raising
-// and runs no Lua code. Cost: linear in what is reached, with no limit on depth. Throws
-// Error{not_permitted} for what cannot travel, Error{out_of_memory}.
+// Messages call the value `name` and end with `hint`. Raises nothing and runs no Lua code. Cost: linear, any
+// depth. Throws Error{not_permitted}, Error{out_of_memory}.
 std::shared_ptr<const PackedValue> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
                                         const std::string& hint);
 

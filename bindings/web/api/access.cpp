@@ -48,11 +48,10 @@ std::string Access::misdirected(const HttpRequest& request) const {
     };
     if (std::ranges::none_of(hosts_, own)) return "the request comes from a page of another origin";
   }
-  // Browsers say so also where they send no Origin.
+  // Browsers send Sec-Fetch-Site even without an Origin.
   if (request.headers.contains("sec-fetch-site")) {
     const std::string* site = request.header("sec-fetch-site");
     if (site == nullptr || (*site != "same-origin" && *site != "none")) {
-      // Following a link to the page itself is no harm.
       const std::string* mode = request.header("sec-fetch-mode");
       if (mode == nullptr || *mode != "navigate" || request.path.starts_with("/api"))
         return "the request comes from a page of another site";

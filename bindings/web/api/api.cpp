@@ -21,14 +21,13 @@ constexpr std::size_t longest_script = std::size_t{1} << 20, longest_name = 200;
 
 HttpResponse not_there() { return problem_answer(404, "there is no such thing here"); }
 
-// "/api/runs/7/files/a.csv" after "/api/runs/" is "7" and "files/a.csv".
 std::pair<std::string, std::string> split(const std::string& path) {
   const std::size_t slash = path.find('/');
   if (slash == std::string::npos) return {path, ""};
   return {path.substr(0, slash), path.substr(slash + 1)};
 }
 
-// "application/json", with or without "; charset=utf-8".
+// Also with "; charset=utf-8".
 bool is_json(std::string type) {
   type.resize(std::min(type.find(';'), type.size()));
   while (!type.empty() && (type.back() == ' ' || type.back() == '\t')) type.pop_back();
@@ -155,7 +154,7 @@ HttpResponse Api::check(std::size_t person, const HttpRequest& request) {
   return json_answer(check_script(script, setup_.scratch, setup_.barriers));
 }
 
-// {script, tab, seed?}: a script that is run at each POST to its own address.
+// {script, tab, seed?}
 HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
   RunRequest asked;
@@ -165,7 +164,7 @@ HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
   return json_answer(Json::object({{"id", live_.begin(person, tab, asked)->id}}), 201);
 }
 
-// POST {knobs, view?}: what the script gives at these values, as frames that follow each other.
+// POST {knobs, view?}: streams the results as frames.
 HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const std::string& id) {
   if (request.method == "DELETE") {
     live_.end(person, id);

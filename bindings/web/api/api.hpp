@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
-// token: about, complete, check, runs with their events, files and views, scripts that follow their knobs
-// (live), and lessons. A problem is {error: {message, hint?}}. A person finds their own runs only; another's
-// are not there. The first person of a room, its teacher, finds all: /api/room lists them, and /api/people
-// whoever is in the room with their predictions (put up by POST /api/predictions) and whether they ask for
-// help (POST /api/help).
+// The server's answers. The page's files need the right Host only; paths under /api need a token. An error is
+// {error: {message, hint?}}. A person sees only their own runs; the first person of a classroom, its teacher,
+// sees all: /api/room lists runs, /api/people predictions (POST /api/predictions) and requests for help (POST
+// /api/help).
 #pragma once
 
 #include <memory>
@@ -38,7 +36,6 @@ class Api final : public HttpHandler {
 
  private:
   HttpResponse route(const HttpRequest& request);
-  // Whose room it is.
   bool is_teacher(std::size_t person) const { return setup_.classroom && person == 0; }
   HttpResponse about(std::size_t person) const;
   HttpResponse complete(const HttpRequest& request) const;
@@ -62,8 +59,8 @@ class Api final : public HttpHandler {
   LiveSessions& live_;
   const PageFiles page_;
   RoomBoard board_;
-  Shares checks_{1, 4, 2};  // two for people whose scripts are checked quickly
-  Shares streams_;          // answers that last
+  Shares checks_{1, 4, 2};  // two for quick checks
+  Shares streams_;          // long-lived answers
 };
 
 }  // namespace asperity::web

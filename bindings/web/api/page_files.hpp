@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page itself: its built files, read once when the server starts, so that no request reaches the disk.
-// Every answer carries a policy that lets the page load from here and nowhere else, and run no script that is
-// not one of these files.
+// The page's built files, read once at server start, so that no request reads the disk. Every answer carries
+// a content policy: load from this server only, and run no script except these files.
 #pragma once
 
 #include <filesystem>
@@ -15,23 +14,21 @@ namespace asperity::web {
 
 class PageFiles {
  public:
-  // `folder`: none where the page was not built; then "/" says what it needs.
+  // `folder`: none if not built; "/" then explains the build.
   explicit PageFiles(const std::optional<std::filesystem::path>& folder);
   bool built() const { return !files_.empty(); }
-  // For GET and HEAD.
   HttpResponse answer(const HttpRequest& request) const;
 
  private:
   struct File {
     std::string content, type, tag;
   };
-  std::map<std::string, File> files_;  // by path, "/index.html"
+  std::map<std::string, File> files_;  // by path: "/index.html"
 };
 
-// What the page needs to be built, in a sentence.
+// A sentence about building the page.
 extern const char* const page_needs;
 
-// Put on every answer of the server.
 void add_safe_headers(HttpResponse& response);
 
 }  // namespace asperity::web

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the people of a room have put up for its teacher: the numbers they predict in a lesson, and whether
-// somebody asks for help. It is kept in memory, as long as the server runs, and bounded for each person.
+// Predictions and requests for help in a classroom, for its teacher. In memory, bounded for each person.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +16,11 @@ class RoomBoard {
  public:
   static constexpr std::size_t longest_name = 60, most_lessons = 40, most_numbers = 12;
 
-  // The numbers that this person predicts in that lesson, by name, instead of any before; none takes them
-  // back. Throws Error{bad_value} where names or numbers are more or longer than above, or a number is not
-  // finite.
+  // Replaces the person's predictions for a lesson; empty `numbers` delete them. Throws Error{bad_value}
+  // beyond these limits or for a non-finite number.
   void predict(std::size_t person, const std::string& lesson, const std::map<std::string, double>& numbers);
   void ask_for_help(std::size_t person, bool wanted);
 
-  // [{lesson, name, value}], by lesson and name.
   Json predictions_of(std::size_t person) const;
   bool needs_help(std::size_t person) const;
 

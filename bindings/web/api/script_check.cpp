@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity check` for the page: a dry run in a confined process, and what it found as marks in the text.
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -16,7 +15,6 @@ namespace {
 
 constexpr double seconds = 3;
 
-// "to line 12: …" gives 12.
 std::optional<std::int64_t> line_in(const std::string& reached) {
   const std::string lead = "to line ";
   if (!reached.starts_with(lead)) return {};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Completion for the page, whose places in the text are counted as a browser counts.
 #include <algorithm>
 
 #include "bindings/lua/editor/completion.hpp"
@@ -9,14 +8,14 @@ namespace asperity::web {
 
 namespace {
 
-// Units of UTF-16 that the character which this byte begins takes; none for a byte inside one.
+// UTF-16 units of the character at this byte; 0 for a continuation byte.
 std::size_t units_of(char byte) {
   const auto bits = static_cast<unsigned char>(byte);
   return (bits & 0xC0) == 0x80 ? 0 : bits >= 0xF0 ? 2 : 1;
 }
 
-// How deep brackets stand in brackets, whatever else the text is. What is read of a script goes down with
-// them, and the stack of a thread is not without end.
+// Brackets in strings and comments count, too. The parser recurses with brackets, and a thread's stack is
+// finite.
 std::size_t deepest_bracket(const std::string& text) {
   std::size_t depth = 0, deepest = 0;
   for (const char c : text) {
@@ -49,7 +48,6 @@ std::size_t unit_of_byte(std::string_view text, std::size_t byte) {
 Json completion_of(const std::string& text, std::size_t unit) {
   std::size_t from = byte_of_unit(text, unit);
   Json::List candidates;
-  // Nobody writes so long a script by hand.
   constexpr std::size_t longest = std::size_t{256} << 10;
   constexpr std::size_t deepest = 500;
   if (text.size() > longest || deepest_bracket(text) > deepest)

@@ -57,7 +57,6 @@ ReducedField reduced(const Field& field, int most) {
     }
     for (int i = 0; i < small.nx; ++i) {
       const int wide = std::min(small.block_x, field.nx() - i * small.block_x);
-      // Missing as well where nothing of the block is there.
       const int there = wide * (end - first) - missing[static_cast<std::size_t>(i)];
       small.values.push_back(there > 0 ? static_cast<float>(sums[static_cast<std::size_t>(i)] / there)
                                        : std::numeric_limits<float>::quiet_NaN());
@@ -106,7 +105,7 @@ View view_of(const State& state, const std::string& title, std::int64_t event) {
     try {
       add_field(view, shown.name, shown.unit, *state.field(shown.name), state.grid());
     } catch (const Error& error) {
-      // A contact without that effect has no such field.
+      // The contact lacks this effect.
       if (error.code() != ErrorCode::bad_state) throw;
     }
   }

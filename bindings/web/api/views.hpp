@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields of surfaces and contacts as the page shows them in 3-D: at most 256 nodes a side, each the mean
-// over a block of nodes (of the contact: the share of it that touches), in single precision. The reduction is
-// said with each. Made only of what is shown; nothing here enters a result.
+// Surface and contact fields for the page's 3-D view, in single precision. A node is the mean over a block of
+// nodes (contact: the contact fraction), at most 256 nodes a side. Views never enter a result.
 #pragma once
 
 #include <string>
@@ -18,28 +17,27 @@ inline constexpr int most_view_nodes = 256;  // a side
 
 struct ReducedField {
   int nx = 0, ny = 0;
-  int block_x = 1, block_y = 1;  // nodes of a block; those at the far edges may have fewer
+  int block_x = 1, block_y = 1;  // nodes; blocks at the far edges may be smaller
   std::vector<float> values;     // row by row, j first
 };
 
-// Blocks of ceil(n / most) nodes a side. Cost: one pass over the field.
+// Blocks of ceil(n / most) nodes a side. Cost: one pass.
 ReducedField reduced(const Field& field, int most = most_view_nodes);
 // "none", "mean of 4 x 4 nodes", "mean of 3 x 3 nodes, fewer at the far edges".
 std::string reduction_text(const ReducedField& field, int from_nx, int from_ny);
 
 std::string base64(std::string_view bytes);
 
-// A view whose numbers stand beside what is said of them.
 struct View {
   std::string title;
   std::int64_t event = 0;
-  Json::List fields{};                       // each without its member `data`
-  std::vector<std::vector<float>> values{};  // of each field
+  Json::List fields{};                       // without `data`
+  std::vector<std::vector<float>> values{};  // for each field
 };
 View view_of(const Surface& surface, const std::string& title, std::int64_t event);
-// Pressure, gap, contact, and what is plastic where that was asked for.
+// Pressure, gap, contact, and plastic flow if on.
 View view_of(const State& state, const std::string& title, std::int64_t event);
-// With the numbers of each field as `data`, in base64.
+// With `data` in base64.
 Json to_json(const View& view);
 
 }  // namespace asperity::web

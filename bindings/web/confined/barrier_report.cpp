@@ -43,7 +43,7 @@ BarrierReport try_out_barriers(const std::string& folder) {
   try {
     ConfinedRequest request{.work = Work::probe, .confinement = {}};
     const Finished done = run_confined(request, folder, std::chrono::seconds(5), std::size_t{1} << 16);
-    // A line after each trial; the last one holds them all.
+    // The last line holds all results.
     const std::size_t end = done.output.rfind('\n');
     if (end == std::string::npos) {
       report.problem = done.error.empty() ? "the trial said nothing" : done.error;

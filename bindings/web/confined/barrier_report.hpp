@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds a run of the page on this machine: a confined process is started that tries to get out.
+// Tests the barriers of this machine in a confined process that tries every way out.
 #pragma once
 
 #include <string>
@@ -10,16 +10,14 @@
 namespace asperity::web {
 
 struct BarrierReport {
-  std::vector<std::string> made, missing;  // how confine() names them
+  std::vector<std::string> made, missing;  // names as in confine()
   std::vector<Barrier> tried;
-  std::string problem;  // why nothing is known
-  // Whether each way out was tried and is shut.
+  std::string problem;  // why the trial failed
   bool all_hold() const;
-  // One line for each way out, then what it rests on.
   std::string text() const;
 };
 
-// Takes some ten milliseconds. `folder`: an empty one to try it in.
+// About 10 ms. `folder`: must be empty.
 BarrierReport try_out_barriers(const std::string& folder);
 
 }  // namespace asperity::web

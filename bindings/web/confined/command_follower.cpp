@@ -26,9 +26,9 @@ namespace asperity::web {
 namespace {
 
 constexpr auto polite_patience = std::chrono::milliseconds(3000);  // after a request to end
-constexpr double watch_grace = 4;  // seconds for the run's own watch of the clock
+constexpr double watch_grace = 4;                                  // seconds for the run's own time limit
 
-// Those that end a program, and Ctrl-Z.
+// Stop signals and Ctrl-Z.
 Descriptor signals_to_pass_on() {
   sigset_t set = cli::stop_signals();
   struct sigaction suspend {};
@@ -60,7 +60,7 @@ CommandFollower::~CommandFollower() {
 }
 
 int CommandFollower::follow() {
-  std::signal(SIGPIPE, SIG_IGN);  // where nobody reads any more the run goes on all the same
+  std::signal(SIGPIPE, SIG_IGN);  // the run continues without readers
   std::optional<int> status;
   while (!status) {
     std::array<pollfd, 3> watched{
@@ -69,7 +69,7 @@ int CommandFollower::follow() {
     for (signalfd_siginfo met{}; ::read(signals_.get(), &met, sizeof met) == sizeof met;)
       pass_on(static_cast<int>(met.ssi_signo));
     status = process_.ended();
-    // When it has ended: what it left in the pipes.
+    // The rest of the pipes.
     pass_on(process_.output, false);
     pass_on(process_.error, true);
     if (!status) watch_limits(Clock::now());
@@ -95,7 +95,6 @@ int CommandFollower::follow() {
 
 void CommandFollower::pass_on(int signal) {
   if (signal != SIGTSTP) return process_.send(signal);
-  // Both rest until this process is told to go on.
   process_.send(SIGSTOP);
   ::raise(SIGSTOP);
   process_.send(SIGCONT);
@@ -103,7 +102,7 @@ void CommandFollower::pass_on(int signal) {
 
 void CommandFollower::pass_on(Descriptor& from, bool error) {
   char piece[65536];
-  // A run that never stops printing does not keep its limits from being watched.
+  // Bounded, so that endless output does not prevent the check of limits.
   for (int most = 16; from.get() >= 0 && most > 0; --most) {
     const ssize_t got = ::read(from.get(), piece, sizeof piece);
     if (got == 0) from.reset();
@@ -118,7 +117,7 @@ void CommandFollower::pass_on(Descriptor& from, bool error) {
   }
 }
 
-// Progress is drawn over itself; all else is shown and not obeyed (plain_streams.hpp).
+// Only progress lines may overwrite themselves (plain_streams.hpp).
 void CommandFollower::pass_on_errors(std::string_view text) {
   if (::isatty(STDERR_FILENO) == 0) {
     std::fwrite(text.data(), 1, text.size(), stderr);
@@ -148,7 +147,7 @@ void CommandFollower::watch_limits(Clock::time_point now) {
   if (use.files > bounds_.files) end("it wrote more than " + std::to_string(bounds_.files) + " files");
   if (use.bytes > bounds_.directory_bytes)
     end("its files take more than " + format_bytes(bounds_.directory_bytes) + " (--limit-disk)");
-  // One that goes on writing is not waited for.
+  // The run still writes: kill.
   if (use.bytes > bounds_.directory_bytes + bounds_.directory_bytes / 4) process_.send(SIGKILL);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Follows the process of `asperity run --confined`: what it prints goes on to the terminal, signals go on to
-// it, its pictures are drawn, and time and disk are watched, as RunFollower does it for the page.
+// Follows the process of `asperity run --confined`: passes output and signals, draws its charts, and enforces
+// limits of time and disk. RunFollower does the same for the page.
 #pragma once
 
 #include <atomic>
@@ -17,22 +17,22 @@
 namespace asperity::web {
 
 struct CommandBounds {
-  double seconds = 600;              // on the clock
-  std::int64_t directory_bytes = 0;  // of all files of the run directory together
-  std::size_t files = 0;             // and folders
+  double seconds = 600;              // wall-clock time
+  std::int64_t directory_bytes = 0;  // all files of the run directory
+  std::size_t files = 0;             // files and folders
 };
 
 class CommandFollower {
  public:
-  // Takes the signals that end a program from this thread and those it starts. Throws Error{bad_state} where
-  // the process cannot be started.
+  // Blocks the stop signals in this thread and later threads. Throws Error{bad_state} if the process cannot
+  // start.
   CommandFollower(const ConfinedRequest& request, std::filesystem::path directory,
                   const CommandBounds& bounds);
   ~CommandFollower();
   CommandFollower(const CommandFollower&) = delete;
   CommandFollower& operator=(const CommandFollower&) = delete;
 
-  // Until the process has ended and all it said has been passed on. The exit status.
+  // Returns the exit status after all output is passed on.
   int follow();
 
  private:
@@ -53,7 +53,7 @@ class CommandFollower {
   std::string error_tail_;
   Clock::time_point begun_ = Clock::now(), look_at_{};
   std::optional<Clock::time_point> kill_at_;
-  std::string ended_for_;  // why it was ended from here
+  std::string ended_for_;  // reason
 };
 
 }  // namespace asperity::web

@@ -22,7 +22,7 @@ Json texts_json(const std::vector<std::string>& texts) {
   return list;
 }
 
-// A number as digits: JSON's own are read as doubles, which do not hold every seed.
+// As digits: JSON doubles cannot hold every seed.
 template <class Number>
 Json optional_digits(const std::optional<Number>& number) {
   return number ? Json(std::to_string(*number)) : Json();

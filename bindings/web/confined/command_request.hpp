@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command for a confined process as JSON. Texts are bytes, of scripts, arguments and names of files in any
-// encoding, and arrive as they are: each byte travels as the character of its number.
+// A command for a confined process as JSON. Texts are bytes of any encoding; each byte becomes the character
+// of this number.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ struct CarriedCommand {
   std::optional<cli::ReplayCommand> replay;
 };
 
-// `replay` may be null; its own `run` is not looked at.
-// Each a list of its name and what it was given as; knobs_in throws Error{bad_file}.
+// Lists of name and given value. command_json: `replay` may be null; its `run` is ignored. knobs_in throws
+// Error{bad_file}.
 Json knobs_json(const GivenKnobs& knobs);
 GivenKnobs knobs_in(const Json& json, const char* name);
 Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay);

@@ -58,8 +58,7 @@ std::string standard_input() {
   return text;
 }
 
-// What a run may load or look at later lies behind the barrier; a part that is not there is met when it is
-// needed.
+// Loads everything that the barriers hide later; a missing part is an error at its first use.
 void prepare_run() {
   machine_facts();
   find_own_place();
@@ -76,7 +75,7 @@ int print_probe(const std::vector<std::string>& made, const std::vector<std::str
                                      {"sentence", barrier.sentence},
                                      {"holds", barrier.holds},
                                      {"by", barrier.by}}));
-    // One by one: the last, if it does not hold, is the end of this process.
+    // After each attempt: a failing barrier may end this process.
     const Json all = Json::object(
         {{"made", Json::strings(made)}, {"missing", Json::strings(missing)}, {"barriers", barriers}});
     std::printf("%s\n", all.text().c_str());
@@ -162,7 +161,6 @@ ConfinedRequest confined_request(const Json& json) {
   for (const Json& barrier : request_member(json, "barriers").list())
     request.barriers.push_back(barrier.string());
   if (json.find("knobs") != nullptr) request.knobs = knobs_in(json, "knobs");
-  // Of a command alone.
   if (const Json* places = json.find("places"))
     for (const Json& place : places->list())
       request.confinement.places.push_back({bytes_of(request_member(place, "folder").string()),

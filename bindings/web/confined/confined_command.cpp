@@ -40,10 +40,10 @@ constexpr double usual_seconds = 600;
 constexpr std::int64_t usual_disk = std::int64_t{1} << 30;
 constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} << 20;
 
-// The manifest of a run that is there; null where there is none, of which others will speak.
+// Null if missing or unreadable; later code reports the error.
 Json manifest_in(const std::string& folder) {
   std::error_code problem;
-  // A pipe would be waited for.
+  // Opening a pipe would block.
   if (!fs::is_regular_file(fs::path(folder) / "manifest.json", problem)) return {};
   try {
     return read_manifest(folder);
@@ -61,7 +61,6 @@ bool was_confined(const Json& manifest) {
   return said != nullptr && *said == Json(true);
 }
 
-// A folder that came from elsewhere may hold links instead of folders.
 void say_where_a_link_leads(const std::string& folder, const fs::path& real) {
   std::string named = folder;
   while (named.size() > 1 && named.back() == '/') named.pop_back();
@@ -107,7 +106,7 @@ bool holds_the_home(const fs::path& folder) {
          });
 }
 
-// The folders that a script reaches, under their own names and under those by which the command names them.
+// Folders within the script's reach, under their real names and their names in the command.
 class Places {
  public:
   void add(const std::string& named, const fs::path& real, bool write) {
@@ -123,7 +122,7 @@ class Places {
   }
   std::vector<Place> all() const {
     std::vector<Place> all = places_;
-    // A link that lies in one of them is there by itself.
+    // Links inside a place need no entry.
     for (const Place& link : links_)
       if (std::ranges::none_of(places_,
                                [&](const Place& place) { return is_at_or_above(place.seen, link.seen); }))
@@ -152,7 +151,8 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   return parts;
 }
 
-// What may stay open of what stays open. Throws Error{not_permitted} naming the rest, and Error{bad_value}.
+// The open ways that are allowed. Throws Error{not_permitted} for other open ways, Error{bad_value} for
+// unknown names.
 std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
   const std::vector<std::string> allowed = split_at_commas(without),
                                  known(confined_ways_out.begin(), confined_ways_out.end());
@@ -186,7 +186,6 @@ std::vector<std::string> open_ways(const BarrierReport& report, const std::strin
   return open;
 }
 
-// One confined command from its options to its exit status.
 class Undertaking {
  public:
   Undertaking(cli::RunCommand run, const cli::ReplayCommand* replay)
@@ -195,7 +194,7 @@ class Undertaking {
   int carry_through() {
     check_options();
     if (replay_ != nullptr) take_record(replay_->recorded, "replay");
-    // Before anything is done there: a run that is refused stays as it is.
+    // Before any change: a refused run stays as it is.
     if (run_.resume) refuse_links(*run_.resume);
     if (run_.resume) take_record(*run_.resume, "go on with");
     if (!run_.script.empty()) read_script();
@@ -222,7 +221,6 @@ class Undertaking {
     const auto before = manifest_text();
     const int status = follow(report.made);
     keep_on_record(before);
-    // To a script other files are not there, which its own messages cannot explain.
     if (status == cli::failed)
       std::fprintf(stderr,
                    "asperity: a confined script finds no files but those in %s; --read FOLDER adds more\n",
@@ -234,7 +232,6 @@ class Undertaking {
     try {
       prepared_.leave();
     } catch (const std::exception&) {
-      // What was begun stays as it is.
     }
   }
   Undertaking(const Undertaking&) = delete;
@@ -252,7 +249,7 @@ class Undertaking {
                   "start it alone, or share the cases of ensembles by `--shard` and `--store`");
   }
 
-  // A record may have come from elsewhere: it is confined, and decides nothing of what can be read.
+  // A record may come from elsewhere: it grants no access to files.
   void take_record(const std::string& folder, const char* purpose) {
     const Json manifest = manifest_in(folder);
     if (manifest.is_null()) return;
@@ -265,7 +262,7 @@ class Undertaking {
     if (replay_ != nullptr) places_.add(folder, canonical(folder, "replay"), false);
   }
 
-  // The run keeps a copy of it, which is then published with the results.
+  // The run directory gets a copy of the script, which is published with the results.
   void read_script() {
     const fs::path given(run_.script);
     run_.text = cli::read_script(run_.script);
@@ -287,8 +284,7 @@ class Undertaking {
                 std::string("add it to ") + purpose_ + " the run so");
   }
 
-  // The run directory is made and locked here, for this process outlives the one that works there, and what
-  // that one left beyond its limits is removed from here.
+  // Made and locked by this process, which outlives the child and removes files beyond the limits.
   void make_folders() {
     RunSetup setup;
     setup.script_name = run_.script.empty() ? "replay" : run_.script;
@@ -332,7 +328,7 @@ class Undertaking {
     run_.limit_disk = bounds.directory_bytes;
     run_.limit_memory =
         run_.limit_memory.value_or(std::max(memory::of_machine() / 2, std::int64_t{256} << 20));
-    // Results kept in the run directory are of its files.
+    // Stored results are part of the directory's limit.
     if (!run_.store)
       run_.store_limit =
           std::min(run_.store_limit.value_or(bounds.directory_bytes), bounds.directory_bytes / 2);
@@ -359,8 +355,7 @@ class Undertaking {
     return read_plain_file(directory_, "manifest.json", most_script_bytes);
   }
 
-  // A script that got out of the language reaches its own manifest, and by it could be taken up or replayed
-  // without barriers.
+  // A script that escaped Lua could rewrite its manifest and then be resumed or replayed without barriers.
   void keep_on_record(const std::optional<std::string>& before) const {
     std::error_code problem;
     const fs::path file = directory_ / "manifest.json";
@@ -378,7 +373,7 @@ class Undertaking {
   cli::RunCommand run_;
   const cli::ReplayCommand* replay_;  // null for a run
   Places places_;
-  std::vector<std::string> read_, recorded_;  // given by --read now, and of the record; without links
+  std::vector<std::string> read_, recorded_;  // from --read; from the record
   std::string purpose_;
   RunDirectory::Prepared prepared_;
   fs::path directory_;  // without links

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run --confined`: a script of somebody else's behind the barriers of the page's runs. This program
-// is started again as a confined process (confined.hpp) that carries out the command: it reads the
-// script and the folders given by --read, writes the run directory and the store given, and reaches no other
-// file, process or network. Its output, its exit status and the signals that are meant for it pass through
-// here, its charts are drawn from here, and time and disk are watched from here. A run that was recorded so
-// is resumed and replayed so.
+// `asperity run --confined` for a foreign script. The program starts itself as a confined process
+// (confined.hpp), which reads the script and the --read folders, writes the run directory and the given
+// store, and reaches no other file, process or network. This side passes on output, exit status and signals,
+// draws charts, and enforces limits of time and disk. A confined run is resumed and replayed confined.
 #pragma once
 
 #include "bindings/cli/commands/replay_command.hpp"
@@ -13,17 +11,17 @@
 
 namespace asperity::web {
 
-// Whether the command asks for barriers, or goes on with or replays a run that was recorded behind them.
+// By option, or because the recorded run was confined.
 bool to_be_confined(const cli::RunCommand& command);
 bool to_be_confined(const cli::ReplayCommand& command);
 
-// The exit status: that of the command; 2 where a barrier is missing that the command does not do without, or
-// where the command is none for a confined process; 1 where a limit that is watched from here was met.
+// Exit status: of the command; 1 if a limit was exceeded; 2 if a required barrier is missing or the command
+// cannot be confined.
 int run_behind_barriers(const cli::RunCommand& command);
 int replay_behind_barriers(const cli::ReplayCommand& command);
 
-// In the confined process: carries out what the two above made of the command. `lock`: the open file of the
-// lock of its run directory, or -1. The exit status.
+// In the confined process: returns the command's exit status. `lock`: open lock file of the run directory, or
+// -1.
 int carry_out(const Json& command, int lock);
 
 }  // namespace asperity::web

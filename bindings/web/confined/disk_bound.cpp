@@ -23,7 +23,7 @@ struct Written {
   std::int64_t bytes = 0, changed = 0;  // on the disk; nanoseconds since 1970
 };
 
-// What is on the disk, and not less than what a reader would get.
+// On the disk, at least the file size.
 std::int64_t taken_bytes(const struct stat& facts) {
   return std::max<std::int64_t>(facts.st_size, std::int64_t{facts.st_blocks} * 512);
 }
@@ -76,8 +76,7 @@ std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::si
     ++left.files;
     return true;
   });
-  // Folders after what is in them, which a longer path is; they are removed only where they have become
-  // empty.
+  // Files, then folders with the deepest first. Only empty folders are removed.
   std::ranges::sort(all, [](const Written& one, const Written& other) {
     const auto order = [](const Written& of) {
       return std::tuple(of.record, of.folder,

@@ -59,8 +59,8 @@ GnuplotResult draw(const std::vector<std::string>& request, const std::vector<st
   ConfinedRequest work{.work = Work::draw, .confinement = {}};
   work.confinement.as = Confined::drawing;
   work.confinement.processor_seconds = 20;
-  // Either of the two shuts files; where Landlock stands, a system whose programs need more of it than the
-  // root has draws all the same.
+  // Landlock and the own root each restrict files. With Landlock, the own root is optional, because gnuplot
+  // on some systems needs files outside it.
   const bool landlock = std::ranges::any_of(
       barriers, [](const std::string& barrier) { return barrier.starts_with("Landlock"); });
   for (const std::string& barrier : barriers)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of a confined run, which can start no program: it sends what gnuplot is to draw to the server, the
-// server has gnuplot draw it in a confined process of its own, with nothing to reach but its fonts, and sends
-// the picture back. What arrives at the server is taken for hostile, though the run's own code made it.
+// Charts of a confined run, which can start no program. The run sends gnuplot's input to the server; the
+// server runs gnuplot in another confined process and returns the picture. The input counts as hostile,
+// because the script may have taken over the run.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,11 @@
 
 namespace asperity::web {
 
-// In the run: pictures are drawn by who listens at the other end of this socket.
+// In the run: draws through the socket.
 void draw_by_server(int socket);
 
-// In the server: reads one request from the socket, draws, answers. Waits for as long as a picture may take;
-// false where the other end is gone or sent what is no request. `barriers` must stand in the drawing process.
-// What is being drawn is given up as soon as `given_up` is true.
+// In the server: answers one request; blocks for at most a picture's time limit. False if the other end is
+// closed or the request is invalid. `barriers`: required for drawing. `given_up`: stops drawing when true.
 bool answer_drawing(int socket, const std::vector<std::string>& barriers, const std::atomic<bool>& given_up);
 
 }  // namespace asperity::web

@@ -40,7 +40,6 @@ Json field_or_null(const Json& fields, std::string_view name) {
   return found == nullptr ? Json() : *found;
 }
 
-// The native value of a class in a result.
 template <class T>
 std::shared_ptr<const T> as(const lua::Value& value) {
   const auto* object = std::get_if<lua::Object>(&value.data);
@@ -57,7 +56,7 @@ Json error_parts(const std::string& text) {
   std::string message = text.substr(0, trace);
   if (const std::string line = lua::line_of(message); !line.empty() && line != "?" && line.size() < 9) {
     parts.set("line", std::stoi(line));
-    // "script.lua:12: " says where; the page says that itself.
+    // The page shows the line itself.
     const std::string where = ":" + line + ": ";
     if (const std::size_t at = message.find(where); at != std::string::npos)
       message.erase(0, at + where.size());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run of the page tells the server: one line of JSON an event, through a pipe. Beside rows,
-// expectations and progress it makes the views, where they were asked for: of the first surfaces and presses
-// all, then as many as a tenth of the run's time allows, and the last.
+// Events of a page run for the server: JSON lines through a pipe. Optionally writes views: the first surfaces
+// and presses, later ones within a tenth of the run's time, and the last.
 #pragma once
 
 #include <chrono>
@@ -20,7 +19,7 @@
 
 namespace asperity::web {
 
-// What a view shows: a surface or a press.
+// A surface or a press.
 struct Seen {
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const State> state;
@@ -31,15 +30,14 @@ struct Seen {
   std::string title() const;
   View view() const;
 };
-// The surfaces and states among the results of a call.
 std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua::Values& results);
 
-// A line of the journal that the page is told of, with its type; none of others.
+// A journal event for the page; none if not shown.
 std::optional<Json> told_of(std::string_view event, const Json& fields);
 
 class EventChannel final : public cli::RunObserver {
  public:
-  // `views`: a folder for them, which is made at the first; "" for none.
+  // `views`: created at the first view; "": no views.
   EventChannel(int descriptor, std::string views) : descriptor_(descriptor), views_(std::move(views)) {}
 
   void send(const std::string& type, Json fields = Json::object());
@@ -62,14 +60,14 @@ class EventChannel final : public cli::RunObserver {
   std::mutex mutex_;
   int descriptor_;
   std::string views_;
-  std::map<std::string, int> kept_;  // views of each kind
+  std::map<std::string, int> kept_;  // views
   int views_in_all_ = 0, left_out_ = 0;
   Clock::time_point begun_ = Clock::now();
   Clock::duration spent_{};  // on views
-  Seen last_;                // left out so far; the run may end with it
+  Seen last_;                // left out so far
 };
 
-// An error message of a script in its parts: {line?, message, traceback?}.
+// {line?, message, traceback?}
 Json error_parts(const std::string& text);
 
 }  // namespace asperity::web

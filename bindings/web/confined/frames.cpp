@@ -62,7 +62,7 @@ std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_
     if (!get_number(descriptor, bytes) || bytes > most_bytes) return {};
     most_bytes -= static_cast<std::size_t>(bytes);
     std::string& text = texts.emplace_back();
-    // In pieces: a length that was claimed is not yet memory.
+    // A claimed length must not allocate memory.
     while (text.size() < bytes) {
       const std::size_t had = text.size();
       text.resize(had + std::min<std::uint64_t>(bytes - had, std::uint64_t{1} << 20));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts of any bytes through a pipe or a socket: how many there are, then each after its length. Who reads
-// says how many bytes they may be together, for the other end may be a script that has got loose.
+// Byte strings through a pipe or socket: their number, then each after its length. The reader bounds the
+// total size, because the sender may be hostile.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,13 @@ namespace asperity::web {
 
 std::string frame(std::span<const std::string_view> texts);
 bool send_frame(int descriptor, std::span<const std::string_view> texts);
-// Waits for a whole frame. None where the other end is gone, or sent what is no frame or is too long.
+// Blocks. None if the other end is closed or the frame is malformed or too long.
 std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_t most_bytes);
 
-// The first whole frame of what has arrived, which is taken out of it; none where more has to come. Throws
-// Error{bad_file} for what is no frame or is too long.
+// Removes the first complete frame; none if incomplete. Throws Error{bad_file} if malformed or too long.
 std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::size_t most_bytes);
 
-// Everything, however often it is interrupted; false if the other end is gone.
+// Retries after interrupts; false if the other end is closed.
 bool read_whole(int descriptor, char* to, std::size_t bytes);
 
 }  // namespace asperity::web

@@ -46,9 +46,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t longest_question = std::size_t{1} << 20, most_printed = std::size_t{64} << 10;
 constexpr std::size_t most_live_events = 5000, most_live_views = 200;
 constexpr auto time_before_a_newer =
-    std::chrono::milliseconds(250);     // before a run makes way for a newer question
-constexpr double most_patience = 2;     // s, where runs take long
-constexpr double answered_soon = 0.05;  // s; what takes longer is answered on fewer cells first
+    std::chrono::milliseconds(250);     // before a run yields to a newer question
+constexpr double most_patience = 2;     // s, for slow runs
+constexpr double answered_soon = 0.05;  // s; slower runs answer on fewer cells first
 constexpr double least_factor = 1.0 / 16;
 
 double seconds_since(Clock::time_point begun) {
@@ -75,12 +75,12 @@ Question question_in(const std::string& text) {
   return question;
 }
 
-// The newest question, and the run that may have to make way for it.
+// The newest question, and the run that it may interrupt.
 class Questions {
  public:
   explicit Questions(int socket) : socket_(socket), listener_([this] { listen(); }) { listener_.detach(); }
 
-  // Waits for one.
+  // Blocks.
   Question next() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return waiting_.has_value(); });
@@ -91,7 +91,7 @@ class Questions {
     return waiting_.has_value();
   }
 
-  // While it lives a newer question ends the run of this state: at once, or once the run has had its time.
+  // During its lifetime, a newer question interrupts the run, from `makes_way` on.
   class Running {
    public:
     Running(Questions& questions, lua_State* L, Clock::time_point makes_way) : questions_(questions) {
@@ -111,7 +111,7 @@ class Questions {
       pollfd watched{socket_, POLLIN, 0};
       if (::poll(&watched, 1, pause()) > 0) {
         const auto texts = receive_frame(socket_, longest_question);
-        if (!texts || texts->size() != 1) std::_Exit(0);  // nobody asks any more
+        if (!texts || texts->size() != 1) std::_Exit(0);  // the asker has left
         try {
           Question question = question_in(texts->front());
           const std::lock_guard lock(mutex_);
@@ -129,7 +129,7 @@ class Questions {
     }
   }
 
-  // Milliseconds until the run that goes on makes way; -1 for ever.
+  // Milliseconds until the run yields; -1: no limit.
   int pause() {
     const std::lock_guard lock(mutex_);
     if (!waiting_ || state_ == nullptr) return -1;
@@ -144,7 +144,7 @@ class Questions {
   }
 
   const int socket_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::optional<Question> waiting_;
   lua_State* state_ = nullptr;
@@ -152,7 +152,7 @@ class Questions {
   std::thread listener_;
 };
 
-// Keeps the warnings of a run, each once.
+// Stores each warning once.
 class LiveMonitor final : public Monitor {
  public:
   explicit LiveMonitor(ResultStore& results) : results_(results) {}
@@ -177,7 +177,6 @@ class LiveMonitor final : public Monitor {
   std::string text_;
 };
 
-// Standard output as a file, of which each run gets its own.
 class Printed {
  public:
   Printed() {
@@ -233,13 +232,12 @@ class LiveScript {
     double factor = 1;
     Clock::time_point makes_way;
   };
-  // What one pass through the script found.
   struct Found {
     Json::List events;
     std::vector<Seen> seen;
     std::size_t left_out = 0;
     std::string failure;
-    std::optional<int> exit;  // what the script gave os.exit
+    std::optional<int> exit;  // status from os.exit
   };
 
   void answer(const Question& question) {
@@ -249,9 +247,8 @@ class LiveScript {
       answered = pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
       if (!answered) too_coarse_ = factor;
     }
-    // Where a coarse answer was given, a question that has come meanwhile is answered next, and the whole of
-    // this one no more. Else the run has the time that the last one took, or nothing would be answered as
-    // long as a knob moves.
+    // A newer question replaces the full answer after a coarse one. Without a coarse answer, the run gets the
+    // last run's time; otherwise a moving knob would get no answers.
     if (answered && questions_.newer()) return say_outdated(question);
     const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
     pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
@@ -260,8 +257,7 @@ class LiveScript {
                                                       std::chrono::duration_cast<Clock::duration>(usual)))});
   }
 
-  // The cells on which a run of the whole, as long as the last one, would be answered soon: each halving of
-  // the sides takes a quarter of the time, about.
+  // The cell factor for a quick answer: half the cells a side take about a quarter of the time.
   double coarse_factor() const {
     double factor = 1, seconds = whole_seconds_;
     for (; seconds > answered_soon && factor > least_factor && factor > 2 * too_coarse_; seconds /= 4)
@@ -269,7 +265,7 @@ class LiveScript {
     return factor;
   }
 
-  // Whether anything was said of what it found.
+  // True if an answer was sent.
   bool pass(const Question& question, const Pass& pass);
   std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
                          Json& knobs);
@@ -294,9 +290,9 @@ class LiveScript {
   Printed printed_;
   cli::UnlinkedFilesBound unlinked_;
   Questions questions_;
-  double whole_seconds_ = 0;  // of the last run on all cells that computed anything
+  double whole_seconds_ = 0;  // s, last full run that computed something
   bool first_ = true;
-  double too_coarse_ = 0;  // a factor at which the script failed, as one whose waves such cells do not carry
+  double too_coarse_ = 0;  // too few cells for the script, e.g. for its waves
 };
 
 bool LiveScript::pass(const Question& question, const Pass& pass) {
@@ -316,7 +312,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   const StopReason stopped = stop_flag().reason();
   stop_flag().clear();
   const double seconds = seconds_since(begun);
-  // The first run makes what later ones take from memory, and one that computes nothing says nothing of them.
+  // The first run fills the result memory; runs without computation count only if slower.
   const ResultMemory::Counts now = memory_.counts();
   if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
     whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
@@ -335,7 +331,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
     error.set("type", "error");
     found.events.push_back(std::move(error));
   }
-  // On cells that the script does not name a mistake may be of the cells: the whole answer says.
+  // The error may come from coarse cells; the full answer decides.
   if (pass.factor < 1 && !found.failure.empty()) return false;
   Json answer = Json::object({{"move", question.move},
                               {"part", pass.factor < 1 ? "coarse" : "whole"},
@@ -349,7 +345,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   return true;
 }
 
-// Why it failed; "" where it did not.
+// Returns the reason of a failure, or "".
 std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
                                    Found& found, Json& knobs) {
   std::error_code ignored;
@@ -387,7 +383,7 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
         ++found.left_out;
     }
   };
-  // The script ends and the process does not: the next move finds what it has computed.
+  // The process continues after os.exit: the next move needs the result memory.
   lua_State* running_state = nullptr;
   session.exit_hook = [&](int code) {
     found.exit = code;
@@ -428,7 +424,7 @@ void LiveScript::say(const Question& question, const Pass&, Found found, Json an
     const std::string kind = seen.kind();
     const std::string name = kind + "-" + std::to_string(++of_kind[kind]);
     views.push_back(Json::object({{"name", name}, {"title", seen.title()}}));
-    // The last one, unless the one that is looked at is there.
+    // The last view, unless the requested one exists.
     if (name_of_it != question.view || question.view.empty()) {
       looked_at = &seen;
       name_of_it = name;

@@ -23,7 +23,7 @@ void Connections::Waiting::end() {
 bool Connections::make_room() {
   const std::lock_guard lock(mutex_);
   if (waiting_.empty()) return false;
-  // Its thread closes it, and takes it off the list only after this.
+  // The connection's thread leaves the list before closing the socket.
   ::shutdown(waiting_.begin()->second, SHUT_RDWR);
   waiting_.erase(waiting_.begin());
   return true;
@@ -47,7 +47,7 @@ void ConnectionThreads::enqueue(std::function<void()> serve) {
       ++threads_;
       return;
     } catch (const std::system_error&) {
-      // The machine gives no more threads: as if there were none left.
+      // No more threads: as at the limit.
     }
   }
   connections_.make_room();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread for each connection, made when it is needed and kept for a while, and never more of them than
-// there may be. Where one more comes, the connection that has waited longest for its client's request is shut
-// down to make room.
+// A bounded number of threads, one for each connection, reused for a while. At the limit, the connection with
+// the longest wait for a request is shut down.
 #pragma once
 
 #include <httplib.h>
@@ -20,7 +19,7 @@ namespace asperity::web {
 // Thread-safe.
 class Connections {
  public:
-  // A connection while it waits for what its client sends; it may be shut down then.
+  // Waits for its client; may be shut down.
   class Waiting {
    public:
     Waiting(Connections& connections, int socket);
@@ -34,14 +33,14 @@ class Connections {
     std::uint64_t number_;
   };
 
-  // Shuts down the one that has waited longest; false if none waits.
+  // False if no connection waits.
   bool make_room();
   void shut_down_all();
 
  private:
   std::mutex mutex_;
   std::uint64_t last_ = 0;
-  std::map<std::uint64_t, int> waiting_;  // in the order in which they began
+  std::map<std::uint64_t, int> waiting_;  // oldest first
 };
 
 class ConnectionThreads final : public httplib::TaskQueue {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A connection as cpp-httplib reads and writes it, with what its own lacks: a request arrives whole within a
-// time and a number of bytes, however slowly its bytes come, and a client that does not fetch what it asked
-// for is given up.
+// A connection for cpp-httplib with its missing limits: a request must arrive within a time and a number of
+// bytes, and a client that does not fetch its answer is dropped.
 #pragma once
 
 #include <httplib.h>
@@ -19,17 +18,16 @@ class DeadlineStream final : public httplib::Stream {
  public:
   DeadlineStream(int socket, const HttpSetup& setup) : socket_(socket), setup_(setup) {}
 
-  // Whether a request begins within the time to rest.
+  // Waits for at most the idle time.
   bool wait_for_request();
   void begin_request();
   enum class Head { whole, too_long, not_there };
-  // Waits for the whole head, which read() then gives; `head` sees it until then.
+  // Blocks; read() returns the head later. `head` is valid until the next read().
   Head wait_for_head(std::string_view& head);
-  // The head has been read: from here on its body counts.
+  // The limits of the body apply from here.
   void head_is_read();
 
   bool is_readable() const override;
-  // False once the client has gone.
   bool is_writable() const override;
   ssize_t read(char* to, std::size_t size) override;
   ssize_t write(const char* from, std::size_t size) override;
@@ -39,17 +37,17 @@ class DeadlineStream final : public httplib::Stream {
   using httplib::Stream::write;
 
  private:
-  // More bytes into the buffer: as recv, without waiting beyond the time that there is.
+  // Like recv, with the deadline.
   ssize_t receive();
   using Clock = std::chrono::steady_clock;
 
   int socket_;
   const HttpSetup& setup_;
   Clock::time_point arrived_by_{};
-  std::size_t may_read_ = 0;  // bytes of this request still
-  std::size_t from_ = 0;      // where what is left in the buffer begins
+  std::size_t may_read_ = 0;  // bytes of this request
+  std::size_t from_ = 0;      // unread bytes
   std::string buffer_;
-  Clock::duration blocked_{};  // in sending, for this request
+  Clock::duration blocked_{};  // in sending
   std::size_t sent_ = 0;
 };
 

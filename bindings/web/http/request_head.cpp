@@ -19,7 +19,7 @@ bool is_token(std::string_view text) {
   });
 }
 
-// Visible characters, bytes beyond ASCII, and, inside a value, blanks and tabs.
+// Visible ASCII and bytes beyond ASCII; with `blanks` also spaces and tabs.
 bool is_shown(std::string_view text, bool blanks) {
   return std::ranges::all_of(text, [&](char c) {
     const auto byte = static_cast<unsigned char>(c);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-serve.so: cpp-httplib under the bounds of bindings/web/http.hpp. What the library would
-// do by itself for a client (unpack a body, pack an answer, cut it into ranges, take forms apart) is refused
-// or left out: each is a way to make a short request cost much.
+// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http.hpp. The library's
+// unpacking, compression, ranges and forms are disabled, because a short request could make them expensive.
 #include <httplib.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -23,7 +22,6 @@ namespace asperity::web {
 
 namespace {
 
-// What the connection of this thread has come to.
 struct Here {
   Connections::Waiting* waiting = nullptr;
   bool close = false;
@@ -54,7 +52,7 @@ void put(HttpResponse from, httplib::Response& to) {
   }
   auto stream = std::make_shared<std::function<bool(std::string&)>>(std::move(from.stream));
   to.set_chunked_content_provider(from.type, [stream](std::size_t, httplib::DataSink& sink) {
-    // An answer that waits for what is to come would else not notice that its client has gone.
+    // Notices a disconnected client.
     if (!sink.is_writable()) return false;
     std::string piece;
     const bool more = (*stream)(piece);
@@ -91,7 +89,7 @@ bool Server::begin(std::string& problem) {
   new_task_queue = [this] { return new ConnectionThreads(setup_.most_connections, connections_); };
   set_payload_max_length(setup_.most_body_bytes);
   set_tcp_nodelay(true);
-  // The library's own options would let another program of this user share the port.
+  // The library's default lets another program of this user share the port.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -99,7 +97,7 @@ bool Server::begin(std::string& problem) {
   set_pre_routing_handler([this](const httplib::Request& from, httplib::Response& to) {
     const HttpRequest head = head_of(from);
     if (auto refused = handler_.refuse(head)) {
-      here.close = true;  // a body may follow that nobody reads
+      here.close = true;  // an unread body may follow
       put(*std::move(refused), to);
       return HandlerResponse::Handled;
     }
@@ -118,7 +116,7 @@ bool Server::begin(std::string& problem) {
     problem = std::strerror(errno);
     return false;
   }
-  // A room that begins together; the library's own queue holds five.
+  // A whole classroom connects at once; the library's backlog is five.
   ::listen(svr_sock_, 512);
   return true;
 }
@@ -140,7 +138,6 @@ void Server::answer_with_body(const httplib::Request& from, httplib::Response& t
   put(handler_.answer(request), to);
 }
 
-// Before anything of the request is believed.
 void refuse_head(DeadlineStream& stream, const char* status, std::string_view problem) {
   const std::string body = "{\"error\":{\"message\":\"" + std::string(problem) + "\"}}\n";
   const std::string answer = std::string("HTTP/1.1 ") + status +
@@ -174,7 +171,7 @@ bool Server::process_and_close_socket(int socket) {
       request.headers.erase("Accept-Encoding");
       request.headers.erase("Range");
       request.ranges.clear();
-      // A request with a body is waited for until it is there.
+      // A POST may be shut down until its body has arrived.
       if (request.method != "POST") waiting.end();
     });
     if (!good || closed || here.close) break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bundles the page: node build.mjs [OUTPUT]. Writes index.html, page.js with the chunks it loads later,
-// page.css, the icon and THIRD_PARTY.txt with the licence of every package whose code is in the bundle. A
-// package without a licence that may be given on under the GPL stops the build.
+// page.css, the icon and THIRD_PARTY.txt with the licence of every package in the bundle. A
+// package without a licence text, or with a licence not known to be compatible with the GPL, stops the build.
 
 import { build } from 'esbuild';
 import { createHash } from 'node:crypto';
@@ -17,8 +17,8 @@ const allowed = new Set(['MIT', 'ISC', 'BSD-2-Clause', 'BSD-3-Clause', '0BSD', '
 rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 
-// The script of a saved run goes into its file as text, and its digest into that file's content policy. The digest is
-// taken here: a page that comes over plain HTTP from another machine has no digests.
+// A saved run contains its script as text, and the script's digest in the content policy. The digest is computed
+// here, because browsers offer no digests to a page over plain HTTP from another machine.
 const player = await build({
   absWorkingDir: here,
   entryPoints: ['src/saved/player.ts'],

@@ -54,7 +54,6 @@ std::string EventLog::after(std::int64_t& after, std::chrono::milliseconds patie
     if (known() > after) {
       begin = after == 0 ? 0 : ends_[static_cast<std::size_t>(after) - 1];
       end = ends_[static_cast<std::size_t>(after)];
-      // A line that is longer alone is one piece.
       for (++after; after < known() && ends_[static_cast<std::size_t>(after)] - begin <= piece; ++after)
         end = ends_[static_cast<std::size_t>(after)];
     }

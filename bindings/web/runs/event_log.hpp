@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The events of one run, numbered from 1, as lines of JSON in a file beside its directory, so that a run of
-// many rows costs the server no memory. One writes, any number read, wait for more, and come back later.
+// The events of a run as JSON lines, numbered from 1, in a file next to the run directory: long runs need no
+// server memory. One writer, many readers.
 #pragma once
 
 #include <chrono>
@@ -21,16 +21,13 @@ class EventLog {
  public:
   explicit EventLog(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // Adds {"n":…, "type":…, fields}; returns false, and keeps nothing, after the last or where the disk
-  // refuses.
+  // Adds {"n":…, "type":…, fields}; false after the last event or if writing fails.
   bool add(const std::string& type, const Json& fields);
-  // Adds the last one.
   void finish(const Json& fields);
 
-  // The lines after number `after`, as many as fit into a piece of some 64 KiB; waits for one at most so
-  // long. `more` is false once the last has been given.
+  // About 64 KiB of lines after number `after`; waits for at most `patience`. `more` is false after the last
+  // event.
   std::string after(std::int64_t& after, std::chrono::milliseconds patience, bool& more) const;
-  // Bytes so far.
   std::int64_t bytes() const;
 
  private:
@@ -40,7 +37,7 @@ class EventLog {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   Descriptor writer_;
-  std::vector<std::int64_t> ends_;  // byte after each
+  std::vector<std::int64_t> ends_;  // end of each line
   bool finished_ = false;
 };
 

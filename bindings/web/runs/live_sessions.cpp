@@ -24,7 +24,7 @@ namespace asperity::web {
 namespace {
 
 constexpr std::size_t longest_answer = std::size_t{8} << 20;
-constexpr std::int64_t moves_of_a_session = 20;  // as many times the processor time of one, at least
+constexpr std::int64_t moves_of_a_session = 20;  // least processor time of a session, in moves
 constexpr auto turn_patience = std::chrono::seconds(8);
 
 ConfinedRequest live_request(const RunRequest& asked, const LiveSetup& setup) {
@@ -48,7 +48,7 @@ std::filesystem::path live_folder(const std::filesystem::path& folder) {
   return folder;
 }
 
-// What is printed past the session's own file is nobody's; of what it died of the last words are kept.
+// Discards output, except for the last lines, which explain a crash.
 void drain(Descriptor& from, std::string* tail) {
   char piece[16384];
   for (int most = 16; from.get() >= 0 && most > 0; --most) {
@@ -147,10 +147,10 @@ void LiveSession::work() {
 }
 
 void LiveSession::follow() {
-  // Of this thread: the process dies with it.
+  // In this thread: the process dies with it.
   ConfinedProcess process(request_, folder_.string());
   const int socket = process.drawing.get();
-  // A process that has got loose does not keep this thread by taking no questions.
+  // A hostile process that reads nothing must not block this thread.
   const timeval most{1, 0};
   ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
   std::string last_words, why;
@@ -199,10 +199,10 @@ void LiveSession::ask(int socket) {
   if (!question.empty() && !send_frame(socket, texts)) end("the script's process took no question");
 }
 
-// False where the process is gone or says what is no answer. Waits for nothing: half an answer is kept.
+// False if the process has ended or its answer is invalid. Never blocks.
 bool LiveSession::take_answers(int socket) {
   std::string piece(std::size_t{1} << 18, '\0');
-  bool there = true;  // what it said before it went is an answer still
+  bool there = true;  // answers before the end still count
   for (int most = 16; there && most > 0; --most) {
     const ssize_t got = ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT);
     there = got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
@@ -217,7 +217,7 @@ bool LiveSession::take_answers(int socket) {
   }
 }
 
-// Throws Error{bad_file} for what is no answer.
+// Throws Error{bad_file}.
 void LiveSession::take(const std::vector<std::string>& texts) {
   const Json json = Json::parse(texts.empty() ? std::string() : texts.front(), "an answer");
   const Json *number = json.find("move"), *part = json.find("part");
@@ -228,7 +228,6 @@ void LiveSession::take(const std::vector<std::string>& texts) {
   const std::lock_guard lock(mutex_);
   if (!(told > static_cast<double>(answered_) && told <= static_cast<double>(moves_))) return;
   const auto move = static_cast<std::int64_t>(told);
-  // Of moves before it nobody waits for more.
   std::erase_if(pieces_, [&](const Piece& piece) { return piece.move < move && !piece.last; });
   pieces_.push_back({move, frame(all), last});
   while (pieces_.size() > 4) pieces_.pop_front();
@@ -266,13 +265,13 @@ void LiveSessions::take_out(const std::function<bool(const LiveSession&)>& which
 
 std::shared_ptr<LiveSession> LiveSessions::begin(std::size_t owner, const std::string& tab,
                                                  const RunRequest& request) {
-  std::vector<std::shared_ptr<LiveSession>> gone;  // waited for without the lock
+  std::vector<std::shared_ptr<LiveSession>> gone;  // destroyed without the lock
   const std::lock_guard lock(mutex_);
   if (closed_) throw Error(ErrorCode::bad_state, "the server is being stopped");
   take_out([](const LiveSession& session) { return session.over(); }, "", gone);
   take_out([&](const LiveSession& session) { return session.owner == owner && session.tab == tab; },
            "another script took its place", gone);
-  // Whoever has not moved a knob for longest makes room.
+  // The session with the longest idle time makes room.
   const auto make_room = [&](std::size_t most, const std::function<bool(const LiveSession&)>& among) {
     std::vector<LiveSession*> there;
     for (const auto& [id, session] : sessions_)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scripts that stay loaded while somebody moves their knobs (confined/live_script.hpp): for each tab of each
-// person one confined process at most, which ends with its tab, when another script takes its place, when no
-// knob has moved for a while, at a limit, or to make room for somebody who moves one. A move is answered when
-// its turn comes (shares.hpp); of the moves of a tab that wait, the newest alone.
+// Live scripts (confined/live_script.hpp): one confined process for each tab. The process ends with its tab,
+// for another script, when idle, at a limit, or to make room. Moves take turns (shares.hpp); only a tab's
+// newest waiting move counts.
 #pragma once
 
 #include <atomic>
@@ -27,23 +26,22 @@
 namespace asperity::web {
 
 struct LiveSetup {
-  std::filesystem::path folder;  // each session gets one in it, which goes with the session
-  RunLimits limits;              // seconds: of one move; all else of a session
+  std::filesystem::path folder;  // parent of temporary session folders
+  RunLimits limits;              // seconds: of a move; others: of the session
   std::vector<std::string> barriers;
-  int at_once = 2;  // moves that are answered together
+  int at_once = 2;  // concurrent moves
   std::size_t most = 16;
   std::size_t most_of_one = 4;
   std::chrono::milliseconds idle = std::chrono::minutes(2);
 };
 
-// One process. Thread-safe.
+// Thread-safe.
 class LiveSession {
  public:
   using Clock = std::chrono::steady_clock;
 
   LiveSession(std::string id, std::size_t owner, std::string tab, const RunRequest& request,
               const LiveSetup& setup);
-  // Ends the process, and waits for it.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
@@ -52,11 +50,11 @@ class LiveSession {
   const std::size_t owner;
   const std::string tab;
 
-  // Asks; returns the number of the move. `share` is held until the newest move is answered.
+  // Sends a question; returns its move number. `share` is held until the newest move is answered.
   std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
-  // What comes next of the answer to a move, a frame or nothing yet; false after the last.
+  // The next part of a move's answer: a frame or nothing yet. False after the last.
   bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
-  // Whether a move waits for its answer, which holds a share.
+  // Whether a move waits, holding a share.
   bool busy() const;
   bool over() const { return over_.load(); }
   void end(const std::string& why);
@@ -75,11 +73,11 @@ class LiveSession {
   const LiveSetup& setup_;
   Descriptor wake_;
   std::atomic<bool> over_{false};
-  std::string arrived_;  // of an answer that is not whole yet
+  std::string arrived_;  // an incomplete answer
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::string why_;  // it ended, or is to end
+  std::string why_;  // reason of the end
   std::string question_;
   std::int64_t moves_ = 0, answered_ = 0;
   struct Piece {
@@ -101,16 +99,14 @@ class LiveSessions {
   LiveSessions(const LiveSessions&) = delete;
   LiveSessions& operator=(const LiveSessions&) = delete;
 
-  // Instead of the one that this tab had. Throws Error{bad_state} where all there may be are answering, or
-  // the server is being stopped.
+  // Replaces the tab's session. Throws Error{bad_state} if all sessions are busy or the server is stopping.
   std::shared_ptr<LiveSession> begin(std::size_t owner, const std::string& tab, const RunRequest& request);
-  // Null where that person has none of this name, or it has ended.
+  // Null if unknown or ended.
   std::shared_ptr<LiveSession> find(std::size_t owner, const std::string& id) const;
-  // Waits for a turn. Throws Error{bad_state} where none came.
+  // Waits for a turn; throws Error{bad_state} on timeout.
   std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view);
   void end(std::size_t owner, const std::string& id);
   std::size_t count() const;
-  // Ends all.
   void close();
 
  private:

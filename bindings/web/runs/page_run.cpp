@@ -23,7 +23,7 @@ const char* kind_of(const std::string& name) {
   return "file";
 }
 
-// The run's own records, which every run has; and what is hidden or under way.
+// Records of every run; hidden and temporary files.
 bool is_own(const std::string& name) {
   return name == "script.lua" || name == "manifest.json" || name == "journal.jsonl" || name[0] == '.' ||
          name.find("/.") != std::string::npos || name.starts_with("store/");
@@ -95,7 +95,7 @@ void PageRun::finish(RunState state, int exit, const std::string& reason) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun_;
   Json fields = Json::object({{"status", name(state)}, {"exit", exit}, {"seconds", seconds.count()}});
   if (!reason.empty()) fields.set("reason", reason);
-  // Whoever hears of the end finds the run ended.
+  // First the state: a reader of the last event must find the run ended.
   state_.store(state);
   events.finish(fields);
 }
@@ -106,7 +106,7 @@ void PageRun::tell_files(bool last) {
     Known& known = files_.try_emplace(file.name, Known{-1, 0, false}).first->second;
     const bool same = known.bytes == file.bytes && known.changed == file.changed;
     if (!same) known = {file.bytes, file.changed, false};
-    // One that is still being written is told of when it rests.
+    // Announced when size and time stop changing.
     if (known.told || !(same || last) || is_own(file.name)) continue;
     known.told = true;
     events.add("file",

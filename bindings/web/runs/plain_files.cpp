@@ -25,7 +25,7 @@ std::optional<OpenFile> open_plain_file(const fs::path& folder, std::string_view
     const std::string part(name.substr(0, slash));
     const bool last = slash == std::string_view::npos;
     const bool good = !part.empty() && part != "." && part != "..";
-    // A pipe must not be waited for.
+    // Do not block on a pipe.
     const int how = last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY;
     const int next = good ? ::openat(at, part.c_str(), how | O_NOFOLLOW | O_CLOEXEC) : -1;
     ::close(at);
@@ -68,7 +68,7 @@ std::vector<PlainFile> plain_files(const fs::path& folder, std::size_t most_file
       break;
     }
     if (::lstat(at->path().c_str(), &facts) != 0) continue;
-    // What is on the disk, and not less than what a reader would get.
+    // On the disk, at least the file size.
     bytes += std::max<std::int64_t>(facts.st_size, facts.st_blocks * 512);
     if (!S_ISREG(facts.st_mode)) continue;
     files.push_back({at->path().lexically_relative(folder).string(), facts.st_size,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of a folder that somebody else fills. A name is followed part by part below the folder, through no
-// link and no "..", to an ordinary file and nothing else: no device, pipe or folder.
+// Files of an untrusted folder. Names are resolved part by part below the folder, without links and "..", to
+// ordinary files only.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace asperity::web {
 
-// A descriptor for reading, and its bytes; none where there is no such file. The caller closes it.
+// Closed by the caller.
 struct OpenFile {
   int descriptor = -1;
   std::int64_t bytes = 0;
 };
 std::optional<OpenFile> open_plain_file(const std::filesystem::path& folder, std::string_view name);
-// The whole of one that has at most so many bytes.
+// None beyond `most_bytes`.
 std::optional<std::string> read_plain_file(const std::filesystem::path& folder, std::string_view name,
                                            std::size_t most_bytes);
 
@@ -28,14 +28,13 @@ struct PlainFile {
   std::int64_t bytes = 0;
   std::int64_t changed = 0;  // nanoseconds since 1970
 };
-// Every ordinary file below the folder, hidden ones and those of hidden folders included. `bytes` gets what
-// they take together, with the folders; where there are more than `most_files` it stops there, and `bytes`
-// gets too_many.
+// All ordinary files below the folder, including hidden ones. `bytes`: total on disk with folders; too_many
+// beyond `most_files`, where the listing stops.
 inline constexpr std::int64_t too_many = INT64_MAX;
 std::vector<PlainFile> plain_files(const std::filesystem::path& folder, std::size_t most_files,
                                    std::int64_t& bytes);
 
-// "text/csv; charset=utf-8" by the ending; bytes without a meaning for what is not known.
+// By ending, "text/csv; charset=utf-8"; else plain bytes.
 std::string media_type(std::string_view name);
 
 }  // namespace asperity::web

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run left and leaves, as answers: its events as they come, its files, its views.
 #include <unistd.h>
 
 #include <algorithm>
@@ -57,7 +56,7 @@ HttpResponse file_answer(const PageRun& run, const std::string& name) {
   const bool hidden = name.starts_with('.') || name.find("/.") != std::string::npos;
   const auto file = hidden ? std::nullopt : open_plain_file(run.directory, name);
   if (!file) return problem_answer(404, "the run has no such file");
-  // What a script wrote is shown in the page by the page; opened by itself it must not be a page of ours.
+  // Opened directly, a script's file must not act as a page of this server.
   const std::string type = media_type(name);
   const bool harmless = type.starts_with("text/plain") || type.starts_with("text/csv") || type == "image/png";
   return file_stream(*file,

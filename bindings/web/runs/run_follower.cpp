@@ -22,8 +22,8 @@ namespace asperity::web {
 namespace {
 
 constexpr auto tell_every = std::chrono::milliseconds(300);
-constexpr auto follower_patience = std::chrono::milliseconds(3000);  // after a polite request to end
-constexpr double grace_seconds = 4;                                  // for the run's own watch of the clock
+constexpr auto follower_patience = std::chrono::milliseconds(3000);  // after a request to end
+constexpr double grace_seconds = 4;                                  // for the run's own time limit
 constexpr std::size_t longest_event = std::size_t{1} << 20;
 
 std::string mebibytes(std::int64_t bytes) {
@@ -63,7 +63,6 @@ RunFollower::RunFollower(PageRun& run, const RunLimits& limits, const std::vecto
 
 RunFollower::~RunFollower() {
   process_.send(SIGKILL);
-  // What gnuplot is drawing is not waited for.
   over_.store(true);
   ::shutdown(process_.drawing.get(), SHUT_RDWR);
   drawer_.join();
@@ -71,7 +70,7 @@ RunFollower::~RunFollower() {
 
 void RunFollower::follow() {
   for (;;) {
-    // What is dropped is fetched now and then, so that a flood of it costs little here.
+    // Discarded output is read at intervals: a flood costs little.
     std::array<pollfd, 3> watched{{{cut_ ? -1 : process_.output.get(), POLLIN, 0},
                                    {cut_ ? -1 : process_.error.get(), POLLIN, 0},
                                    {process_.events.get(), POLLIN, 0}}};
@@ -82,7 +81,7 @@ void RunFollower::follow() {
     const auto status = process_.ended();
     watch_limits(Clock::now());
     if (!status) continue;
-    // What it left in the pipes.
+    // The rest of the pipes.
     take_output(process_.output, out_tail_, "out");
     take_output(process_.error, error_tail_, "err");
     take_events();
@@ -93,12 +92,12 @@ void RunFollower::follow() {
 
 void RunFollower::take_output(Descriptor& from, std::string& unfinished, const char* stream) {
   char piece[65536];
-  // A run that never stops printing does not keep its limits from being watched.
+  // Bounded, so that endless output does not prevent the check of limits.
   for (int most = 16; from.get() >= 0 && most > 0; --most) {
     const ssize_t got = ::read(from.get(), piece, sizeof piece);
     if (got == 0) from.reset();
     if (got <= 0) return;
-    if (printed_ >= limits_.output_bytes) continue;  // taken and dropped, so that it can end
+    if (printed_ >= limits_.output_bytes) continue;  // discarded, so that the run can end
     printed_ += got;
     std::string text = std::move(unfinished);
     text.append(piece, static_cast<std::size_t>(got));
@@ -153,7 +152,6 @@ void RunFollower::take_event(const std::string& line) {
       run_.events.add(type->string(), event);
     }
   } catch (const Error&) {
-    // No event of ours.
   }
 }
 
@@ -174,7 +172,7 @@ void RunFollower::watch_limits(Clock::time_point now) {
     end(RunState::limit, "it wrote more than " + std::to_string(limits_.files) + " files");
   if (use.bytes > limits_.directory_bytes)
     end(RunState::limit, "its files take more than " + mebibytes(limits_.directory_bytes));
-  // One that goes on writing is not waited for.
+  // The run still writes: kill.
   if (use.bytes > limits_.directory_bytes + limits_.directory_bytes / 4 || use.files > 2 * limits_.files)
     process_.send(SIGKILL);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Follows the process of a run: takes what it prints and tells, has its pictures drawn, watches its limits,
-// and ends it, politely first.
+// Follows the process of a run: stores output and events, has pictures drawn, enforces limits, and ends the
+// process, first by request, then by force.
 #pragma once
 
 #include <atomic>
@@ -22,13 +22,12 @@ class RunFollower {
   RunFollower(const RunFollower&) = delete;
   RunFollower& operator=(const RunFollower&) = delete;
 
-  // Until the process has ended and all it said is taken.
+  // Returns after the end and all output.
   void follow();
 
   RunState state = RunState::failed;
   int exit = 1;
   std::string reason;
-  // Of the process, once it has ended.
   double processor_seconds() const { return process_.processor_seconds(); }
 
  private:
@@ -49,11 +48,11 @@ class RunFollower {
   std::thread drawer_;
   std::string out_tail_, error_tail_, line_;
   std::int64_t printed_ = 0;
-  bool cut_ = false;  // more was printed than is kept
+  bool cut_ = false;  // discarding output
   Clock::time_point begun_ = Clock::now(), told_{}, look_at_{};
   std::optional<Clock::time_point> kill_at_;
-  std::optional<RunState> ending_;  // why the server ended it
-  std::string stopped_, why_;       // what the process said of its own end
+  std::optional<RunState> ending_;  // by the server
+  std::string stopped_, why_;       // reason given by the process
 };
 
 }  // namespace asperity::web

@@ -11,8 +11,8 @@ namespace asperity::web {
 
 namespace {
 
-constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // with less a run is not begun
-constexpr std::size_t told_places = 3;  // runs of one person that are told how many are before
+constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // least free space to begin a run
+constexpr std::size_t told_places = 3;                       // runs of one person with a reported place
 
 }  // namespace
 
@@ -113,9 +113,9 @@ std::int64_t RunQueue::kept_by(std::size_t owner) const {
   return kept;
 }
 
-// About how many begin before each that waits, if people take turns.
+// Approximate number of runs ahead of each waiting run.
 void RunQueue::tell_places() {
-  // One begins at once: then it is told to the others.
+  // If a run begins at once, places are reported afterwards.
   const bool place_free = granted_.size() < static_cast<std::size_t>(setup_.at_once);
   if (place_free && turns_.next(people_waiting(), std::chrono::steady_clock::now())) return;
   for (auto& [owner, own] : waiting_)
@@ -133,7 +133,7 @@ void RunQueue::work() {
     std::shared_ptr<PageRun> run;
     changed_.wait(lock, [&] { return over_ || (run = next()) != nullptr; });
     if (over_) return;
-    // Others may have filled the disk since it was added.
+    // The disk may have filled meanwhile.
     RunLimits limits = setup_.limits;
     const std::int64_t left = setup_.most_bytes_of_one - kept_by(run->owner) - limits.event_bytes;
     if (left < least_bytes) {
@@ -151,7 +151,6 @@ void RunQueue::work() {
     lock.lock();
     turns_.end(run->owner, begun, run->processor_seconds(), std::chrono::steady_clock::now());
     granted_.erase(run->id);
-    // A place is free, and for whom may be another question than before.
     changed_.notify_all();
   }
 }

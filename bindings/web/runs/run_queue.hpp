@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runs of a session: those that go on, a few at once; those that wait, whose turn comes as turns.hpp
-// says; and those that are over, whose events and files can still be read.
+// The runs of a server session: current, waiting (order: turns.hpp), and ended with readable events and
+// files.
 #pragma once
 
 #include <condition_variable>
@@ -19,45 +19,44 @@
 namespace asperity::web {
 
 struct QueueSetup {
-  std::filesystem::path folder;  // of the session; each run gets <folder>/<id>
+  std::filesystem::path folder;  // each run gets <folder>/<id>
   RunLimits limits;
-  int at_once = 2;                                         // runs that go on together
-  bool shared = false;                                     // by more than one person
+  int at_once = 2;                                         // concurrent runs
+  bool shared = false;                                     // by several people
   std::size_t most_waiting = 500;                          // in all
   std::size_t most_waiting_of_one = 500;                   // of one person
   std::size_t most_kept = 5000;                            // runs of the session
-  std::int64_t most_bytes_of_one = std::int64_t{8} << 30;  // that the runs of one person keep on disk
-  std::vector<std::string> barriers;                       // that stood when they were tried
+  std::int64_t most_bytes_of_one = std::int64_t{8} << 30;  // on disk
+  std::vector<std::string> barriers;                       // that held in the trial
 };
 
 // Thread-safe.
 class RunQueue {
  public:
   explicit RunQueue(QueueSetup setup);
-  // As close().
   ~RunQueue();
   RunQueue(const RunQueue&) = delete;
   RunQueue& operator=(const RunQueue&) = delete;
 
-  // Throws Error{bad_state} where there is no room for it, saying of what; Error{bad_file}.
+  // Throws Error{bad_state} naming the exhausted limit; Error{bad_file}.
   std::shared_ptr<PageRun> add(std::size_t owner, RunRequest request);
-  // Null where there is none of that person.
+  // Null if the person has no such run.
   std::shared_ptr<PageRun> find(std::size_t owner, const std::string& id) const;
   std::vector<std::shared_ptr<PageRun>> of(std::size_t owner) const;
-  // Whoever's they are.
+  // Of any person.
   std::shared_ptr<PageRun> find(const std::string& id) const;
   std::vector<std::shared_ptr<PageRun>> all() const;
   void stop(PageRun& run);
 
-  // Ends all runs, and waits for them to make their records safe.
+  // Ends all runs; waits for their records.
   void close();
 
  private:
   void work();
-  // Below: with the lock held.
+  // The functions below need the lock.
   std::vector<std::size_t> people_waiting() const;
   std::shared_ptr<PageRun> next();
-  // Bytes that the runs of one person keep, or may yet write while they go on.
+  // On disk, plus the bytes that current runs may write.
   std::int64_t kept_by(std::size_t owner) const;
   void tell_places();
 
@@ -66,7 +65,7 @@ class RunQueue {
   std::condition_variable changed_;
   std::map<std::string, std::shared_ptr<PageRun>> runs_;
   std::map<std::size_t, std::deque<std::shared_ptr<PageRun>>> waiting_;
-  std::map<std::string, std::int64_t> granted_;  // bytes that runs which go on may write
+  std::map<std::string, std::int64_t> granted_;  // bytes for current runs
   Turns turns_;
   std::size_t waiting_in_all_ = 0;
   std::int64_t last_id_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one person may hold of something that all share, so that nobody takes it all. Those who wait are
-// served in the order in which they came; some shares may be kept for people who give theirs back soon.
+// Bounds each person's share of a resource. People are served in order of arrival; some shares can be
+// reserved for quick users.
 #pragma once
 
 #include <chrono>
@@ -16,8 +16,8 @@ namespace asperity::web {
 // Thread-safe.
 class Shares {
  public:
-  // At most `each` for one person and `all` together; and of these `for_quick` only for whoever held their
-  // last one no longer than `quick`.
+  // At most `each` for a person and `all` together; `for_quick` only for people whose last use took at most
+  // `quick`.
   Shares(int each, int all, int for_quick = 0,
          std::chrono::milliseconds quick = std::chrono::milliseconds(1000))
       : state_(std::make_shared<State>()) {
@@ -27,13 +27,13 @@ class Shares {
     state_->quick = quick;
   }
 
-  // Held until the last copy of it is gone; waits so long for one, and is null where there was none.
+  // Null after `patience`. Held until the last copy is destroyed.
   std::shared_ptr<void> take(std::size_t person, std::chrono::milliseconds patience) {
     std::unique_lock lock(state_->mutex);
     const auto place = state_->waiting.insert(state_->waiting.end(), person);
     const bool served = state_->changed.wait_for(lock, patience, [&] { return state_->is_next(place); });
     state_->waiting.erase(place);
-    // Who came next may be served too, or now at last.
+    // The next in line may be served, too.
     state_->changed.notify_all();
     if (!served) return nullptr;
     const bool slow = state_->of[person].slow;
@@ -50,7 +50,6 @@ class Shares {
             }};
   }
 
-  // How many wait for one now.
   std::size_t waiting() const {
     const std::lock_guard lock(state_->mutex);
     return state_->waiting.size();

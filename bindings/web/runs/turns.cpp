@@ -43,7 +43,7 @@ std::optional<std::size_t> Turns::next(const std::vector<std::size_t>& waiting, 
   for (const std::size_t person : waiting) {
     if (running(person) >= most) continue;
     const double seconds = used(person, now);
-    // Equal ones take turns.
+    // Equal use: alternate.
     if (best && !(seconds < least || (seconds == least && last_turn(person) < last_turn(*best)))) continue;
     best = person;
     least = seconds;

@@ -34,7 +34,7 @@ struct Ends {
   throw Error(ErrorCode::bad_state, std::string("a run cannot be started: ") + std::strerror(reason));
 }
 
-// Numbers of what goes to the child are kept clear of those they are to have there.
+// Above 16, so that dup2 in the child cannot overwrite the descriptor.
 Descriptor copied_up(int descriptor) {
   const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 16);
   if (high < 0) throw_not_started(errno);
@@ -57,13 +57,13 @@ Ends pipe_from_child() {
 Ends socket_to_child() {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_not_started(errno);
-  // Neither side waits for ever for the other to take what it sends.
+  // Bounds the time blocked in sending.
   const timeval patience{20, 0};
   for (const int end : ends) ::setsockopt(end, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   return {Descriptor(ends[0]), moved_up(ends[1])};
 }
 
-// A file in memory, so that neither side waits for the other.
+// In memory: neither side waits.
 Descriptor content(const std::string& text) {
   Descriptor file = moved_up(::memfd_create("request", MFD_CLOEXEC));
   if (const int reason = write_all(file.get(), text); reason != 0) throw_not_started(reason);
@@ -71,7 +71,7 @@ Descriptor content(const std::string& text) {
   return file;
 }
 
-// The child has them as 0, 1, 2, ...
+// The child's descriptors 0, 1, 2, …
 pid_t start(const std::vector<int>& descriptors, const std::string& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
@@ -81,7 +81,7 @@ pid_t start(const std::vector<int>& descriptors, const std::string& folder) {
     posix_spawn_file_actions_adddup2(&actions, descriptors[k], static_cast<int>(k));
   posix_spawn_file_actions_addclosefrom_np(&actions, static_cast<int>(descriptors.size()));
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  // In another session: Ctrl-C goes to the server, which decides about its runs.
+  // A new session: Ctrl-C reaches only the server.
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);

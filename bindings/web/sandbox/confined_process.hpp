@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A confined process (confined.hpp) as its parent sees it: this program started again, with nothing inherited
-// but the pipes between the two.
+// The parent's side of a confined process (confined.hpp): this program started again, inheriting only its
+// pipes.
 #pragma once
 
 #include <sys/types.h>
@@ -15,7 +15,6 @@
 
 namespace asperity::web {
 
-// A file descriptor that is closed with its owner.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -30,12 +29,12 @@ class Descriptor {
   int number_ = -1;
 };
 
-// It dies with the thread that made it.
+// Dies with its creating thread.
 class ConfinedProcess {
  public:
-  // Throws Error{bad_state} where it cannot be started.
+  // Throws Error{bad_state} if the process cannot start.
   ConfinedProcess(const ConfinedRequest& request, const std::string& folder);
-  // Killed, if it has not ended, and waited for.
+  // Kills and waits.
   ~ConfinedProcess();
   ConfinedProcess(const ConfinedProcess&) = delete;
   ConfinedProcess& operator=(const ConfinedProcess&) = delete;
@@ -43,9 +42,8 @@ class ConfinedProcess {
   Descriptor output, error, events, drawing;  // this side's ends
 
   void send(int signal) const;
-  // The status of waitpid, once it has ended.
+  // The waitpid status after the end.
   std::optional<int> ended();
-  // That it used, once it has ended.
   double processor_seconds() const { return processor_seconds_; }
 
  private:
@@ -55,12 +53,11 @@ class ConfinedProcess {
 };
 
 struct Finished {
-  int status = -1;                    // of exit; -1 if it died of a signal
-  bool late = false;                  // it was killed because it took too long
-  std::string output, error, events;  // each cut after the bytes that were allowed
+  int status = -1;                    // exit status; -1 after a signal
+  bool late = false;                  // killed at the time limit
+  std::string output, error, events;  // each cut at `most_bytes`
 };
-// Runs one to its end; it is killed, and counts as late, as soon as `given_up` is true, which may be null.
-// Throws as above.
+// Runs a process to its end; kills it as late at the time limit or when `given_up` (may be null) is true.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
                       std::chrono::milliseconds patience, std::size_t most_bytes,
                       const std::atomic<bool>* given_up = nullptr);

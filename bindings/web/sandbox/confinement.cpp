@@ -23,7 +23,7 @@
 
 namespace asperity::web {
 
-// In file_barrier.cpp.
+// Defined in file_barrier.cpp.
 std::string confine_files(const Confinement& confinement, int& version);
 
 namespace {
@@ -40,7 +40,7 @@ void limit(int what, std::int64_t most, const char* of) {
 
 void set_limits(const Confinement& confinement) {
   constexpr std::int64_t libraries = std::int64_t{512} << 20;
-  // Address space is reserved well before it is used: for each thread a stack and a heap of its own.
+  // Threads reserve stacks and heaps long before using them.
   const std::int64_t reserved = (std::int64_t{1} << 30) + std::int64_t{160} *
                                                               std::max(confinement.threads, 1) *
                                                               (std::int64_t{1} << 20);
@@ -53,14 +53,14 @@ void set_limits(const Confinement& confinement) {
     limit(RLIMIT_DATA, confinement.memory_bytes + libraries, "memory");
     limit(RLIMIT_AS, confinement.memory_bytes + libraries + reserved, "address space");
   }
-  // The first signal is taken as a wish, the second as an order.
+  // A signal, and 5 s later a kill.
   const auto seconds = static_cast<rlim_t>(std::max<std::int64_t>(confinement.processor_seconds, 1));
   const rlimit processor{seconds, seconds + 5};
   if (::setrlimit(RLIMIT_CPU, &processor) != 0)
     limit(RLIMIT_CPU, confinement.processor_seconds, "processor time");
 }
 
-// What gnuplot reads and runs, besides the working directory: its libraries, its own files and fonts.
+// Besides the working directory: gnuplot's libraries, files and fonts.
 std::vector<Place> places_of_drawing() {
   std::vector<Place> places{{".", "/run", true}};
   for (const char* folder : {"/usr/bin", "/usr/lib", "/usr/lib64", "/lib", "/lib64", "/usr/share",
@@ -73,7 +73,7 @@ std::vector<Place> places_of_drawing() {
   return places;
 }
 
-// Shuts off every file but those of the places, and goes to the folder to work in. Returns why it could not.
+// Hides files outside the places and enters the working folder. Returns the reason of a failure.
 std::string go_to_own_root(const Confinement& confinement, const Namespaces& own) {
   const bool elsewhere = !confinement.places.empty();
   std::string problem = own.mount;
@@ -87,7 +87,7 @@ std::string go_to_own_root(const Confinement& confinement, const Namespaces& own
   return problem;
 }
 
-// No right of the superuser is left, whoever started the program, nor comes back by running another.
+// Drops all capabilities for good, even if root started the program.
 bool drop_capabilities() {
   ::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   for (unsigned long right = 0; right < 64; ++right) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
@@ -115,7 +115,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   note(own_root_barrier, go_to_own_root(confinement, own));
   note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
-  // It does not outlive the server, even one that was killed. Other rights would have made it forget this.
+  // Dies with the server, even a killed one. Set after the change of credentials, which resets this signal.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
   if (::getppid() != parent) ::_exit(1);
   note("no new rights", ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "" : std::strerror(errno));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a process that works for somebody else may do: a script of the page, or gnuplot on numbers of such a
-// script. It is the process itself that goes behind the barriers, before it reads a byte of what it is to
-// run, and there is no way back. Each barrier is of the operating system and none knows of Lua: a flaw of the
-// language's own limits meets them all. Linux only; a kernel that lacks one is met by the others.
+// Confinement of a process that runs a foreign script, or gnuplot with a script's numbers. The process
+// confines itself irrevocably before it reads a byte of its input. All barriers belong to the operating
+// system, so that they hold when Lua's own limits fail. Linux only; a kernel may lack some barriers.
 #pragma once
 
 #include <cstdint>
@@ -12,49 +11,44 @@
 namespace asperity::web {
 
 enum class Confined {
-  script,   // its working directory, or the folders that were named, and no other file; no other program,
-            // process or network
-  drawing,  // besides, one program, /usr/bin/gnuplot, and what it reads of /usr and of the fonts
+  script,   // working directory or named folders; no other file, program, process or network
+  drawing,  // also /usr/bin/gnuplot with its files in /usr and the fonts
 };
 
-// How confine() names the tree of files of the process's own.
 inline constexpr const char* own_root_barrier = "a root of its own";
 
-// A folder that a script may reach, with all below it.
+// A folder and everything below.
 struct Place {
-  std::string folder;     // where it is: absolute and without links, or "." for the working directory
-  std::string seen;       // where the script finds it in a root of its own; absolute
-  bool write = false;     // files in it may also be made, changed and removed
-  bool programs = false;  // in it may be run, and loaded
+  std::string folder;     // absolute without links, or "."
+  std::string seen;       // absolute path in the own root
+  bool write = false;     // create, change, remove files
+  bool programs = false;  // execute and load files
 };
 
 struct Confinement {
   Confined as = Confined::script;
-  std::vector<Place> places{};  // of a script; none: the working directory alone, which it finds as /run
-  std::string work{};  // the folder that it works in then, which it may not list unless it is a place
-  std::int64_t memory_bytes = std::int64_t{1} << 30;  // of data; half a GiB more for what libraries hold
+  std::vector<Place> places{};                        // of a script; none: the working directory, as /run
+  std::string work{};                                 // working folder; cannot be listed unless a place
+  std::int64_t memory_bytes = std::int64_t{1} << 30;  // data; plus 0.5 GiB for libraries
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
-  std::int64_t processor_seconds = 60;                // of all its threads together
-  int threads = 1;                                    // it means to use
-  std::int64_t parent = 0;  // the process that it does not outlive; 0: its parent when confine() is called
+  std::int64_t processor_seconds = 60;                // all threads
+  int threads = 1;
+  std::int64_t parent = 0;  // dies with this parent; 0: the present parent
 };
 
-// One way out, and what stands in it.
 struct Barrier {
   std::string name;      // "files"
   std::string sentence;  // "no file outside its directory can be opened"
   bool holds = false;
-  std::string by;  // "Landlock 4, a root of its own"; where nothing holds, why
+  std::string by;  // "Landlock 4, a root of its own", or why open
 };
 
-// Sets up every barrier that the kernel offers, for this process, its threads and what it becomes. Must be
-// called while there is one thread. Returns how each was put up, in words ("Landlock 4"), and leaves out what
-// the kernel does not offer; `missing` gets those, with the reason. Throws Error{bad_state} where a limit
-// cannot be set.
+// Sets up all barriers of the kernel for this process and its programs. Must be called with a single thread.
+// Returns the barriers ("Landlock 4"); `missing` gets the others with reasons. Throws Error{bad_state} if a
+// limit cannot be set.
 std::vector<std::string> confine(const Confinement& confinement, std::vector<std::string>& missing);
 
-// Tries, in a confined process, what must not succeed, and says of each way out whether it is shut. Harmless
-// where it is not.
+// In a confined process: tries every forbidden action, harmlessly.
 std::vector<Barrier> try_barriers();
 
 }  // namespace asperity::web

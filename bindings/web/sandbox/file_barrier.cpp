@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Landlock: which files a process may still open, by their place in the tree. Linux 5.13 and later, where
-// it is switched on; needs no rights.
+// Landlock: restricts the files that a process may open, by path. Linux 5.13 or later with Landlock enabled;
+// no privileges needed.
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <sys/prctl.h>
@@ -18,7 +18,7 @@ namespace asperity::web {
 
 namespace {
 
-// Newer than the headers this is built with.
+// Newer than the kernel headers.
 constexpr std::uint64_t truncate_right = std::uint64_t{1} << 14,
                         device_control_right = std::uint64_t{1} << 15;
 constexpr std::uint64_t connect_and_bind = 3, abstract_sockets_and_signals = 3;
@@ -39,7 +39,7 @@ std::uint64_t every_right(int version) {
   return rights;
 }
 
-// A place that is not there needs no rule.
+// A missing place needs no rule.
 bool allow(int ruleset, const char* place, std::uint64_t rights) {
   landlock_path_beneath_attr rule{};
   rule.parent_fd = ::open(place, O_PATH | O_CLOEXEC);
@@ -52,9 +52,8 @@ bool allow(int ruleset, const char* place, std::uint64_t rights) {
 
 }  // namespace
 
-// Shuts every file but those of the places, or of the working directory where there are none, and what a
-// drawing needs besides. Returns why it could not,
-// or "" and the version of the kernel's interface. No new rights must have been given up before.
+// Hides files outside the places, or without places outside the working directory, except for gnuplot's
+// needs. Returns "" and Landlock's version, or the reason of a failure. Requires PR_SET_NO_NEW_PRIVS.
 std::string confine_files(const Confinement& confinement, int& version) {
   version =
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
@@ -68,7 +67,7 @@ std::string confine_files(const Confinement& confinement, int& version) {
   const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
   const int ruleset = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, size, 0));
   if (ruleset < 0) return std::strerror(errno);
-  // Between the folders it may write files may be moved, from which they gain nothing.
+  // Moving a file between writable folders gains no rights.
   const std::uint64_t move = version >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0;
   bool good = confinement.places.empty() ? allow(ruleset, ".", look | keep | cut) : true;
   for (const Place& place : confinement.places)
@@ -81,7 +80,7 @@ std::string confine_files(const Confinement& confinement, int& version) {
     for (const char* place : {"/usr/bin", "/usr/lib", "/usr/lib64", "/lib", "/lib64"})
       good = good && allow(ruleset, place, look | LANDLOCK_ACCESS_FS_EXECUTE);
   }
-  // Rights to the files of this process that are already open stay as they are.
+  // Open files keep their rights.
   if (good) good = ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
   const std::string problem = good ? "" : std::strerror(errno);
   ::close(ruleset);

@@ -30,7 +30,7 @@ bool write_to(const char* file, const std::string& text) {
   return whole;
 }
 
-// The user and the group stay who they are, and nobody else is there.
+// Maps only the own user and group.
 bool keep_identity(uid_t user, gid_t group) {
   const std::string u = std::to_string(user), g = std::to_string(group);
   return write_to("/proc/self/setgroups", "deny") && write_to("/proc/self/uid_map", u + " " + u + " 1") &&
@@ -48,13 +48,13 @@ bool make_folders(const std::string& root, const std::string& path) {
   }
 }
 
-// Linux 5.12: what is asked of a tree of mounts at once. The C library may be older.
+// Linux 5.12; the C library may be older.
 struct MountAttributes {
   std::uint64_t set = 0, clear = 0, propagation = 0, user_namespace = 0;
 };
 constexpr std::uint64_t attribute_read_only = 1, attribute_no_setuid = 2, attribute_no_devices = 4,
                         attribute_no_programs = 8;
-constexpr long open_tree_call = 428, move_mount_call = 429, mount_setattr_call = 442;  // on every processor
+constexpr long open_tree_call = 428, move_mount_call = 429, mount_setattr_call = 442;  // on all processors
 constexpr unsigned of_descriptor = 0x1000, recursive = 0x8000;  // AT_EMPTY_PATH, AT_RECURSIVE
 constexpr unsigned copied = 1, from_descriptor = 4;             // OPEN_TREE_CLONE, MOVE_MOUNT_F_EMPTY_PATH
 
@@ -63,8 +63,8 @@ bool knows_trees() {
   return known;
 }
 
-// A place that is open, with the mounts below it where the kernel copies trees of them. It is opened before
-// the root is put up, which lies over the working directory and would be copied along. Closed with it.
+// An open place, with its mounts if the kernel copies trees. Opened before the new root covers the working
+// directory, because the new root would be copied, too.
 class Bound {
  public:
   explicit Bound(const Place& of)
@@ -92,8 +92,7 @@ class Bound {
   }
 
   bool open() const { return folder_ >= 0 && (tree_ >= 0 || !knows_trees()); }
-  // Without devices and rights of others; without programs, and without writing, unless the place allows
-  // them.
+  // No devices, no set-user-ID; programs and writing only if allowed.
   bool mount_at(const std::string& at) const {
     if (tree_ >= 0) {
       const MountAttributes wanted{attribute_no_setuid | attribute_no_devices |
@@ -105,7 +104,7 @@ class Bound {
     }
     const std::string source = "/proc/self/fd/" + std::to_string(folder_);
     if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND, nullptr) != 0) return false;
-    // What the file system forbids already stays forbidden.
+    // The file system's own restrictions remain.
     unsigned long kept = MS_NOSUID | MS_NODEV;
     if (!place->programs || (flags_.f_flag & ST_NOEXEC)) kept |= MS_NOEXEC;
     if (flags_.f_flag & ST_NOATIME) kept |= MS_NOATIME;
@@ -152,13 +151,12 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   const std::string here = here_text;
   if (::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0)
     return root_problem("mounts of its own");
-  // Opened before the root lies over the working directory.
   std::vector<Bound> bound;
   for (const Place& place : places) {
     Bound& one = bound.emplace_back(place);
     if (!one.open()) return root_problem("the folder " + place.folder);
   }
-  // A folder before those below it.
+  // Parents before their subfolders.
   std::ranges::sort(bound, {}, [](const Bound& one) { return one.place->seen.size(); });
   const int under = ::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
   if (under < 0) return root_problem("the working directory");
@@ -166,7 +164,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
     ::close(under);
     return root_problem("a root");
   }
-  // From here on a failure takes the mount away again, and with it those in it.
+  // A failure now unmounts the root.
   const auto undo = [&](const std::string& step) {
     std::string text = root_problem(step);
     ::umount2(here.c_str(), MNT_DETACH);
@@ -186,7 +184,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   ::mount(nullptr, here.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY | MS_NOSUID | MS_NOEXEC, nullptr);
   if (::chdir(here.c_str()) != 0) return undo("the root");
   if (::syscall(SYS_pivot_root, ".", ".") != 0) return undo("the root");
-  // The old root lies over the new one until it is taken away.
+  // The old root covers the new one.
   ::umount2(".", MNT_DETACH);
   ::close(under);
   if (::chdir(work.c_str()) != 0) return root_problem("its directory");

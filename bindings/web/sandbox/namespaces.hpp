@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A view of the machine of the process's own: a network without a way out, and a tree of files in which
-// there are the folders it was given and nothing else. The kernel grants it to root, and to everybody where
-// user namespaces are allowed.
+// Namespaces: no network, and a file tree with the given folders only. For root, and for all users if user
+// namespaces are allowed.
 #pragma once
 
 #include <string>
@@ -11,15 +10,15 @@
 
 namespace asperity::web {
 
-// Why each could not be had; "" where it was.
+// Reasons of failures; "" on success.
 struct Namespaces {
   std::string user, network, mount;
 };
 Namespaces enter_namespaces();
 
-// Makes a root that holds the places where they are to be seen, and /dev/null, and goes to the folder `work`
-// of it, which is empty where it is no place. The root is put up over the working directory. Needs a mount
-// namespace of its own. Returns why it could not, and then the process's files are as they were, or "".
+// Mounts a root with the places and /dev/null over the working directory and enters its folder `work`, which
+// is empty unless a place. Needs an own mount namespace. Returns "", or the reason of a failure with the
+// files unchanged.
 std::string enter_own_root(const std::vector<Place>& places, const std::string& work);
 
 }  // namespace asperity::web

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter of system calls, which libseccomp makes: a list of what a computation needs, and everything else
-// refused. It comes as the part asperity-sandbox.so (bindings/web/seccomp).
+// The system call filter of libseccomp: an allow list for computations. The filter is the part
+// asperity-sandbox.so (bindings/web/seccomp).
 #pragma once
 
 #include <string>
@@ -9,12 +9,11 @@
 
 namespace asperity::web {
 
-// Returns why it could not be put up, or "". The part must have been loaded before files were shut off:
-// load_system_call_filter() does, and returns why it could not.
+// Return the reason of a failure, or "". Load the part before files are hidden.
 std::string load_system_call_filter();
 std::string confine_system_calls(Confined as);
 
-// The part's symbol `asperity_confine_system_calls`: why it could not, or null.
+// Symbol `asperity_confine_system_calls` of the part: reason of a failure, or null.
 using ConfineSystemCalls = const char*(Confined as);
 
 }  // namespace asperity::web

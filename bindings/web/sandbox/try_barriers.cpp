@@ -40,7 +40,7 @@ Barrier files() {
 }
 
 Barrier processes() {
-  // The bare system call: no code of the library may run in a child that should not exist.
+  // A raw call: no library code may run in a child that should not exist.
   const long child = ::syscall(SYS_clone, SIGCHLD, nullptr, nullptr, nullptr, nullptr);
   if (child == 0) ::_exit(0);
   if (child > 0) ::waitpid(static_cast<pid_t>(child), nullptr, 0);
@@ -51,7 +51,7 @@ Barrier processes() {
 
 Barrier programs() {
   char program[] = "/bin/false", *const arguments[] = {program, nullptr}, *const environment[] = {nullptr};
-  // Returns only where it is refused; a program that ran would end this one without a word.
+  // Returns only if refused; otherwise this process is replaced.
   const int before = ::access(program, X_OK);
   if (before == 0 || errno == EPERM || errno == EACCES || errno == ENOENT)
     ::execve(program, arguments, environment);

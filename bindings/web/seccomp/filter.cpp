@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-sandbox.so. Everything that is not named here fails with EPERM: other programs, other
-// processes, sockets, new mounts and namespaces, keys, the kernel's interpreters and rings. Memory is never
-// both written and run.
+// The part asperity-sandbox.so. Other calls fail with EPERM: programs, processes, sockets, mounts,
+// namespaces, keys, BPF, io_uring. A script's process gets no executable memory.
 #include <fcntl.h>
 #include <seccomp.h>
 #include <sys/ioctl.h>
@@ -23,7 +22,7 @@ namespace {
 using asperity::web::Confined;
 
 constexpr const char* allowed[] = {
-    // files, of which others decide which
+    // files, restricted by other barriers
     "read", "write", "readv", "writev", "pread64", "pwrite64", "lseek", "_llseek", "close", "close_range",
     "dup", "dup2", "dup3", "open", "openat", "creat", "access", "faccessat", "faccessat2", "stat", "lstat",
     "fstat", "newfstatat", "fstatat64", "statx", "statfs", "fstatfs", "getdents", "getdents64", "mkdir",
@@ -32,17 +31,17 @@ constexpr const char* allowed[] = {
     "copy_file_range", "sendfile",
     // memory
     "munmap", "mremap", "madvise", "brk", "msync",
-    // threads of its own
+    // own threads
     "futex", "futex_waitv", "set_robust_list", "get_robust_list", "rseq", "set_tid_address", "gettid",
     "getpid", "getppid", "sched_yield", "sched_getaffinity", "sched_getparam", "sched_getscheduler",
     "sched_get_priority_max", "sched_get_priority_min", "membarrier", "exit", "exit_group", "restart_syscall",
     "rt_sigaction", "rt_sigprocmask", "rt_sigreturn", "rt_sigtimedwait", "rt_sigpending", "rt_sigsuspend",
     "sigaltstack", "pause",
-    // time, and what the machine is
+    // time and machine facts
     "clock_gettime", "clock_getres", "clock_nanosleep", "nanosleep", "gettimeofday", "time", "times",
     "getrusage", "uname", "sysinfo", "getuid", "getgid", "geteuid", "getegid", "getrlimit", "getrandom",
     "getcpu",
-    // waiting for what is already open
+    // waiting on open descriptors
     "poll", "ppoll", "select", "pselect6", "arch_prctl"};
 
 struct Release {
@@ -54,7 +53,7 @@ class Filter {
   explicit Filter() : filter_(seccomp_init(SCMP_ACT_ERRNO(EPERM))) {
     if (filter_ == nullptr) failed_ = ENOMEM;
   }
-  // A call that this processor's kernel does not have needs no rule.
+  // Calls unknown to this processor need no rule.
   template <class... Conditions>
   void allow(const char* name, Conditions... conditions) {
     rule(SCMP_ACT_ALLOW, name, conditions...);
@@ -67,7 +66,7 @@ class Filter {
     if (result != 0 && result != -EDOM) failed_ = -result;
   }
   const char* load() {
-    // All threads there are, and none that could be born of another's rights.
+    // For all threads: an unfiltered thread could start others.
     if (failed_ == 0) failed_ = -seccomp_attr_set(filter_.get(), SCMP_FLTATR_CTL_TSYNC, 1);
     if (failed_ == 0) failed_ = -seccomp_load(filter_.get());
     return failed_ == 0 ? nullptr : std::strerror(failed_);
@@ -87,14 +86,14 @@ scmp_arg_cmp with(unsigned argument, scmp_datum_t bits) { return {argument, SCMP
 extern "C" __attribute__((visibility("default"))) const char* asperity_confine_system_calls(Confined as) {
   Filter filter;
   for (const char* name : allowed) filter.allow(name);
-  // Threads and no processes; the newer call, whose arguments cannot be looked at, is said not to exist.
+  // Threads but no processes. A filter cannot inspect the arguments of clone3, which fails with ENOSYS.
   filter.allow("clone", with(0, 0x00010000 /* CLONE_THREAD */));
   filter.rule(SCMP_ACT_ERRNO(ENOSYS), "clone3");
-  // Signals to itself.
+  // To this process only.
   const auto own = static_cast<scmp_datum_t>(::getpid());
   filter.allow("tgkill", equals(0, own));
   filter.allow("kill", equals(0, own));
-  // Its own limits, which can only sink.
+  // Own limits can only decrease.
   filter.allow("prlimit64", equals(0, 0));
   filter.allow("setrlimit");
   filter.allow("prctl", equals(0, PR_SET_NAME));
@@ -104,20 +103,17 @@ extern "C" __attribute__((visibility("default"))) const char* asperity_confine_s
                             F_SETLKW, F_OFD_GETLK, F_OFD_SETLK, F_OFD_SETLKW})
     filter.allow("fcntl", equals(1, static_cast<scmp_datum_t>(command)));
   if (as == Confined::drawing) {
-    // Before it has become gnuplot: a program is loaded by these. It gives up the rights of others, of which
-    // it has none, and refuses to go on where it may not.
+    // For starting gnuplot, which drops group privileges and aborts if this call is blocked.
     for (const char* name :
          {"execve", "mmap", "mprotect", "pipe2", "chmod", "fchmod", "chdir", "setuid", "setgid"})
       filter.allow(name);
   } else {
     filter.allow("mmap", without(2, PROT_EXEC));
     filter.allow("mprotect", without(2, PROT_EXEC));
-    // A file is copied with its rights; none runs as somebody else.
+    // Copying sets a file's mode; set-user-ID and set-group-ID stay forbidden.
     filter.allow("fchmod", without(1, S_ISUID | S_ISGID));
-    // Before it reads the type of an object, the undefined-behaviour sanitizer writes the object's memory
-    // into a pipe, to see whether it can be read. Where it gets no pipe it takes any object of a type that it
-    // has not met before for one of a wrong type: the state of the first std::thread, for example, in
-    // live_script.cpp.
+    // The undefined-behaviour sanitizer tests memory by writing to a pipe. Without a pipe, it reports wrong
+    // types, for example for the first std::thread in live_script.cpp.
     if (asperity::sanitized)
       for (const char* name : {"pipe", "pipe2"}) filter.allow(name);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The server's interface, typed, and the one place that talks to it. The token comes in the address's
-// fragment, which a browser never sends; it is moved to the tab's session storage at once, so that it
-// is not read off a projector, and goes back only in the Authorization header.
+// The typed interface to the server; all requests are made here. The token arrives in the address fragment,
+// which browsers never send. It moves to the tab's session storage at once, hidden from projectors, and is
+// sent only in the Authorization header.
 
 import { framesOf, type LiveFacts } from './live';
 
@@ -41,10 +41,10 @@ export interface About {
   limits?: { memory_bytes?: number; seconds?: number; output_bytes?: number; runs?: number };
   classroom?: boolean;
   teacher?: boolean;
-  help?: boolean; // whether this person asks for it
+  help?: boolean;
 }
 
-/** A run of anybody in the room, as its teacher sees it. */
+/** A run as shown to the teacher. */
 export interface RoomRun {
   id: string;
   name: string;
@@ -52,7 +52,7 @@ export interface RoomRun {
   state: string;
 }
 
-/** Somebody of the room, as its teacher sees them. */
+/** A person as shown to the teacher. */
 export interface RoomPerson {
   name: string;
   help: boolean;
@@ -68,7 +68,7 @@ export interface ViewField {
   size_y: number;
   from_nx: number;
   from_ny: number;
-  not_measured?: number; // nodes, of a surface that has any
+  not_measured?: number; // number
   reduction: string;
   data: string;
 }
@@ -103,7 +103,7 @@ export type RunEvent = { n: number } & (
 
 export type Failure = 'gone' | 'token' | 'limit' | 'refused';
 
-/** What a request came to, in a sentence for the person in front of the page. */
+/** With a sentence for the user. */
 export class ApiError extends Error {
   constructor(
     readonly failure: Failure,
@@ -157,7 +157,7 @@ export class Api {
   startLive = (script: string, tab: string): Promise<{ id: string }> =>
     this.json('POST', '/api/live', { script, tab });
 
-  /** What the script gives at these values, part by part as it comes. */
+  /** Streams the results at these values. */
   async moveLive(
     id: string,
     knobs: Record<string, string>,
@@ -175,7 +175,7 @@ export class Api {
     );
   }
 
-  /** Also while the page goes away. */
+  /** Also while the page unloads. */
   endLive(id: string): void {
     void fetch(`/api/live/${encodeURIComponent(id)}`, {
       method: 'DELETE',
@@ -189,10 +189,8 @@ export class Api {
     return (await this.request('GET', `/api/runs/${encodeURIComponent(id)}/files/${path}`)).blob();
   }
 
-  /**
-   * Every event of a run from number `after` on, until it has finished. A connection that breaks is
-   * taken up again where it was; `gone` hears of it, and is called with null when it works again.
-   */
+  /** Passes on a run's events after number `after` to the end. Broken connections are resumed; `gone`
+      gets the error, and null after recovery. */
   async events(
     id: string,
     after: number,

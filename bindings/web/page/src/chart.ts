@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of a notebook against another, drawn as SVG by Observable Plot: the same drawing on the page and in a
-// saved run. Every row is a point; a line goes through the means of the rows that share an x, as the notebook's
-// own charts do. Colours are attributes, so the drawing needs no style sheet.
+// Charts of notebook columns as SVG, drawn by Observable Plot. Every row is a point; a line connects the
+// means of rows with equal x, as in the engine's charts. Colours are attributes: saved runs need no style
+// sheet.
 
 import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
 import { linesOf, namesAlong, type ChartChoice, type Line, type Point } from './chart_choice';
@@ -13,14 +13,14 @@ import { axisFor, axisOfNames, type Axis } from './ticks';
 import { label, numberText, scaleFor, type Scale } from './units';
 
 const fontSize = 15; // px
-const lineHeight = 24; // px, of the legend's rows
+const lineHeight = 24; // px
 const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
-const mostNamed = 16; // lines in the legend
+const mostNamed = 16;
 
 export interface Drawn {
   element: SVGElement;
   summary: string;
-  /** Rows that a logarithmic axis or a missing number leaves out. */
+  /** Rows without a number for the axis. */
   left: number;
 }
 
@@ -71,7 +71,6 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   );
   const drawn = lines.flatMap((l, k): Markish[] => {
     const stroke = ink.series[k % ink.series.length];
-    // Points of one chart have one size.
     const kind = kinds[k] === 'large' && kinds.some((m) => m !== 'large') ? 'small' : kinds[k];
     const bars = l.means.filter((m) => choice.spread && m.deviation > 0);
     return [
@@ -82,7 +81,6 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
         stroke,
         strokeWidth: 1.5,
       }),
-      // What lies between two names is nothing.
       ...(named ? [] : [line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
       ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY, names)),
     ];
@@ -134,7 +132,6 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   return { element: asPicture(element, summary, ink), summary, left };
 }
 
-/** How many of these numbers lie in each of some equal steps: a drawing, and its sentence. */
 export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
   const axis = axisFor(
     values,
@@ -193,7 +190,7 @@ function dotsOf(
   if (kind === 'none') return [];
   const close = crowded(places, 2 * radii[kind]);
   const fill = ink.series[index % ink.series.length];
-  // In a cloud of points the line through their means is seen through them.
+  // The line must remain visible in a dense cloud.
   const cloud = share(close) > 0.5;
   const single = kind === 'large' ? l.points.filter((_, k) => !close[k]) : [];
   const rest = kind === 'large' ? l.points.filter((_, k) => close[k]) : l.points;
@@ -211,7 +208,6 @@ function dotsOf(
   );
 }
 
-/** A sentence in the chart's place. */
 function sentence(words: string, name: string, width: number, height: number, ink: Ink): SVGElement {
   const root = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, height });
   root.append(
@@ -220,7 +216,8 @@ function sentence(words: string, name: string, width: number, height: number, in
   return asPicture(root, name, ink);
 }
 
-/** Without Plot's own style sheet, which the page's policy forbids, and with a name instead of parts. */
+/** Removes Plot's style sheet, which the content policy forbids, and merges aria attributes into one
+    name. */
 function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
   root.querySelector('style')?.remove();
   for (const part of root.querySelectorAll('[aria-label], [aria-hidden], [aria-description]')) {
@@ -246,18 +243,17 @@ function shareOf(value: number, axis: Axis, log: boolean): number {
   return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
 }
 
-/** Neighbouring labels need as much as `size` says, half of it to either side. */
 function apartBy(size: (text: string) => number, length: number) {
   return (labels: string[], shares: number[]): boolean =>
     labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
 }
 
-/** Whether names fit beside each other, each on its own part of the axis. */
+/** Whether the names fit side by side. */
 function fitAside(names: string[], length: number): boolean {
   return names.every((name) => widthOf(name) + 12 <= length / names.length);
 }
 
-/** As much of a name as has room, 220 px at most; the whole of it is in the title of its point. */
+/** At most 220 px; the point's title has the whole name. */
 function shortened(name: string, room = 220): string {
   if (widthOf(name) <= room) return name;
   let text = [...name];
@@ -265,7 +261,7 @@ function shortened(name: string, room = 220): string {
   return `${text.join('').trimEnd()}…`;
 }
 
-/** A label with its unit whole, and as much of the words as has room. */
+/** The whole unit, and words as they fit. */
 function fittedLabel(words: string, scale: Scale, room: number): string {
   const unit = label('', scale);
   return shortened(words, room - widthOf(unit)) + unit;
@@ -301,7 +297,6 @@ interface Entry {
   index: number;
 }
 
-/** Names of the lines in rows that fit the width. */
 function legendRows(lines: Line[], width: number): Entry[][] {
   const rows: Entry[][] = [];
   let at = Infinity;

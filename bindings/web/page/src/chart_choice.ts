@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a chart of a notebook shows, and the lines that this makes of its rows: one for each column up, and of
-// each for every value of a column that parts them.
+// The choice of a chart, and its lines: for each y column and each value of a grouping column.
 
 import type { Cell } from './api';
 import { namesIn, numericColumns, type Notebook } from './run';
 import { numberText } from './units';
 
 export interface ChartChoice {
-  x: string; // a column of numbers, or of names
-  y: string[]; // columns of one unit
-  per: string; // a line for each value of this column; empty for one line
+  x: string; // numbers or names
+  y: string[]; // of one unit
+  per: string; // grouping column, or empty
   logX: boolean;
   logY: boolean;
-  xLabel?: string; // along the axis instead of the columns' names
+  xLabel?: string; // instead of the column names
   yLabel?: string;
-  where?: Record<string, Cell[]>; // rows whose columns have one of these values
-  points?: boolean; // false: lines alone
-  spread?: boolean; // bars of a standard deviation of the rows that share an x
+  where?: Record<string, Cell[]>; // only rows with these values
+  points?: boolean; // false: lines only
+  spread?: boolean; // bars: standard deviation of rows with equal x
 }
 
 export interface Point {
@@ -25,7 +24,7 @@ export interface Point {
 }
 
 export interface Mean extends Point {
-  deviation: number; // of the sample; 0 where one row has this x
+  deviation: number; // of the sample
 }
 
 export interface Line {
@@ -35,7 +34,7 @@ export interface Line {
   means: Mean[];
 }
 
-/** The names along x, in the order of their rows; none where x is a column of numbers. */
+/** In row order; empty for a numeric column. */
 export function namesAlong(notebook: Notebook, choice: ChartChoice): string[] {
   if (numericColumns(notebook).includes(choice.x)) return [];
   return namesIn({ ...notebook, rows: rowsOf(notebook, choice) }, choice.x);
@@ -46,8 +45,7 @@ function rowsOf(notebook: Notebook, choice: ChartChoice): Notebook['rows'] {
   return notebook.rows.filter((row) => wanted.every(([column, values]) => values.includes(row[column])));
 }
 
-/** The lines, and how many rows have no point in any: no number, or none that a logarithmic axis can show. Where names
-    stand along x, the x of a point is the place of its name, from 0. */
+/** The lines, and the number of rows without a point. For names, x is the index of the name, from 0. */
 export function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
   const groups = new Map<string, { column: string; points: Point[] }>();
   let left = 0;
@@ -85,7 +83,6 @@ function nameOf(row: Record<string, Cell>, column: string, choice: ChartChoice, 
   const value = row[choice.per];
   const text =
     typeof value === 'number' ? numberText(value) : value === undefined || value === null ? '(none)' : String(value);
-  // A text says by itself what it is; a number does not.
   const part = typeof value === 'string' ? text : `${choice.per} = ${text}${unit ? ' ' + unit : ''}`;
   return choice.y.length > 1 ? `${column}, ${part}` : part;
 }

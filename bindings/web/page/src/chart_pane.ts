@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts of a run as the script asks for them, and any column of a notebook against any others of one unit:
-// which axes, a line for each value of which column, axes linear or logarithmic. A choice that is made stays
-// with the chart's name from run to run. The axes are folded away until they are asked for. The library that draws is loaded when a chart is first looked at.
+// The script's own charts, and charts of any columns of one unit against any other. A choice stays with the
+// chart's name from run to run. The drawing library is loaded with the first chart.
 
 import type { ChartChoice } from './chart_choice';
 import { Choice, h, saveAs } from './dom';
@@ -11,11 +10,11 @@ import { columnsAlong, numericColumns, type Run } from './run';
 
 type Drawing = typeof import('./chart');
 
-const several = '\n'; // as a choice of y: all those of the present chart
+const several = '\n'; // y: all present columns
 
 export class ChartPane {
   private run: Run | undefined;
-  private asked = ''; // the chart that was chosen by hand
+  private asked = ''; // by hand
   private drawing: Drawing | undefined;
   private readonly choices = new Map<string, ChartChoice>();
   private readonly which = new Choice('Chart', (name) => {
@@ -77,12 +76,10 @@ export class ChartPane {
     if (any) this.draw();
   }
 
-  /** What draws, once it is loaded. */
   async library(): Promise<Drawing> {
     return (this.drawing ??= await import('./chart'));
   }
 
-  /** The charts of a run as they are chosen, or as they would be at first. */
   chartsFor(run: Run): RunChart[] {
     return chartsOf(run).map((chart) => {
       const known = this.choices.get(chart.name);
@@ -104,7 +101,6 @@ export class ChartPane {
 
   private set(change: Partial<ChartChoice>): void {
     const present = this.shown();
-    // The script's words for an axis are for what the script has along it.
     const words = { ...(change.x ? { xLabel: '' } : {}), ...(change.y ? { yLabel: '' } : {}) };
     if (present) this.choices.set(present.name, { ...present.choice, ...words, ...change });
     this.draw();

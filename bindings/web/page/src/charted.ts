@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts that a script asks for, read from its text: `book:chart{ x="N", y="Ra", log_x=true }`, and
-// `study:chart "cost.svg"`, which is error against seconds. Only what is written out is known: a column may be named
-// by a variable that is given a text or a list of texts, or that a loop gives one text after the other; a call with
-// any other name is passed over. And the order in which it names its columns, which a row does not keep.
+// The charts of a script, from its text: `book:chart{ x="N", y="Ra", log_x=true }`, and `study:chart
+// "cost.svg"` (error against seconds). A column must be a literal, or a variable or loop variable with
+// literal texts; other calls are skipped. The text also gives the order of columns, which rows lack.
 
 import type { Cell } from './api';
 
 export interface Charted {
-  /** Empty where the text does not tell which notebook it is. */
+  /** Empty if unknown. */
   notebook: string;
   x: string;
   y: string[];
@@ -15,7 +14,7 @@ export interface Charted {
   logX: boolean;
   logY: boolean;
   title: string;
-  xLabel: string; // instead of the columns' names
+  xLabel: string; // instead of the column names
   yLabel: string;
   where: Record<string, Cell[]>;
   points: boolean;
@@ -33,7 +32,7 @@ const study = { xLabel: '', yLabel: '', x: 'seconds', y: ['error'], per: 'way', 
 
 export function chartedIn(script: string): Charted[] {
   const tokens = tokensOf(script);
-  const books = new Map<string, string>(); // names of notebooks by the variables that hold them
+  const books = new Map<string, string>(); // by variable
   const studies = studiesIn(script);
   const variables = variablesIn(tokens);
   const found: Charted[] = [];
@@ -73,7 +72,7 @@ export function chartedIn(script: string): Charted[] {
   return found;
 }
 
-/** Names of the studies of a script by the variables that hold them; each keeps its rows in the file <name>.csv. */
+/** Study names by variable; the rows are in <name>.csv. */
 export function studiesIn(script: string): Map<string, string> {
   const tokens = tokensOf(script);
   const studies = new Map<string, string>();
@@ -87,7 +86,7 @@ export function studiesIn(script: string): Map<string, string> {
   return studies;
 }
 
-/** Keys of tables in the order in which the text first has them, units left out: `N`, `["Ra [m]"]`. */
+/** Table keys in order, without units: `N`, `["Ra [m]"]`. */
 export function keysIn(script: string): string[] {
   const tokens = tokensOf(script);
   const open: string[] = [];
@@ -102,14 +101,14 @@ export function keysIn(script: string): string[] {
   return [...keys];
 }
 
-/** What a variable may hold at a call that follows: one of some texts, or of some lists of them. */
+/** Possible values of a variable: texts or lists of texts. */
 interface Variable {
-  at: number; // the token that names it
+  at: number; // the assigned token
   values: (string | string[])[];
 }
 
-/** `q = "a"`, `q = { "a", "b" }`, `for _, q in ipairs{ "a", "b" } do`, `ipairs(q)`; a name that is given anything
-    else, or is the parameter of a function, has no values from there on. */
+/** `q = "a"`, `q = { "a", "b" }`, `for _, q in ipairs{ "a", "b" } do`, `ipairs(q)`. Other assignments and
+    function parameters have no known values. */
 function variablesIn(tokens: Token[]): Map<string, Variable[]> {
   const variables = new Map<string, Variable[]>();
   const put = (name: string, at: number, values: Variable['values']): void => {
@@ -117,7 +116,7 @@ function variablesIn(tokens: Token[]): Map<string, Variable[]> {
   };
   const word = (at: number): string => (tokens[at]?.kind === 'word' ? tokens[at].value : '');
   const sign = (at: number): string => (tokens[at]?.kind === 'sign' ? tokens[at].value : '');
-  let depth = 0; // of brackets: `=` in a table is no assignment
+  let depth = 0; // `=` in brackets is no assignment
   tokens.forEach(({ kind, value }, at) => {
     if (kind === 'sign' && '([{'.includes(value)) ++depth;
     if (kind === 'sign' && ')]}'.includes(value)) --depth;
@@ -147,7 +146,7 @@ function valuesAt(variables: Map<string, Variable[]>, name: string, at: number):
   return (variables.get(name) ?? []).filter((v) => v.at < at).at(-1)?.values ?? [];
 }
 
-/** The columns of each chart that the call with the table at `at` may draw. */
+/** The columns of each possible chart of the table at `at`. */
 function columnsOf(tokens: Token[], at: number, variables: Map<string, Variable[]>): { x: string; y: string[] }[] {
   const plain = fieldsOf(tokens, at);
   const values = (key: string): Variable['values'] => {
@@ -161,7 +160,7 @@ function columnsOf(tokens: Token[], at: number, variables: Map<string, Variable[
   );
 }
 
-/** The variable alone that a field of the table at `at` is given: `y=q`, not `y=q.name` or `y=name(q)`. */
+/** The variable of a field: `y=q`, but not `y=q.name` or `y=name(q)`. */
 function variableIn(tokens: Token[], at: number, key: string): string {
   let depth = 0;
   for (let k = at; k < tokens.length; ++k) {
@@ -175,7 +174,6 @@ function variableIn(tokens: Token[], at: number, key: string): string {
   return '';
 }
 
-/** Comments and spaces are left out. */
 function tokensOf(script: string): Token[] {
   const pattern =
     /--\[(=*)\[[^]*?\]\1\]|--[^\n]*|\[(=*)\[\n?([^]*?)\]\2\]|"((?:\\[^]|[^"\\\n])*)"|'((?:\\[^]|[^'\\\n])*)'|([A-Za-z_]\w*)|\d[\w.]*|[=~<>]=|\.\.+|[^\s]/g;
@@ -189,7 +187,7 @@ function tokensOf(script: string): Token[] {
   return tokens;
 }
 
-/** The variable that gets the expression at `at`: `b` in `local a, b = 1, lab.notebook "b"`. */
+/** The assigned variable: `b` in `local a, b = 1, lab.notebook "b"`. */
 function assignedTo(tokens: Token[], at: number): string | undefined {
   let depth = 0;
   let before = 0;
@@ -210,7 +208,7 @@ function assignedTo(tokens: Token[], at: number): string | undefined {
   return names[before];
 }
 
-/** Fields of the table that opens at `at`, as far as they are plain: "text", true, { "texts" }. */
+/** Literal fields of the table at `at`: "text", true, { "texts" }. */
 function fieldsOf(tokens: Token[], at: number): Record<string, Field | undefined> {
   const fields: Record<string, Field | undefined> = {};
   const sign = (k: number): string => (tokens[k]?.kind === 'sign' ? tokens[k].value : '');
@@ -241,7 +239,7 @@ function textsOf(tokens: Token[], from: number): string[] | undefined {
   return undefined;
 }
 
-/** `body={ "a", "b" }, press=2` as far as it is plain; a column whose values are not known parts no rows. */
+/** Literal parts of `body={ "a", "b" }, press=2`. */
 function whereOf(tokens: Token[], from: number): Record<string, Cell[]> {
   const where: Record<string, Cell[]> = {};
   let column = '';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of values, read from a table of 256 of the field's palette. Where bodies do not touch there is no
-// pressure and no yield: grey, not the foot of the scale. Where a cell has no number it is a darker grey.
+// Colours of values from 256 palette colours. Cells without contact have no pressure and no yield: grey, not
+// the lowest colour. Missing values are darker grey.
 
 import { scaleLinear } from 'd3-scale';
 import { svg } from './dom';
@@ -9,7 +9,6 @@ import { numberText, scaleFor } from './units';
 
 const tables = new Map<string, Uint8Array>();
 
-/** 256 colours, three bytes each. */
 export function tableOf(field: string): Uint8Array {
   const known = tables.get(field);
   if (known) return known;
@@ -30,7 +29,7 @@ export interface Range {
   high: number;
 }
 
-/** What the colours span: all values; pressures, gaps and shares start at zero. */
+/** Pressures, gaps and fractions start at zero. */
 export function rangeOf(field: string, values: Float32Array): Range {
   let low = Infinity;
   let high = -Infinity;
@@ -45,7 +44,6 @@ export function rangeOf(field: string, values: Float32Array): Range {
   return low === high ? { low: low - (Math.abs(low) || 1) / 2, high: high + (Math.abs(high) || 1) / 2 } : { low, high };
 }
 
-/** Three bytes a value. */
 export function coloursOf(field: string, values: Float32Array, range: Range): Uint8Array {
   const table = tableOf(field);
   const none = noneOf(field);
@@ -76,7 +74,7 @@ function noneOf(field: string): [number, number, number] | undefined {
   return none === undefined ? undefined : bytesOf(none);
 }
 
-/** A bar of the colours with its numbers and unit, `height` tall. */
+/** `height` in px. */
 export function legend(field: string, unit: string, range: Range, height: number, ink: string): SVGElement {
   const table = tableOf(field);
   const scale = scaleFor(unit, Math.max(Math.abs(range.low), Math.abs(range.high)));

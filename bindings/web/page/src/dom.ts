@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements made in one expression. Text always enters as text nodes: nothing on this page is parsed as
-// HTML, so no script output, file name or lesson can add markup to it. Inline styles are set through
-// properties, never as attributes, which the content policy forbids.
+// Elements in one expression. Text always becomes text nodes: no output, file name or lesson can inject
+// markup. Styles are set as properties, because the content policy forbids style attributes.
 
 type Child = Node | string | number | null | undefined | false;
 type Properties = Record<string, unknown>;
@@ -40,7 +39,7 @@ function append(element: Element, children: Child[]): void {
   }
 }
 
-/** A sentence in which `names` stand in backquotes, as elements. */
+/** Backquoted `names` become code elements. */
 export function prose(text: string): DocumentFragment {
   const fragment = document.createDocumentFragment();
   text

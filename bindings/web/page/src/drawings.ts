@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Views as drawings that stand by themselves: the relief as an image, with legend, labels and caption, in
-// the light colours of paper. One drawing a view, of what the pane would show first: of a press its
-// pressure, of a surface its heights.
+// Views as self-contained drawings with legend, labels and caption, in light colours for paper. Each shows
+// the pane's first field: pressure of a press, heights of a surface.
 
 import { coloursOf, legend, rangeOf } from './colour';
 import { svg } from './dom';
@@ -31,7 +30,7 @@ export interface Drawing {
 const [width, height] = [720, 480];
 const above: Attitude = { turn: 0, tilt: 89.9, zoom: 1 };
 
-/** `steps` says how much the reliefs of a name are exaggerated; where it does not, the first is as fits, and kept. */
+/** `steps`: exaggeration by relief name; a missing step is fitted and stored. */
 export async function drawingsOf(
   views: { name: string; title: string }[],
   fieldsOf: (name: string) => Promise<Field[]>,
@@ -45,7 +44,7 @@ export async function drawingsOf(
     const fields = await fieldsOf(name);
     const field = fields.find((f) => f.name === 'pressure') ?? fields[0];
     if (!field) continue;
-    await new Promise((r) => setTimeout(r)); // the page goes on answering
+    await new Promise((r) => setTimeout(r)); // keep the page responsive
     const found = reliefFields(fields).find((f) => f.name === 'height') ?? reliefFields(fields)[0];
     const relief = scene && found && found.nx === field.nx && found.ny === field.ny ? found : undefined;
     if (relief && !steps.has(relief.name))
@@ -94,7 +93,7 @@ export async function drawingsOf(
   return result;
 }
 
-/** Nothing where there is no WebGL. */
+/** Undefined without WebGL. */
 async function sceneOn(canvas: HTMLCanvasElement): Promise<ReliefScene | undefined> {
   const { ReliefScene: Made } = await import('./scene');
   try {
@@ -107,7 +106,7 @@ async function sceneOn(canvas: HTMLCanvasElement): Promise<ReliefScene | undefin
   }
 }
 
-/** The map from above, y upwards, one pixel a node. */
+/** From above, y upwards, one pixel a node. */
 export function drawFlat(canvas: HTMLCanvasElement, field: Field, colours: Uint8Array): void {
   canvas.width = field.nx;
   canvas.height = field.ny;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The editor: CodeMirror with Lua, the language's completion asked of the server, and marks at the lines
-// of mistakes, from the dry run while typing and from a run's own error. It lives in a shadow root,
-// where CodeMirror adopts style sheets instead of writing <style> elements, so that the content policy
-// needs no exception; colours come in through the page's custom properties.
+// The editor: CodeMirror for Lua, completion from the server, and error marks of the dry run and the last
+// run. In a shadow root, CodeMirror adopts style sheets instead of adding <style> elements, which the content
+// policy forbids. Colours are CSS custom properties.
 
 import {
   autocompletion,
@@ -54,7 +53,7 @@ const kinds: Record<string, string> = {
 
 const look = EditorView.theme({
   '&': { height: '100%', color: 'var(--ink)', backgroundColor: 'var(--paper)', fontSize: 'var(--code-size)' },
-  '&.cm-focused': { outline: 'none' }, // the host, #editor, shows it
+  '&.cm-focused': { outline: 'none' }, // #editor shows the outline
   '.cm-scroller': { fontFamily: 'var(--code-font)', lineHeight: '1.5' },
   '.cm-content': { caretColor: 'var(--ink)', paddingBottom: '4em' },
   '.cm-cursor': { borderLeftColor: 'var(--ink)', borderLeftWidth: '2px' },
@@ -106,7 +105,7 @@ const colours = HighlightStyle.define([
   { tag: [tags.standard(tags.variableName), tags.function(tags.variableName)], color: 'var(--code-builtin)' },
 ]);
 
-// A class for each depth: a style attribute would need an exception in the content policy.
+// Classes, because the content policy forbids style attributes.
 const deepest = 16;
 const hangingLines = Array.from({ length: deepest + 1 }, (_, depth) => Decoration.line({ class: `hang-${depth}` }));
 const hangingLook = EditorView.theme(
@@ -118,7 +117,7 @@ const hangingLook = EditorView.theme(
   ),
 );
 
-/** Lines that are too long go on under their own text and not at the margin. */
+/** Wrapped lines keep their indent. */
 const hanging = ViewPlugin.fromClass(
   class {
     decorations: DecorationSet;
@@ -144,10 +143,8 @@ const hanging = ViewPlugin.fromClass(
   { decorations: (plugin) => plugin.decorations },
 );
 
-/**
- * Typing over a selection. Left to it, Chromium keeps the look of what goes by style attributes of its own,
- * which the content policy refuses and reports.
- */
+/** When typing over a selection, Chromium would add style attributes, which the content policy refuses.
+    */
 const typingOver = EditorView.domEventHandlers({
   beforeinput(event, view) {
     const { data } = event;
@@ -165,7 +162,7 @@ const typingOver = EditorView.domEventHandlers({
 export interface EditorEvents {
   changed: (text: string) => void;
   checked: (marks: Mark[]) => void;
-  knobs: (script: string, knobs: unknown) => void; // of a script without mistakes
+  knobs: (script: string, knobs: unknown) => void; // without errors
   failed: (error: unknown) => void;
 }
 
@@ -176,7 +173,7 @@ export class Editor {
   private timer = 0;
   private checking: AbortController | undefined;
   private quiet = false;
-  private within = -1; // the place that is scrolled to in the editor alone
+  private within = -1; // position of the editor's own scrolling
 
   constructor(
     host: HTMLElement,
@@ -194,7 +191,7 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  /** Another document: its own history of changes, no marks. */
+  /** Another document: new history, no marks. */
   open(text: string): void {
     this.runMarks = [];
     this.marks = [];
@@ -204,7 +201,7 @@ export class Editor {
     this.checkSoon(0);
   }
 
-  /** A change that Ctrl-Z takes back, of what differs alone: the cursor and what is in sight stay. */
+  /** Undoable; changes the differing part only, so that cursor and scroll position stay. */
   replace(text: string): void {
     const old = this.text;
     const most = Math.min(old.length, text.length);
@@ -228,20 +225,20 @@ export class Editor {
     this.view.focus();
   }
 
-  /** Brings a line to the top without going there; what the page is scrolled to stays. */
+  /** Moves neither the cursor nor the page. */
   showLine(line: number): void {
     const at = this.view.state.doc.line(Math.min(Math.max(1, line), this.view.state.doc.lines));
     this.within = at.from;
     this.view.dispatch({ effects: EditorView.scrollIntoView(at.from, { y: 'start' }) });
   }
 
-  /** What a run had to say about lines; kept until the text changes there or another run starts. */
+  /** The marks stay until their text changes or another run starts. */
   showRunMarks(marks: Mark[]): void {
     this.runMarks = marks;
     this.draw();
   }
 
-  /** True while Escape has something to close in the editor itself. */
+  /** Escape then closes something in the editor. */
   get wantsEscape(): boolean {
     return completionStatus(this.view.state) !== null || searchPanelOpen(this.view.state);
   }
@@ -296,7 +293,7 @@ export class Editor {
         highlightSelectionMatches(),
         EditorView.lineWrapping,
         EditorView.scrollHandler.of((_, { head }) => {
-          // The editor scrolls what is around it, too, which is put back before it is seen.
+          // CodeMirror also scrolls the page: scroll back before the next paint.
           const { scrollX, scrollY } = window;
           if (head === this.within) queueMicrotask(() => scrollTo(scrollX, scrollY));
           this.within = -1;
@@ -313,7 +310,7 @@ export class Editor {
           icons: false,
           tooltipClass: () => 'asperity-completion',
         }),
-        // Ctrl-Enter runs the script; the page hears it, so the editor must not take it for a new line.
+        // The page handles Ctrl-Enter.
         keymap.of([{ key: 'Mod-Enter', run: () => true }]),
         keymap.of([
           ...closeBracketsKeymap,
@@ -339,8 +336,8 @@ export class Editor {
   }
 
   private async complete(context: CompletionContext): Promise<CompletionResult | null> {
-    // Unasked only while a word is written or right after a dot or colon: a list that opens after a
-    // brace or comma would take the next Enter.
+    // Automatically only in a word or after a dot or colon: a list after a brace or comma would capture the
+    // next Enter.
     if (!context.explicit && !context.matchBefore(/[\w][.:]?$|[)\]"'}][.:]$/)) return null;
     const waiting = new AbortController();
     context.addEventListener('abort', () => waiting.abort());

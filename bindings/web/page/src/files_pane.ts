@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run, to be saved; charts and pictures among them are shown. A file is fetched when it
-// is asked for, pictures when the pane is looked at.
+// The files of a run, fetched on request; pictures are shown with the pane.
 
 import type { Api } from './api';
 import { h, saveAs } from './dom';
@@ -13,12 +12,12 @@ export function pictureType(name: string): string | undefined {
   return types[name.slice(name.lastIndexOf('.') + 1).toLowerCase()];
 }
 
-/** A drawing in lines may have no size of its own: it is as wide as its place. */
+/** SVG may lack a size and then fills the width. */
 export function pictureClass(name: string): string {
   return pictureType(name) === types.svg ? 'drawn' : '';
 }
 
-/** A picture over the whole page, until Escape or its button. */
+/** Full page, until Escape or Close. */
 function enlarged(name: string, address: string): void {
   const dialog = h('dialog', { className: 'enlarged', 'aria-label': name, onclose: () => dialog.remove() });
   const close = h('button', { type: 'button', className: 'primary', onclick: () => dialog.close() }, 'Close');

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts of a run: what the script itself charts, by its text or by the names of the files it drew, and of
-// every other notebook one of the columns that vary and that it writes first. Along x there are numbers or names.
+// The charts of a run: the script's own, from its text or its file names; otherwise the first varying columns
+// of a notebook.
 
 import type { ChartChoice } from './chart_choice';
 import type { Charted } from './charted';
 import { columnsAlong, numericColumns, type Notebook, type Run } from './run';
 import { sameToRounding, scaleFor } from './units';
 
-/** One chart of a run. */
 export interface RunChart {
-  name: string; // the same from run to run
+  name: string; // stable from run to run
   title: string;
   notebook: Notebook;
   choice: ChartChoice;
   asked: boolean; // by the script
 }
 
-/** All that can be drawn now, those of the script first. */
+/** The script's own first. */
 export function chartsOf(run: Run): RunChart[] {
   const found: RunChart[] = [];
   const drawable = [...run.notebooks.values()].filter(
@@ -49,7 +48,7 @@ export function chartsOf(run: Run): RunChart[] {
   return found;
 }
 
-/** The columns that can be drawn up beside this one: those of its unit. */
+/** Columns of the same unit. */
 export function columnsLike(notebook: Notebook, column: string): string[] {
   const dimension = (c: string): string => scaleFor(notebook.units[c], 0).unit;
   return numericColumns(notebook).filter((c) => dimension(c) === dimension(column));
@@ -72,7 +71,7 @@ function firstChoice(run: Run, notebook: Notebook): ChartChoice {
   return { x, y: [y], per, logX: false, logY: false };
 }
 
-/** The first column of texts that parts the rows into a few; empty where there is none. */
+/** The first column of texts with two to eight values; else empty. */
 function partedBy(notebook: Notebook): string {
   const columns = numericColumns(notebook);
   const parts = notebook.columns.find((c) => {
@@ -94,7 +93,7 @@ function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefine
   return { x, y: known.filter((c) => alike.includes(c)), per, logX, logY, xLabel, yLabel, where, points, spread };
 }
 
-/** A chart without a name of its own is in the file <notebook>-<y>-<x>.svg, with any further y between. */
+/** Unnamed charts: <notebook>-<y>-<x>.svg, further y columns in between. */
 function byFiles(run: Run, notebook: Notebook): { x: string; y: string }[] {
   const columns = numericColumns(notebook);
   const along = columnsAlong(notebook);
@@ -112,12 +111,12 @@ function byFiles(run: Run, notebook: Notebook): { x: string; y: string }[] {
   return found;
 }
 
-/** A text as the program makes it safe as a file's name. */
+/** As in the engine. */
 function fileName(text: string): string {
   return text.replace(/[^\w.\u0080-\uffff]+/g, '-').replace(/^[.-]+|-+$/g, '');
 }
 
-/** More than by rounding. */
+/** Beyond rounding. */
 function varies(notebook: Notebook, column: string): boolean {
   let low = Infinity;
   let high = -Infinity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of what is drawn on light and on dark paper. Lines of a chart have Okabe and Ito's colours for every
-// kind of colour vision, darkened or lightened to stand out from the paper.
+// Colours for light and dark paper; chart lines in Okabe and Ito's colours for all kinds of colour vision,
+// adjusted for contrast.
 
 export interface Ink {
   text: string;
@@ -25,7 +25,6 @@ export const darkInk: Ink = {
   series: ['#6fb7ee', '#f0964b', '#4fc9a4', '#e194c4', '#e0cd4e', '#c6ccd2', '#9fd3f2', '#ffbf8f'],
 };
 
-/** The ink for the paper that the browser shows now. */
 export function inkNow(): Ink {
   return matchMedia('(prefers-color-scheme: dark)').matches ? darkInk : lightInk;
 }

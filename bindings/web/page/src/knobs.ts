@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders for the knobs of a script, above its results: of the script in the editor as soon as a check knows
-// them, of a run once its manifest tells. A script follows a knob that is moved (live.ts); what the sliders say
-// when a hand rests is run as a whole, a run of its own that is recorded, and a run that goes on by then is
-// stopped for it.
+// Sliders for a script's knobs, known from a check or a run's manifest. Moving a knob updates the live script
+// (live.ts); at rest, a recorded run with the new values replaces a current run.
 
 import type { Api } from './api';
 import { h } from './dom';
@@ -12,7 +10,7 @@ import { numberText, withUnit } from './units';
 
 export interface Knob {
   name: string;
-  from: number; // SI, as all values
+  from: number; // SI
   to: number;
   value: number;
   log: boolean;
@@ -20,10 +18,10 @@ export interface Knob {
 }
 
 const steps = 400; // of a slider
-const rest = 250; // ms without a move after which the script is run
-const restAlive = 900; // the same where it followed the move
+const rest = 250; // ms without a move
+const restAlive = 900; // ms, live script
 
-/** The knobs of a manifest; a run that was cut off may know a value alone, which has no slider. */
+/** Knobs of an aborted run may lack bounds and get no slider. */
 export function knobsIn(manifest: unknown): Knob[] {
   const members = (manifest as { knobs?: Record<string, Partial<Knob>> } | null)?.knobs ?? {};
   return Object.entries(members).flatMap(([name, k]) =>
@@ -33,7 +31,7 @@ export function knobsIn(manifest: unknown): Knob[] {
   );
 }
 
-/** Where a value stands on the slider, and the value there; the ends are the bounds to the bit. */
+/** The end positions give the exact bounds. */
 export function placeOf(knob: Knob, value: number): number {
   const share = knob.log
     ? Math.log(value / knob.from) / Math.log(knob.to / knob.from)
@@ -46,7 +44,7 @@ export function valueAt(knob: Knob, place: number): number {
   if (place >= steps) return knob.to;
   const share = place / steps;
   const value = knob.log ? knob.from * (knob.to / knob.from) ** share : knob.from + share * (knob.to - knob.from);
-  // Round to a quarter of a step at most, of four digits where that will do.
+  // To a quarter of a step; four digits if possible.
   const next = knob.log ? value * ((knob.to / knob.from) ** (1 / steps) - 1) : (knob.to - knob.from) / steps;
   const digits = Math.ceil(Math.log10((4 * Math.abs(value)) / next));
   return Math.min(knob.to, Math.max(knob.from, Number(value.toPrecision(Math.min(17, Math.max(4, digits))))));
@@ -58,36 +56,36 @@ export function knobText(knob: Knob, value = knob.value): string {
 
 export class KnobsPane {
   readonly element = h('div', { className: 'knobs', role: 'group', 'aria-label': 'Knobs of the script', hidden: true });
-  private of: Followed | undefined; // whose knobs are shown
-  private asked: Run | undefined; // whose manifest was asked for
-  private current: Run | undefined; // the last that was shown
+  private of: Followed | undefined; // owner of the shown knobs
+  private asked: Run | undefined; // manifest requested
+  private current: Run | undefined;
   private knobs: Knob[] = [];
-  private tell: (() => void)[] = []; // shows each knob's value
+  private tell: (() => void)[] = []; // updates the values
   private timer = 0;
-  private waiting = false; // moved while a run went on, which is being stopped
+  private waiting = false; // moved; the current run is being stopped
   private starting = false;
 
   constructor(
     private readonly api: Api,
     private readonly actions: {
-      again: (of: Followed, values: Record<string, string>) => Promise<boolean>; // whether it was begun
+      again: (of: Followed, values: Record<string, string>) => Promise<boolean>; // true: started
       stop: () => Promise<void>;
       failed: (error: unknown) => void;
-      keyOf: (run: Run) => string; // of the document that a run is of
-      touched: (of: Followed) => void; // a hand or the focus is on a slider
-      answering: () => boolean; // what follows is still on its way
-      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // whether it does
+      keyOf: (run: Run) => string; // document key
+      touched: (of: Followed) => void; // pointer or focus
+      answering: () => boolean;
+      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // false: not live
     },
   ) {}
 
-  /** Called whenever a run is shown or has changed. */
+  /** For every new or changed run. */
   show(run: Run | undefined): void {
     const news = run !== this.current;
     this.current = run;
     if (!run || run.live) return;
     if (news && run.script !== this.of?.script && run !== this.asked) {
       this.clear();
-      this.asked = undefined; // what is still on its way is of another script
+      this.asked = undefined;
     }
     if (run.active || run === this.asked) return;
     this.asked = run;
@@ -95,12 +93,12 @@ export class KnobsPane {
     else void this.fetch(run);
   }
 
-  /** Those of a script that is written and was not run: values stay where knobs are the same. */
+  /** From the edited script; unchanged knobs keep their values. */
   know(of: Followed, told: unknown): void {
     const found = knobsIn({ knobs: told });
     if (of.script === this.of?.script || this.timer || this.starting || this.waiting) return;
     if (found.length === 0) {
-      // Those of a run stand beside its results; those of a text that is no more are nobody's.
+      // A run's knobs stay with its results.
       if (this.of && this.of.script !== this.current?.script) this.clear();
       return;
     }
@@ -117,11 +115,11 @@ export class KnobsPane {
       const found = knobsIn(manifest);
       run.knobs = found.map((k) => ({ ...k }));
       if (this.asked !== run || this.timer || this.starting || this.waiting) return;
-      // After a mistake early on, the sliders that were there stay, so that the value can be taken back.
+      // After an early error, the user can go back.
       if (found.length > 0 || run.script !== this.of?.script)
         this.fill({ script: run.script, name: run.name, key: this.actions.keyOf(run) }, found);
     } catch {
-      // A run that was stopped before it began has no record.
+      // A run stopped before its start has no record.
     }
   }
 
@@ -141,7 +139,7 @@ export class KnobsPane {
     this.of = of;
     this.element.hidden = knobs.length === 0;
     if (same && this.element.childElementCount > 0) {
-      // The slider that has the focus is not taken from under the hand.
+      // Keep the focused slider.
       this.knobs.forEach((k, n) => (k.value = knobs[n].value));
       this.tell.forEach((tell) => tell());
       return;
@@ -199,7 +197,7 @@ export class KnobsPane {
   }
 
   private go(): void {
-    this.waiting = this.starting; // the one that starts now looks again
+    this.waiting = this.starting; // the starting run checks again
     if (!this.starting) void this.begin();
   }
 
@@ -210,7 +208,7 @@ export class KnobsPane {
     try {
       const begun = await this.actions.again(of, this.values());
       if (begun && !this.waiting) return;
-      // A run goes on whose values are not those of the sliders: its end begins one with what they say then.
+      // The end of the active run starts one with the present values.
       this.waiting = true;
       await this.actions.stop();
     } catch (error) {
@@ -219,12 +217,11 @@ export class KnobsPane {
     } finally {
       this.starting = false;
     }
-    // It may have ended while it was being stopped.
     if (this.waiting && this.current?.active === false) this.go();
   }
 }
 
-/** But for its value. */
+/** Equal except for the value. */
 function sameKnob(one: Knob, other: Knob): boolean {
   return (
     one.name === other.name &&

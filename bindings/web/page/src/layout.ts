@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tabs, dividers and the way round by keys: arrow keys among tabs and on a divider, F6 from pane to pane.
+// Tabs, dividers and keyboard navigation.
 
 import { keep, kept } from './storage';
 
@@ -39,14 +39,13 @@ export class Tabs {
     this.changed(name);
   }
 
-  /** Selects unless a person chose a tab, or has the focus in what a tab shows; false where the choice stays. */
+  /** Not if the user chose a tab or has the focus in a panel; then false. */
   offer(name: string): boolean {
     if (this.byHand || document.activeElement?.closest('[role=tabpanel]')) return false;
     if (this.selected !== name) this.select(name);
     return true;
   }
 
-  /** From here on tabs are offered again. */
   forgetChoice(): void {
     this.byHand = false;
   }
@@ -59,7 +58,7 @@ export class Tabs {
     this.tabs.find((t) => t.getAttribute('aria-selected') === 'true')!.focus();
   }
 
-  /** How much there is behind a tab; 0 shows nothing. */
+  /** The number of items behind a tab; 0 is hidden. */
   count(name: string, count: number): void {
     const badge = this.tabs.find((t) => this.name(t) === name)!.querySelector('.count')!;
     const text = count ? String(count) : '';
@@ -71,7 +70,7 @@ export class Tabs {
   }
 }
 
-/** A divider that is dragged or moved by arrow keys; the custom property holds a width in per cent. */
+/** Moved by pointer or arrow keys; `property`: width in per cent. */
 export function divider(
   element: HTMLElement,
   property: string,
@@ -111,7 +110,7 @@ export function divider(
   });
 }
 
-/** A button that lets an element fill the window and puts it back; meanwhile nothing else but the banner can be reached. */
+/** Fills the window with an element; only the banner stays reachable. */
 export class Filling {
   constructor(
     private readonly button: HTMLButtonElement,
@@ -137,7 +136,7 @@ export class Filling {
   }
 }
 
-/** F6 goes to the next pane that is there, Shift-F6 to the one before. */
+/** F6: next visible pane; Shift-F6: previous. */
 export function goRound(panes: { element: HTMLElement; enter: () => void }[]): void {
   document.addEventListener('keydown', (event) => {
     if (event.key !== 'F6') return;
@@ -149,7 +148,7 @@ export function goRound(panes: { element: HTMLElement; enter: () => void }[]): v
       open[(at + step + open.length) % open.length].enter();
       return;
     }
-    // From between two panes, or from the bar above them: the one that follows, or the one before.
+    // Outside all panes: the nearest in document order.
     const follows = (p: { element: HTMLElement }): boolean =>
       ((document.activeElement ?? document.body).compareDocumentPosition(p.element) &
         Node.DOCUMENT_POSITION_FOLLOWING) !==

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lessons beside the editor: a list with their questions, and the one that is open. Its question comes
-// first, then what to predict with a place for the reader's own prediction, and only then the text that
-// begins to answer. Edits of a lesson's script and words of predictions are kept by name in the browser; reset
-// brings the lesson's own script back. The browser's Back goes from a lesson to the list it was opened from.
+// The list of lessons, and the open lesson: question, predictions, then text. The browser stores edited
+// scripts and predictions by name. Back returns to the list.
 
 import type { Api, Lesson, LessonEntry } from './api';
 import { h } from './dom';
@@ -12,16 +10,15 @@ import type { Guess } from './predictions';
 import { keptScript } from './storage';
 
 export interface Opened {
-  key: string; // names the document in the browser's storage
+  key: string; // storage key
   title: string;
-  script: string; // as kept, or as given
+  script: string; // stored or original
   original: string;
 }
 
 export class LessonsPane {
   private entries: LessonEntry[] | undefined;
   private readonly lessons = new Map<string, Lesson>();
-  /** Of the lesson that is open. */
   prediction: PredictionBox | undefined;
 
   constructor(
@@ -39,7 +36,7 @@ export class LessonsPane {
     });
   }
 
-  /** As a person asks for it: a step that Back takes back. The address stays as it is. */
+  /** Back undoes a user's choice. */
   private go(lesson: string): void {
     history.pushState({ lesson }, '');
     void (lesson ? this.show(lesson, true) : this.list(true));

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A script that follows its knobs: a process of this tab stays alive at the server, and each move is answered
-// with what the script gives at these values. Only the newest move is asked for: one that is made while an
-// answer is on its way waits for it, but not for long, and not once a coarse answer has come.
+// Live scripts: a server process for this tab answers each knob move. Only the newest move is sent; it waits
+// for a pending answer, shortly and only before a coarse answer.
 
 import { ApiError, type Api, type RunEvent, type View } from './api';
 import { fieldOf, type Field } from './pictures';
 import { Run } from './run';
 
-/** Which script, by what name, and the key of the document it is. */
 export interface Followed {
   script: string;
   name: string;
   key: string;
 }
 
-/** What comes of a move, beside the numbers of its view. */
+/** An answer without the numbers of its view. */
 export interface LiveFacts {
   part: 'coarse' | 'whole' | 'outdated' | 'ended';
   why?: string;
@@ -35,22 +33,22 @@ export interface LivePicture {
 interface Move {
   of: Followed;
   values: Record<string, string>;
-  began: number; // of the event that made it, as performance.now()
+  began: number; // performance.now() of the event
 }
 
 interface Under {
   move: Move;
   since: number;
   stop: AbortController;
-  coarse: boolean; // a coarse answer has come
+  coarse: boolean; // has arrived
 }
 
-const patience = 250; // ms before an answer that is on its way makes way for a newer move,
-const mostPatience = 2000; // or as long as the last one took and half of that, at most
-const slow = 450; // ms after which a move that is not answered is worth a word
+const patience = 250; // ms, wait for a pending answer,
+const mostPatience = 2000; // or 1.5 times the last full answer, up to this
+const slow = 450; // ms
 
 export class Live {
-  /** It was tried, and there is no such thing at this server. */
+  /** Refused by the server. */
   failed = false;
   private readonly tab = [...crypto.getRandomValues(new Uint32Array(2))].map((n) => n.toString(36)).join('');
   private session: { script: string; id: Promise<string> } | undefined;
@@ -58,7 +56,7 @@ export class Live {
   private under: Under | undefined;
   private timer = 0;
   private going = false;
-  private took = 0; // ms, by the last whole answer
+  private took = 0; // ms, last full answer
 
   constructor(
     private readonly api: Api,
@@ -66,23 +64,21 @@ export class Live {
       answered: (run: Run, of: Followed, picture: LivePicture | undefined, began: number) => void;
       changed: () => void;
       failed: (error: unknown) => void;
-      view: () => string; // that is looked at; '' the last
+      view: () => string; // '' the last
     },
   ) {
     addEventListener('pagehide', () => this.end());
   }
 
-  /** Whether an answer is on its way. */
   get busy(): boolean {
     return this.going;
   }
 
-  /** Whether one has been for a while. */
   get isSlow(): boolean {
     return this.under !== undefined && performance.now() - this.under.since >= slow;
   }
 
-  /** Somebody is about to move a knob of it. */
+  /** Starts the session before a move. */
   warm(of: Followed): void {
     if (!this.failed) this.open(of.script).catch(() => undefined);
   }
@@ -94,13 +90,12 @@ export class Live {
     else void this.go();
   }
 
-  /** What is on its way is not wanted any more. */
   forget(): void {
     this.wanted = undefined;
     this.under?.stop.abort();
   }
 
-  /** Ends the process too, which may be in the midst of something long. */
+  /** Also ends the process. */
   end(): void {
     this.forget();
     const session = this.session;
@@ -140,7 +135,7 @@ export class Live {
       }
     } catch (error) {
       this.wanted = undefined;
-      // A server of before, or one that keeps no processes: the script is run as a whole when the knob rests.
+      // Not live: the script runs as a whole when the knob rests.
       if (error instanceof ApiError && error.failure === 'refused') this.failed = true;
       else this.on.failed(error);
     } finally {
@@ -179,7 +174,7 @@ export class Live {
       }
     } catch (error) {
       if (under.stop.signal.aborted) return;
-      // Its process has ended, idle or for somebody else: another one is begun.
+      // The process has ended, idle or to make room: start another.
       if (again && mine && error instanceof ApiError && error.failure === 'refused') {
         this.session = undefined;
         return this.ask(move, false);
@@ -211,7 +206,6 @@ export class Live {
     this.on.answered(run, of, picture, move.began);
   }
 
-  /** Another view of an answer: all that it takes is in memory there. */
   private async look(move: Move, name: string): Promise<Field[]> {
     let found: Field[] = [];
     const id = await this.open(move.of.script);
@@ -228,7 +222,7 @@ export class Live {
   }
 }
 
-/** Takes texts of bytes, how many and then each after its length, out of a stream as they become whole. */
+/** Frames: a number of texts, then each after its length. */
 export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: Uint8Array[]) => void): Promise<void> {
   const reader = body.getReader();
   let bytes = new Uint8Array(1 << 20);
@@ -250,7 +244,7 @@ export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: U
   }
 }
 
-/** The byte after the first whole frame, which is taken; 0 where there is none. */
+/** The end of the first complete frame; 0 if incomplete. */
 function whole(bytes: Uint8Array, filled: number, take: (texts: Uint8Array[]) => void): number {
   const numbers = new DataView(bytes.buffer);
   if (filled < 8) return 0;

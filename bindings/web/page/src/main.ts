@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `asperity serve`: lessons, the script, and what its run gives, side by side. This file
-// joins the panes; each of them knows only the run it draws and the server's interface.
+// The page of `asperity serve`. This file connects the panes; a pane knows only its run and the server's
+// interface.
 
 import { Api, ApiError, tokenHint, type About, type Mark } from './api';
 import { ChartPane } from './chart_pane';
@@ -49,7 +49,7 @@ for _, MPa in ipairs{ 10, 20, 50, 100 } do
 end
 `;
 
-const oneColumn = 1150; // px, the width up to which page.css has one
+const oneColumn = 1150; // px, as in page.css
 
 const api = new Api();
 const messages = new Messages(() => void greet());
@@ -61,9 +61,9 @@ const stopButton = byId<HTMLButtonElement>('stop');
 const saveButton = byId<HTMLButtonElement>('save');
 let about: About | undefined;
 let run: Run | undefined;
-let runOf = ''; // the key of its script
+let runOf = ''; // document key
 let listening: AbortController | undefined;
-let recording: Run | undefined; // of the values that knobs were moved to, shown once it has ended
+let recording: Run | undefined; // shown after its end
 const openBefore = kept('open') ?? '';
 let opened: Opened = {
   key: 'own',
@@ -134,7 +134,7 @@ function open(document: Opened): void {
   draw();
 }
 
-/** In one column the results may be out of sight. */
+/** In one column, results may be out of sight. */
 function showResults(): void {
   if (innerWidth <= oneColumn) byId('results').scrollIntoView();
 }
@@ -142,7 +142,7 @@ function showResults(): void {
 const toldAfter = 600; // ms without a change
 let toTell = 0;
 
-/** Numbers predicted in a lesson; a room's teacher sees them. */
+/** For the classroom's teacher. */
 function predicted(lesson: string, guesses: Guess[]): void {
   if (!about?.classroom) return;
   const numbers = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
@@ -243,7 +243,7 @@ function announce(): void {
   say(`${Math.floor(100 * p.fraction)} per cent${p.eta && p.eta >= 1 ? `, about ${duration(p.eta)} left` : ''}`);
 }
 
-let waitsForEnd = false; // the banner says that a script is still running
+let waitsForEnd = false; // shown by the banner
 
 async function start(): Promise<void> {
   if (!api.hasToken) return;
@@ -267,7 +267,7 @@ async function start(): Promise<void> {
   showStatus();
 }
 
-/** Runs a script with other values of its knobs, to record what it gives; false where a run goes on. */
+/** Runs a script with other knob values; false if a run is active. */
 async function again(of: Followed, values: Record<string, string>): Promise<boolean> {
   if (run?.active) return false;
   const quietly = run?.live !== undefined && run.script === of.script;
@@ -277,7 +277,6 @@ async function again(of: Followed, values: Record<string, string>): Promise<bool
   return true;
 }
 
-/** What a script gives at the values that a knob has now. */
 function answered(next: Run, of: Followed, picture: LivePicture | undefined, began: number): void {
   if (run?.active) return;
   run = next;
@@ -286,7 +285,6 @@ function answered(next: Run, of: Followed, picture: LivePicture | undefined, beg
   draw();
 }
 
-/** The values that are being recorded are no longer those of the knobs. */
 function leaveRecording(): void {
   if (!recording) return;
   listening?.abort();
@@ -294,7 +292,7 @@ function leaveRecording(): void {
   recording = undefined;
 }
 
-/** `quietly`: what the script gave as the knob moved stays in sight until the run has ended. */
+/** `quietly`: live results stay until the end. */
 function follow(next: Run, key: string, quietly = false): void {
   listening?.abort();
   const mine = (listening = new AbortController());
@@ -354,10 +352,10 @@ function ended(done: Run): void {
   if (waitsForEnd) messages.clear();
   waitsForEnd = false;
   recorded.add(done);
-  if (tabs.selected === 'output') output.show(done); // whole, before another tab is shown
+  if (tabs.selected === 'output') output.show(done); // before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
-  else if (done.status === 'failed') tabs.offer('output'); // by its exit status alone
+  else if (done.status === 'failed') tabs.offer('output'); // by exit status only
   const first = done.errors[0];
   if (runOf === opened.key) showResults();
   say(
@@ -365,7 +363,7 @@ function ended(done: Run): void {
   );
 }
 
-/** The tab of what a run made: the charts its script asks for, then its pictures, before what it printed. */
+/** Charts of the script, then pictures, then output. */
 function madeBy(done: Run): string {
   if (chartsOf(done).some((c) => c.asked)) return 'chart';
   if ([...done.files.keys()].some((name) => name.endsWith('.png'))) return 'files';
@@ -441,7 +439,7 @@ function limits(a: About): string {
   return `Asperity ${a.version}.` + (parts.length ? ` A run may take ${parts.join(', ')}.` : '');
 }
 
-/** First words with the server; again after it was gone. */
+/** Repeated after a failure. */
 async function greet(): Promise<void> {
   if (!api.hasToken) {
     messages.tell('This page was opened without its token.', tokenHint);
@@ -469,7 +467,7 @@ async function firstLessons(): Promise<void> {
   if (openBefore.startsWith('lesson.')) await lessons.show(openBefore.slice(7), false);
 }
 
-/** A run that was going, or just done, when the page was loaded again. */
+/** After a reload. */
 function resume(): void {
   try {
     const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Markdown of lessons as elements. The text is parsed into tokens and each becomes an element made by
-// hand; HTML in it stays text, links are only followed to http and https, and pictures are not loaded.
+// Markdown of lessons as elements. HTML stays text, links lead only to http and https, and pictures are not
+// loaded.
 
 import { lexer, type Token, type Tokens } from 'marked';
 import { h } from './dom';
@@ -11,7 +11,7 @@ export function markdown(text: string): DocumentFragment {
   return fragment;
 }
 
-/** A paragraph that stands out, under its name; one line of markdown. */
+/** One line of Markdown. */
 export function calledOut(name: string, text: string): HTMLElement {
   const [token] = lexer(text);
   return h('p', { className: 'called' }, h('b', {}, name), token?.type === 'paragraph' ? inline(token.tokens) : text);
@@ -20,7 +20,6 @@ export function calledOut(name: string, text: string): HTMLElement {
 function block(token: Token): Node {
   switch (token.type) {
     case 'heading':
-      // The lesson's title is the h2 above.
       return h(token.depth <= 1 ? 'h3' : 'h4', {}, inline(token.tokens));
     case 'paragraph': {
       const called = /^(Question|Predict|Prediction|Check|Hint):\s*/.exec(token.text as string);

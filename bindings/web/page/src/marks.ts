@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the points of a chart's line are marked. A paper-coloured outline keeps single points apart; where they come
-// closer than their own size it would hide the neighbours and the line, so such points have none. Where many are
-// close all are smaller, and closer still they are left to the line if it goes through every one of them.
+// Point marks of chart lines. Single points have a paper-coloured outline; crowded points have none, because
+// outlines would hide neighbours and the line. Many crowded points are smaller, or omitted if the line passes
+// through all.
 
 export interface Place {
   x: number;
@@ -12,13 +12,13 @@ export type Marks = 'large' | 'small' | 'none';
 
 export const radii = { large: 4, small: 2, none: 0 };
 
-/** What suits the points of one line; `onLine`: the line goes through every one of them. */
+/** `onLine`: the line passes through all points. */
 export function marksFor(places: Place[], onLine: boolean): Marks {
   if (share(crowded(places, 2 * radii.large)) <= 0.2) return 'large';
   return onLine && places.length > 100 && share(crowded(places, 2 * radii.small)) > 0.5 ? 'none' : 'small';
 }
 
-/** Of each place, whether another is nearer than `size`; places that cannot be told apart are one. */
+/** Whether another place is nearer than `size`; identical places count as one. */
 export function crowded(places: Place[], size: number): boolean[] {
   const tenths = places.map((p) => ({ x: Math.round(10 * p.x), y: Math.round(10 * p.y) }));
   const squares = new Map<string, Map<string, Place>>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page says by itself: for listeners in the live region, for all in the banner. A server that is
-// gone is asked again until it answers, and the banner goes by itself.
+// Messages of the page: the live region for screen readers, and the banner, which retries while the server is
+// unreachable.
 
 import { ApiError, serverGoneHint, tokenHint } from './api';
 import { byId, h } from './dom';
@@ -14,13 +14,12 @@ export class Messages {
 
   constructor(private readonly ask: () => void) {}
 
-  /** A server that was gone is being asked. */
   get watching(): boolean {
     return this.timer !== 0;
   }
 
   say = (text: string): void => {
-    // The same words again are heard only if something changed.
+    // Screen readers skip unchanged text.
     this.live.textContent = this.live.textContent === text ? `${text} ` : text;
   };
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run said: its errors with the line they are at, its output, and whether what it expected held.
-// A long output keeps its end, and says how much was dropped. Columns are not wrapped, which would break
-// them, but scroll sideways; sentences are wrapped.
+// Errors, output and expectations of a run. Long output loses its beginning. Tabular text scrolls; prose
+// wraps.
 
 import { h, prose } from './dom';
 import { duration } from './units';
 import { statusText, type Run } from './run';
 
-/** The text, cut where empty lines part its blocks: one in which no line has columns is a span of prose. */
+/** Blocks end at empty lines; a block without columns is prose. */
 function laidOut(text: string): (string | HTMLElement)[] {
   const parts: { text: string; columns: boolean }[] = [];
   for (const block of text.split(/(?<=\n)(?=\n)/)) {
@@ -19,7 +18,6 @@ function laidOut(text: string): (string | HTMLElement)[] {
   return parts.map((p) => (p.columns ? p.text : h('span', { className: 'prose' }, p.text)));
 }
 
-/** An expectation and its verdict, in a list. */
 export function expectationItem(e: Run['expectations'][number]): HTMLElement {
   const verdict = h('b', {}, e.held ? '✓ held: ' : '✗ not held: ');
   return h('li', { className: e.held ? 'held' : 'failed' }, verdict, prose(e.text));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The colours of maps: those of engine/plot/palette.cpp, step for step, so that a picture and the page show one
-// thing in one colour. Viridis and cividis are perceptually uniform; heat, the lower part of inferno from orange
-// to black, stands out from its grey of nothing by 3:1 or more; contact is apart or touching.
+// Map colours, as in engine/plot/palette.cpp. Viridis and cividis are perceptually uniform. Heat, inferno
+// from orange to black, has a contrast of at least 3:1 with its grey.
 
 export interface Palette {
-  colours: number[]; // 0xRRGGBB at equal steps, first for the lowest value
-  none?: number; // of the lowest value itself, where that is nothing
+  colours: number[]; // 0xRRGGBB, equal steps, lowest first
+  none?: number; // colour of the lowest value, if special
 }
 
 export const palettes: Record<string, Palette> = {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pane of pictures: which view, what colours it, what makes its relief, how much that is exaggerated;
-// turned with mouse, finger or keys. Without WebGL the map is drawn flat, and the pane says so. Maps are
-// fetched when they are looked at and not before.
+// The 3-D pictures of views. Without WebGL the map is flat. Maps are fetched when shown.
 
 import type { Api } from './api';
 import { coloursOf, legend, rangeOf } from './colour';
@@ -29,8 +27,8 @@ import type { Run } from './run';
 import type { ReliefScene } from './scene';
 import { Scrubber } from './scrub';
 
-const fetched = 24; // views kept in memory
-const rested = 350; // ms after the last move's picture until a relief is drawn again
+const fetched = 24; // in memory
+const rested = 350; // ms without a move before a relief is drawn
 
 export class PicturePane {
   private run: Run | undefined;
@@ -45,8 +43,8 @@ export class PicturePane {
   private scene: ReliefScene | undefined;
   private flat = false;
   private pending = false;
-  private kept = ''; // the view that was looked at in the run before
-  private began: number | undefined; // the event that a picture answers
+  private kept = ''; // view in the previous run
+  private began: number | undefined; // the event behind a picture
   private readonly which = new Choice('Picture', (name) => {
     this.scrubber.pause();
     void this.choose(name);
@@ -137,12 +135,12 @@ export class PicturePane {
     if (name !== this.shown && this.visible) void this.look(name);
   }
 
-  /** The view that is asked for by name; '' the last, whichever that is. */
+  /** '' for the last view. */
   get lookedAt(): string {
     return this.followed ? '' : this.shown;
   }
 
-  /** The same script at other values: what is seen stays until the new picture is there. */
+  /** Other values: the old picture stays until the new one arrives. */
   succeed(run: Run, picture?: LivePicture, began?: number): void {
     this.scrubber.pause();
     this.take(run);
@@ -164,7 +162,7 @@ export class PicturePane {
 
   private take(run: Run | undefined): void {
     if (run?.script !== this.run?.script) {
-      // The heights of another script have a factor of their own.
+      // Another script needs its own exaggeration.
       this.fields = [];
       this.relief = undefined;
     }
@@ -173,13 +171,12 @@ export class PicturePane {
 
   private resting = 0;
 
-  /** No knob moves. While one does the map is drawn flat, for a relief takes its time. */
+  /** A relief is too slow while a knob moves. */
   private rest(): void {
     clearTimeout(this.resting);
     this.map.hidden = true;
   }
 
-  /** The pane came into view. */
   appear(): void {
     this.show(this.run);
     this.draw();
@@ -200,7 +197,7 @@ export class PicturePane {
     return coming;
   }
 
-  /** Shows a picture that was asked for; from the last one on, those that are made are followed. */
+  /** After the last picture, the pane follows new ones. */
   private async choose(name: string): Promise<void> {
     this.followed = name === this.run?.views[this.run.views.length - 1]?.name;
     await this.look(name);
@@ -240,7 +237,7 @@ export class PicturePane {
     );
     this.colourChoice.select.value = this.colour.name;
     this.reliefChoice.select.value = this.relief?.name ?? 'flat';
-    // A factor once chosen stays for pictures of the same kind, so that they compare.
+    // Pictures with equal reliefs share a factor for comparison.
     if (this.relief && (!previous || previous.name !== this.relief.name)) {
       this.step = fittingExaggeration(spanOf(this.relief.values), Math.max(this.relief.sizeX, this.relief.sizeY));
     }
@@ -338,7 +335,7 @@ export class PicturePane {
     this.labels.replaceChildren(
       ...this.scene.anchors(width, height).map((anchor) => {
         const element = h('span', { className: 'tag' }, anchorText(anchor.name, this.colour!, this.relief));
-        // Never past the picture's own side, where it would be cut.
+        // Keep labels inside.
         element.style.left = `${Math.min(width - (anchor.outward < 0 ? 0 : 80), Math.max(anchor.name === 'z' ? 34 : anchor.outward < 0 ? 80 : 0, anchor.left))}px`;
         element.style.top = `${anchor.top}px`;
         element.style.transform =
@@ -348,7 +345,6 @@ export class PicturePane {
     );
   }
 
-  /** After the frame that is being drawn: how long a move took to be seen. */
   private painted(began: number): void {
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
@@ -359,7 +355,7 @@ export class PicturePane {
   }
 
   private title(): string {
-    const name = this.shown || this.kept; // what stays in sight until the next has come
+    const name = this.shown || this.kept; // until the next arrives
     return this.run?.views.find((v) => v.name === name)?.title ?? name;
   }
 
@@ -411,8 +407,7 @@ export class PicturePane {
     });
   }
 
-  /** The last views of a run as drawings, seen as the pane sees them now. `steps` is how much the reliefs of each
-      name are exaggerated: one step for all that are given the same map, so that they compare. */
+  /** The last views of a run, from the present attitude. `steps`: exaggeration by relief name. */
   drawings(run: Run, most: number, steps: Map<string, number>): Promise<Drawing[]> {
     if (this.relief) steps.set(this.relief.name, this.step);
     const fields = (name: string): Promise<Field[]> =>

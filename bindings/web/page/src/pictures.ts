@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps of a view as numbers, and what a picture of them must say: how much heights are exaggerated and
-// what was left out by sampling. A gap is drawn downwards, so that what touches stands highest.
+// Maps of a view as numbers, with captions. A gap is drawn downwards: contact is highest.
 
 import type { View, ViewField } from './api';
 import { numberText, scaleFor, withUnit } from './units';
@@ -14,9 +13,9 @@ export interface Field {
   sizeY: number;
   fromNx: number;
   fromNy: number;
-  notMeasured: number; // nodes of all
+  notMeasured: number; // number
   reduction: string;
-  values: Float32Array; // NaN where nothing is known
+  values: Float32Array; // NaN: missing
 }
 
 export function fieldsOf(view: View): Field[] {
@@ -51,7 +50,6 @@ export function fieldOf(field: Omit<ViewField, 'data'>, values: Float32Array | u
   };
 }
 
-/** From where a picture is seen. */
 export interface Attitude {
   turn: number; // degrees about the vertical
   tilt: number; // degrees above the horizon
@@ -60,12 +58,11 @@ export interface Attitude {
 
 export const resting: Attitude = { turn: -32, tilt: 38, zoom: 1 };
 
-/** Fields that can be a relief: lengths. */
 export function reliefFields(fields: Field[]): Field[] {
   return fields.filter((f) => f.unit === 'm');
 }
 
-/** Heights of the relief of a field, in metres. */
+/** Relief heights in m. */
 export function heightsOf(field: Field): Float32Array {
   return field.name === 'gap' ? field.values.map((v) => -v) : field.values;
 }
@@ -80,11 +77,10 @@ export function spanOf(values: Float32Array): number {
   return high > low ? high - low : 0;
 }
 
-/** 1, 2, 5, 10 … from 1/100 to 10 000 000: the steps in which heights are exaggerated. */
 export const exaggerations: number[] = [];
 for (let power = -2; power <= 6; ++power) for (const f of [1, 2, 5]) exaggerations.push(f * 10 ** power);
 
-/** The step at which a relief stands about a sixth of its side high. */
+/** For a relief height of about a sixth of the side. */
 export function fittingExaggeration(span: number, side: number): number {
   if (!(span > 0)) return exaggerations.indexOf(1);
   const wanted = Math.log((0.17 * side) / span);
@@ -95,14 +91,13 @@ export function fittingExaggeration(span: number, side: number): number {
   return best;
 }
 
-/** A round height near a third of the relief, for the bar beside it. */
+/** The length of the scale bar: round, near a third of the relief. */
 export function barFor(span: number): number {
   if (!(span > 0)) return 0;
   const power = 10 ** Math.floor(Math.log10(span / 2));
   return [5, 2, 1].map((f) => f * power).find((b) => b <= span / 2) ?? power;
 }
 
-/** What stands at a side of the picture, or at its bar. */
 export function anchorText(name: 'x' | 'y' | 'z', colour: Field, relief: Field | undefined): string {
   if (name === 'z') return withUnit(barFor(spanOf(relief!.values)), 'm');
   const scale = scaleFor('m', Math.max(colour.sizeX, colour.sizeY));
@@ -113,7 +108,7 @@ export function factorText(factor: number): string {
   return factor >= 1 ? `× ${factor.toLocaleString('en').replace(/,/g, ' ')}` : `× ${numberText(factor)}`;
 }
 
-/** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", or that all are. */
+/** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", "all … nodes shown". */
 export function samplingText(field: Field): string {
   const shown = `${field.nx} × ${field.ny}`;
   const from = `${field.fromNx} × ${field.fromNy}`;
@@ -149,7 +144,6 @@ export function describe(colour: Field): string {
     sum += v;
     ++known;
   }
-  // A mean that is zero but for rounding is zero.
   const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;
   return `${colour.name} from ${withUnit(least, colour.unit)} to ${withUnit(most, colour.unit)}, mean ${withUnit(mean, colour.unit)}`;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lesson's place for predictions: a field for each number, which is the number in the lesson's script; a place
-// for words, kept in the browser; and what came of the numbers, once a run has answered.
+// A lesson's predictions: numbers, as in the lesson's script; words, stored in the browser; and the run's
+// verdicts.
 
 import { h } from './dom';
 import { guessesIn, verdictsOf, withGuess, type Guess } from './predictions';
@@ -61,7 +61,7 @@ export class PredictionBox {
     this.read();
   }
 
-  /** The script was edited: its numbers are shown. */
+  /** From the edited script. */
   read(): void {
     if (this.fields.length === 0) return;
     const guesses = guessesIn(this.script.text());
@@ -73,7 +73,6 @@ export class PredictionBox {
     }
   }
 
-  /** What a run of this lesson said of the numbers; nothing while it has not come to them. */
   judge(run: Run | undefined): void {
     const verdicts = run && !run.active ? verdictsOf(run) : [];
     this.judged.hidden = verdicts.length === 0;
@@ -82,7 +81,7 @@ export class PredictionBox {
     this.said = said;
     this.judged.replaceChildren(...verdicts.map((v) => h('p', {}, v)));
     const pane = this.element.closest('.pane');
-    if (!pane || pane.scrollHeight <= pane.clientHeight) return; // in one column it is the page that scrolls
+    if (!pane || pane.scrollHeight <= pane.clientHeight) return; // in one column the page scrolls
     const below = this.judged.getBoundingClientRect().bottom - pane.getBoundingClientRect().bottom;
     if (said && below > 0) pane.scrollTop += below + 12;
   }

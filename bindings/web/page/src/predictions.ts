@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers that a reader predicts before a lesson runs. They have one place, `my_guess` in the lesson's script,
-// as `local my_guess = nil -- in degrees` or `local my_guess = { halved=nil, heavy=nil }`; the script compares them
-// with what it found in lines that begin with "You said". Here they are read from the script, put into it, and
-// their answers picked out of what a run printed.
+// Predicted numbers in a lesson's script: `local my_guess = nil -- in degrees` or `local my_guess = {
+// halved=nil, heavy=nil }`. The script prints verdicts in lines that begin with "You said".
 
 import type { Run } from './run';
 
 export interface Guess {
-  name: string; // empty for a number that stands alone
+  name: string; // empty if single
   value: number | undefined;
 }
 
 export interface Guesses {
   list: Guess[];
-  note: string; // what the script says of them: unit, range
+  note: string; // remark: unit, range
 }
 
 const line = /^local my_guess = (\{[^}\n]*\}|[^{\n]*?)[ \t]*(?:--[ \t]*([^\n]*))?$/m;
 
-/** The guesses that the script has room for; undefined where it has none. */
+/** Undefined without guesses. */
 export function guessesIn(script: string): Guesses | undefined {
   const found = line.exec(script);
   if (!found) return undefined;
@@ -31,7 +29,7 @@ export function guessesIn(script: string): Guesses | undefined {
   return { list, note };
 }
 
-/** The script with this number in its place, or nil again; the script itself where it has no such place. */
+/** Unchanged without a place for the number. */
 export function withGuess(script: string, name: string, value: number | undefined): string {
   const literal = value === undefined ? 'nil' : String(value);
   return script.replace(line, (whole: string, given: string) => {
@@ -49,7 +47,6 @@ function numberOf(literal: string): number | undefined {
   return text.trim() === '' || Number.isNaN(Number(text)) ? undefined : Number(text);
 }
 
-/** What became of the guesses: the script's own sentences. */
 export function verdictsOf(run: Run): string[] {
   const printed = run.output
     .filter((part) => part.stream === 'out')

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whose results are shown: a line over the tabs with script, run and time. Results of another script than the open
-// one are greyed, and the line says so.
+// The line above the results. Results of another script are grey, with a note.
 
 import { byId } from './dom';
 import type { Run } from './run';

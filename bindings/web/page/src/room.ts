@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a teacher sees of the room: whose scripts run and wait, with a button to stop each; what each student ran last
-// and who asks for help; and the room's predictions, a histogram of each number of a lesson. It is asked for while
-// it is open and not otherwise. And the button by which a student asks for help.
+// The teacher's view of the classroom, polled while open: runs, requests for help, histograms of predictions.
+// Also the student's help button.
 
 import type { Api, RoomPerson, RoomRun } from './api';
 import { byId, Choice, h } from './dom';
@@ -33,7 +32,6 @@ export class Room {
     this.dialog.addEventListener('close', () => clearInterval(this.timer));
   }
 
-  /** Whether this is the teacher's page. */
   offer(teacher: boolean): void {
     byId('room-button').hidden = !teacher;
   }
@@ -77,7 +75,7 @@ export class Room {
     if (focused) document.getElementById(focused)?.focus();
   }
 
-  /** Who asks for help comes first. */
+  /** Requests for help first. */
   private showPeople(people: RoomPerson[], runs: RoomRun[]): void {
     const last = new Map(runs.map((run) => [run.owner, run]));
     const row = (p: RoomPerson): HTMLElement => {
@@ -142,7 +140,6 @@ export class HelpButton {
     });
   }
 
-  /** Whether there is anybody to ask, and whether that was done before. */
   offer(inRoom: boolean, wanted: boolean): void {
     this.button.hidden = !inRoom;
     this.show(wanted);

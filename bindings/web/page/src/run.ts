@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as the page knows it: what its events add up to. Taking an event changes this record and
-// nothing else; the panes draw from it, once a frame, so that ten thousand lines cost one drawing.
+// A run as the sum of its events. Events only change this record; panes draw once a frame, so that 10,000
+// lines cost one drawing.
 
 import type { Cell, RunEvent } from './api';
 import { chartedIn, keysIn, type Charted } from './charted';
@@ -28,22 +28,21 @@ export interface RunError {
   traceback?: string;
 }
 
-/** Of an answer to a move of a knob. */
 export interface LiveRun {
-  coarse: boolean; // the whole answer is on its way
-  factor: number; // of the cells that the script names
+  coarse: boolean; // a full answer follows
+  factor: number; // of `cells`
   seconds: number;
   computed: number; // heavy results
-  recalled: number; // taken from memory
+  recalled: number; // from memory
   fields: (view: string) => Promise<Field[]>;
 }
 
-/** Characters of output that are kept; a script may print more than a page can show. */
+/** Characters; longer output loses its beginning. */
 export const outputKept = 400_000;
 
 export class Run {
   status: Status = 'starting';
-  before: number | undefined; // runs that begin before it, while it waits
+  before: number | undefined; // runs ahead
   reason = '';
   seconds: number | undefined;
   output: OutputPart[] = [];
@@ -52,13 +51,13 @@ export class Run {
   readonly notebooks = new Map<string, Notebook>();
   readonly files = new Map<string, { name: string; bytes: number; kind: string }>();
   readonly views: { name: string; title: string }[] = [];
-  viewsLeftOut = 0; // surfaces and presses that have no view, so that the run was not held up
+  viewsLeftOut = 0; // for speed
   readonly expectations: { text: string; held: boolean }[] = [];
-  knobs: Knob[] = []; // with the values it was made with, once that is known
-  live: LiveRun | undefined; // an answer to a move, not a run that was recorded
+  knobs: Knob[] = []; // with this run's values
+  live: LiveRun | undefined; // not a recorded run
   readonly errors: RunError[] = [];
-  readonly keys: string[]; // of its script's tables, columns among them, as first written
-  readonly charted: Charted[]; // what its script charts, as far as the script's text tells
+  readonly keys: string[]; // of tables, in order
+  readonly charted: Charted[]; // from the script's text
   private characters = 0;
 
   constructor(
@@ -97,7 +96,6 @@ export class Run {
         break;
       case 'view':
         if (!this.views.some((v) => v.name === event.name)) {
-          // Calls of the same name are told apart by their number.
           const title = event.title ?? event.name;
           const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
           this.views.push({ name: event.name, title: same ? `${title} (${same + 1})` : title });
@@ -114,7 +112,7 @@ export class Run {
         break;
       case 'finished':
         this.status = event.status;
-        // An error says why by itself, and where.
+        // An error has its own reason.
         this.reason =
           event.status === 'failed' && this.errors.length > 0 ? '' : (event.reason ?? '').replace(/\.$/, '');
         this.seconds = event.seconds;
@@ -141,7 +139,7 @@ export class Run {
   private write(name: string, row: Record<string, Cell>, units: Record<string, string>, columns: string[]): void {
     let notebook = this.notebooks.get(name);
     if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [...columns], units: {}, rows: [] }));
-    // A row names its columns in the order of the notebook's CSV; those that the first lacks come with it.
+    // Later rows may add columns.
     for (const column of Object.keys(row)) {
       if (!notebook.columns.includes(column)) notebook.columns.push(column);
     }
@@ -157,7 +155,6 @@ function liveText(run: Run, live: LiveRun, seconds: (s: number) => string): stri
   return `Live in ${seconds(live.seconds)}, ${live.computed} computed, ${live.recalled} from memory`;
 }
 
-/** What became of a run, in words. */
 export function statusText(run: Run, seconds: (s: number) => string): string {
   if (run.live) return liveText(run, run.live, seconds);
   const took = run.seconds === undefined ? '' : ` ${seconds(run.seconds)}`;
@@ -181,8 +178,7 @@ export function statusText(run: Run, seconds: (s: number) => string): string {
 
 const mostNames = 60; // along an axis
 
-/** The names in a column of texts, in the order of their first rows; none where it holds anything else, or where an
-    axis has no room for so many, which the engine's charts refuse too. */
+/** In row order; empty for other columns or too many names, as in the engine's charts. */
 export function namesIn(notebook: Notebook, column: string): string[] {
   const names = new Set<string>();
   for (const row of notebook.rows) {
@@ -194,7 +190,6 @@ export function namesIn(notebook: Notebook, column: string): string[] {
   return names.size > mostNames ? [] : [...names];
 }
 
-/** What can stand along x: columns of numbers, and of names. */
 export function columnsAlong(notebook: Notebook): string[] {
   return notebook.columns.filter(
     (c) => notebook.rows.some((r) => typeof r[c] === 'number') || namesIn(notebook, c).length > 0,

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as one HTML file that opens anywhere: script, output, numbers, charts and pictures, all inside, and
-// nothing loaded from elsewhere. Its pictures can be gone through, and where the script was run at several values
-// of its knobs, all of these runs. One script is in it, which does only that (`saved/player.ts`): the file's content
-// policy names its digest and forbids any other. The file is built as a document and serialised, so every text is
-// escaped by the browser.
+// A run as one self-contained HTML file, with its variants at other knob values. The only script is
+// `saved/player.ts`; the content policy allows its digest and nothing else. The file is serialised from a
+// document: the browser escapes every text.
 
 import type { Api } from './api';
 import type { ChartPane } from './chart_pane';
@@ -18,10 +16,10 @@ import { sequencesOf } from './saved/sequences';
 import { csvOf, tableOf } from './table_pane';
 import { duration } from './units';
 
-/** The bundled `saved/player.ts` and its digest, as build.mjs puts them in. */
+/** Inserted by build.mjs: the bundled `saved/player.ts` and its digest. */
 declare const SAVED_PLAYER: { text: string; digest: string };
 
-const drawn = 60; // surfaces and contacts in one file
+const drawn = 60; // surfaces and contacts in a file
 
 const style = `
 :root { color-scheme: light; scroll-padding-top: 4rem; }
@@ -51,18 +49,17 @@ export interface Sources {
   version: string;
   title: string;
   prediction: string | null;
-  recorded: Run[]; // this run, and those beside it at other values of the knobs
+  recorded: Run[]; // at several knob values
 }
 
-/** What a run's results are put in with: at most so many drawings, their reliefs exaggerated by `steps`. */
+/** `most` drawings; `steps`: exaggeration by relief. */
 interface Filling {
   from: Sources;
-  missing: string[]; // what could not be had is told here
+  missing: string[]; // names of missing parts
   most: number;
   steps: Map<string, number>;
 }
 
-/** The file's text, and what could not be put in. */
 export async function savedRun(run: Run, from: Sources): Promise<{ html: string; missing: string[] }> {
   const missing: string[] = [];
   const page = document.implementation.createHTMLDocument(`${from.title} – Asperity`);
@@ -100,7 +97,7 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
   }
   if (missing.length > 0)
     body.append(h('h2', {}, 'Not in this file'), h('ul', {}, ...missing.map((m) => h('li', {}, m))));
-  // Sheet and script go in as text: even in a document that nobody sees the policy of this page forbids them.
+  // As text: the content policy forbids style and script elements even in a hidden document.
   const html = page.documentElement.outerHTML
     .replace('</head>', () => `<style>${style}</style></head>`)
     .replace(/<\/body>(?![^]*<\/body>)/, () => `<script>${SAVED_PLAYER.text}</script></body>`);
@@ -134,7 +131,6 @@ function knobsOf(run: Run, recorded: Run[]): HTMLElement[] {
   ];
 }
 
-/** What one run gave: errors, output, expectations, notebooks and their charts, pictures. */
 async function addResults(body: HTMLElement, run: Run, filling: Filling): Promise<void> {
   const { from, missing } = filling;
   for (const e of run.errors) {
@@ -203,7 +199,7 @@ function scriptOf(run: Run): HTMLElement {
   );
 }
 
-/** Charts and pictures that the script drew; those of one name but for a number can be gone through. */
+/** Numbered pictures form a sequence. */
 async function addFiles(body: HTMLElement, run: Run, from: Sources, missing: string[]): Promise<void> {
   const names = [...run.files.keys()].filter((name) => pictureType(name));
   if (names.length > 0) body.append(h('h2', {}, 'Charts and pictures of the script'));
@@ -246,7 +242,6 @@ function titled(title: string, figure: HTMLElement): HTMLElement {
   return figure;
 }
 
-/** Several pictures are one thing to go through; one stands by itself. */
 function framed(figures: HTMLElement[], name: string): HTMLElement[] {
   if (figures.length < 2) return figures;
   const frames = h('div', { className: 'frames' }, ...figures);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The relief: a grid of nodes drawn by WebGL, lit from one side, its lower rim and a bar of known height
-// beside it. Shading is worked into the nodes' colours and kept slight, so that a colour still reads off
-// its legend. Nothing is drawn but when something changed. This file alone needs three.js and is loaded
-// with the first picture.
+// The relief in WebGL with rim and scale bar. Shading is slight, so that colours match the legend. Draws only
+// after changes. Only this file needs three.js; loaded with the first picture.
 
 import {
   BufferAttribute,
@@ -26,17 +24,17 @@ export interface Relief {
   ny: number;
   sizeX: number; // m
   sizeY: number;
-  heights: Float32Array | null; // m, row j first; null is flat
+  heights: Float32Array | null; // m, row by row; null is flat
   colours: Uint8Array; // three bytes a node
   exaggeration: number;
 }
 
-/** A place on the picture, in pixels from its top left, at which a label belongs. */
+/** A label position, px from the top left. */
 export interface Anchor {
   name: 'x' | 'y' | 'z';
   left: number;
   top: number;
-  outward: number; // which side of the picture's middle it is on: -1 or 1
+  outward: number; // -1 left, 1 right
 }
 
 export class ReliefScene {
@@ -69,7 +67,7 @@ export class ReliefScene {
     this.frame?.material.color.setHex(this.ink);
   }
 
-  /** `bar` is the height in metres of the bar at the corner; 0 for none. */
+  /** `bar`: m; 0 for none. */
   show(relief: Relief, bar: number): void {
     this.clear();
     const { nx, ny } = relief;
@@ -101,7 +99,7 @@ export class ReliefScene {
         positions[3 * k + 2] = z[k];
       }
     }
-    // Where a corner is not known there is no triangle, but a hole.
+    // A missing corner leaves a hole.
     const triangles = new Uint32Array(6 * Math.max(0, nx - 1) * Math.max(0, ny - 1));
     let count = 0;
     for (let j = 0; j + 1 < ny; ++j) {
@@ -154,7 +152,7 @@ export class ReliefScene {
   render(): void {
     const { turn, tilt, zoom } = this.attitude;
     const [t, p] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
-    // Far enough that the tile's diagonal fits, whichever of the picture's sides is the shorter one.
+    // Fits the tile's diagonal.
     const distance = (3.0 / zoom) * Math.max(1, 1.15 / this.camera.aspect);
     this.camera.position
       .set(Math.sin(t) * Math.cos(p), -Math.cos(t) * Math.cos(p), Math.sin(p))
@@ -163,7 +161,7 @@ export class ReliefScene {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Where the labels of the sides and of the bar belong: at the edges nearest the eye. */
+  /** At the edges nearest to the viewer. */
   anchors(width: number, height: number): Anchor[] {
     this.camera.updateMatrixWorld();
     const seen = (v: Vector3): { left: number; top: number; depth: number } => {
@@ -178,7 +176,7 @@ export class ReliefScene {
     for (const name of ['x', 'y', 'z'] as const) {
       const places = this.corners[name].map(seen);
       if (places.length === 0) continue;
-      // The bar stands at every corner; it is named where it is seen against nothing, at the side.
+      // The label of the scale bar is at the left, in front of the background.
       const best = places.reduce((p, q) => (name === 'z' ? (q.left < p.left ? q : p) : q.depth < p.depth ? q : p));
       result.push({ name, left: best.left, top: best.top, outward: best.left < width / 2 ? -1 : 1 });
     }
@@ -203,7 +201,7 @@ export class ReliefScene {
   }
 }
 
-/** Colours times the light that falls on each node, from the north-west, of which a good part is everywhere. */
+/** Mostly ambient light, with a part from the north-west. */
 function shaded(
   colours: Uint8Array,
   z: Float32Array,

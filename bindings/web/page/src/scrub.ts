@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Going through the pictures of a run in the order in which they were made: a slider, and a button that plays
-// them one after the other. A picture that is still on its way when the slider has moved on is left out. There
-// is nothing to see where a run has made one picture alone.
+// Slider and play button for a run's pictures. Late pictures are skipped. Hidden below two pictures.
 
 import { h } from './dom';
 
-const playedFor = 700; // ms that each picture stands, at least
+const playedFor = 700; // ms each, at least
 
 export class Scrubber {
   readonly element: HTMLElement;
@@ -28,7 +26,7 @@ export class Scrubber {
   private readonly button = h('button', { type: 'button', onclick: () => this.toggle() }, 'Play');
   private readonly place = h('output', { className: 'factor' });
 
-  /** `go` shows the picture of that place, and is done once it is drawn or was refused. */
+  /** `go` resolves when the picture is drawn or refused. */
   constructor(
     private readonly go: (place: number) => Promise<void>,
     private readonly label = 'Picture of the run',
@@ -36,7 +34,6 @@ export class Scrubber {
     this.element = h('div', { className: 'scrubber', hidden: true }, this.button, this.slider, this.place);
   }
 
-  /** The pictures there are, and which of them is shown. */
   show(titles: string[], at: number): void {
     this.titles = titles;
     this.element.hidden = titles.length < 2;
@@ -62,7 +59,6 @@ export class Scrubber {
     await this.move(place);
     if (!this.playing) return;
     this.timer = window.setTimeout(() => {
-      // Out of sight nothing is played.
       if (this.at >= this.titles.length - 1 || this.element.offsetParent === null) this.pause();
       else void this.step(this.at + 1);
     }, playedFor);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is kept in the browser between visits: the scripts as edited and the predictions made. A browser
-// that keeps nothing (storage refused or full) loses only that. A script is kept twice: for the browser, where
-// the tab that wrote last is found by the next visit, and for its own tab, which finds its own text after a reload
-// whatever other tabs wrote.
+// Edited scripts and predictions in the browser's storage, which may be refused or full. Scripts are stored
+// for the browser (next visit: last version of any tab) and for the tab (reload: its own text).
 
 export function kept(key: string): string | null {
   try {
@@ -12,7 +10,7 @@ export function kept(key: string): string | null {
   }
 }
 
-/** Keeps the text, or forgets it when null; false if the browser would not. */
+/** Null deletes; false if the browser refuses. */
 export function keep(key: string, text: string | null): boolean {
   try {
     if (text === null) localStorage.removeItem(`asperity.${key}`);
@@ -24,30 +22,28 @@ export function keep(key: string, text: string | null): boolean {
 }
 
 const own = '=';
-const none = '-'; // this tab went back to the script as it was given
+const none = '-'; // original script restored
 
-/** The script as this tab edited it last, else as any tab of the browser did; null where nobody did. */
+/** Of this tab, else of any tab; null if none. */
 export function keptScript(key: string): string | null {
   try {
     const mine = sessionStorage.getItem(scriptKey(key));
     if (mine !== null) return mine === none ? null : mine.slice(own.length);
   } catch {
-    // A browser that keeps nothing for a tab.
   }
   return kept(`script.${key}`);
 }
 
-/** Keeps the script as edited, or forgets it when null; false if the browser would not. */
+/** Null deletes; false if the browser refuses. */
 export function keepScript(key: string, text: string | null): boolean {
   try {
     sessionStorage.setItem(scriptKey(key), text === null ? none : own + text);
   } catch {
-    // The browser's copy may still do.
+    // The browser's copy may succeed.
   }
   return keep(`script.${key}`, text);
 }
 
-/** Calls when another tab writes the script of that key, with its text. */
 export function whenWrittenElsewhere(written: (key: string, text: string) => void): void {
   const lead = scriptKey('');
   addEventListener('storage', (event) => {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A study of work and precision has seconds in its rows, so they are no notebook of the run but a file of it,
-// <name>.csv, which is read here into one for the page.
+// Rows of a work-precision study, which contain seconds, are in <name>.csv instead of a notebook. Here they
+// become a notebook.
 
 import type { Api, Cell } from './api';
 import { studiesIn } from './charted';
 import type { Run } from './run';
 
-/** Reads the file if it is a study's; true once its rows are in the run. */
+/** True if rows were added. */
 export async function readStudy(run: Run, file: string, api: Api): Promise<boolean> {
   const name = file.replace(/\.csv$/, '');
   if (name === file || ![...studiesIn(run.script).values()].includes(name)) return false;
@@ -15,7 +15,7 @@ export async function readStudy(run: Run, file: string, api: Api): Promise<boole
   return true;
 }
 
-/** Comma-separated, units in brackets behind the names of columns; what looks like a number is one. */
+/** Units are in brackets after column names. */
 function tableOf(text: string): { columns: string[]; units: Record<string, string>; rows: Record<string, Cell>[] } {
   const [head, ...lines] = text.split('\n').filter(Boolean).map(cellsOf);
   const units: Record<string, string> = {};

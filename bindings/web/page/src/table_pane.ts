@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The notebook's rows as they come. A column has one unit with one prefix; the value as it was written
-// is in the cell's title. Only the last rows of a long notebook are shown, and that is said.
+// Notebook rows. A column has one unit and prefix; a cell's title has the exact value. Long notebooks show
+// their last rows.
 
 import { Choice, h } from './dom';
 import { numericColumns, type Notebook, type Run } from './run';
@@ -8,7 +8,7 @@ import { label, numberText, scaleFor, type Scale } from './units';
 import type { Cell } from './api';
 
 const shownRows = 500;
-const longName = 24; // letters, of a column's name that is broken into lines
+const longName = 24; // characters; then wrapped
 const longText = 60;
 
 export function columnScales(notebook: Notebook): Map<string, Scale> {
@@ -30,7 +30,6 @@ export function cellText(value: Cell | undefined, scale: Scale | undefined): str
   return value;
 }
 
-/** The whole table, or its last `most` rows. */
 export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
   const scales = columnScales(notebook);
   const from = Math.max(0, notebook.rows.length - most);
@@ -84,7 +83,7 @@ export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
   );
 }
 
-/** Comma-separated, SI, units in brackets: what the run's own file holds. */
+/** As in the run's file: comma-separated, SI, units in brackets. */
 export function csvOf(notebook: Notebook): string {
   const quoted = (text: string): string => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
   const head = notebook.columns.map((c) => quoted(notebook.units[c] ? `${c} [${notebook.units[c]}]` : c)).join(',');

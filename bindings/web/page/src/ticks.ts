@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The axis of a chart, of numbers or of names: how far it runs, and where its ticks stand. Labels of ticks never touch: of the sets of
-// ticks from many to few the first is taken whose labels stand apart. An axis of whole numbers has whole ticks. A
-// logarithmic axis ends where its data end, and writes all of its ticks in one way.
+// Range and ticks of an axis, for numbers or names: the largest set of ticks without overlapping labels.
+// Integer data have integer ticks. A logarithmic axis ends at its data.
 
 import { scaleLinear } from 'd3-scale';
 import { raised, sameToRounding } from './units';
@@ -12,7 +11,7 @@ export interface Axis {
   labels: string[];
 }
 
-/** Whether labels at these shares of the axis's length, from 0 to 1, stand apart from each other. */
+/** Whether labels at these fractions of the axis do not overlap. */
 export type Apart = (labels: string[], shares: number[]) => boolean;
 
 export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
@@ -35,7 +34,7 @@ export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
   return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last) };
 }
 
-/** An axis with the same room for each of some names; where not all can be written, every second one is, or third. */
+/** If necessary only every second, third … name is written. */
 export function axisOfNames(names: string[], apart: Apart): Axis {
   const domain: [number, number] = [-0.5, names.length - 0.5];
   for (let every = 1; ; ++every) {
@@ -49,7 +48,7 @@ function spare(value: number): number {
   return Math.abs(value) / 10 || 1;
 }
 
-/** So much that a mark on the rim is whole. */
+/** Room for a whole mark. */
 function aLittleBeyond(low: number, high: number): [number, number] {
   const factor = (high / low) ** 0.03;
   return [low / factor, high * factor];
@@ -95,7 +94,7 @@ function distinct(sets: number[][]): number[][] {
   return sets.filter((ticks, k) => ticks.length > 0 && sets.findIndex((other) => String(other) === String(ticks)) === k);
 }
 
-/** Plain numbers, or all with the power of ten of the greatest; as many digits as tell them apart. */
+/** Plain, or with a common power of ten; enough digits to distinguish them. */
 function labelsOf(ticks: number[]): string[] {
   const greatest = ticks.reduce((most, t) => Math.max(most, Math.abs(t)), 0);
   const power = greatest > 0 ? Math.floor(Math.log10(greatest) + 1e-9) : 0;
@@ -108,7 +107,7 @@ function labelsOf(ticks: number[]): string[] {
   }
 }
 
-/** Plain numbers where all of them are such, else all as powers of ten. */
+/** Plain if all fit, else powers of ten. */
 function labelsOfPowers(ticks: number[]): string[] {
   if (ticks.every((t) => t >= 0.999e-2 && t < 1.001e5)) return labelsOf(ticks);
   return ticks.map((t) => {

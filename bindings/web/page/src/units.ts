@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as people read them. Everything arrives in SI; a column, an axis or a legend gets one prefix
-// for all its values (4.2e-6 m is 4.2 µm), and the factor is kept so that nothing else is changed.
+// Readable numbers from SI data: one prefix for a column, axis or legend (4.2e-6 m is 4.2 µm).
 
 export interface Scale {
-  factor: number; // what is shown times `factor` is SI
-  unit: string; // with its prefix; empty for a pure number
+  factor: number; // shown value times `factor` is SI
+  unit: string; // with prefix; empty for a pure number
 }
 
 const prefixes: [number, string][] = [
@@ -21,18 +20,16 @@ const prefixes: [number, string][] = [
 
 const superscripts: Record<string, string> = { '^2': '²', '^3': '³', '^-1': '⁻¹', '^-2': '⁻²' };
 
-/** The unit as it is printed: m^2 as m². */
 export function unitText(unit: string): string {
   return unit.replace(/\^-?\d/g, (power) => superscripts[power] ?? power).replace(/\*/g, '·');
 }
 
-/** One prefix for values up to `greatest` in absolute value. */
+/** For absolute values up to `greatest`. */
 export function scaleFor(unit: string | undefined, greatest: number): Scale {
   const plain = unitText(unit ?? '');
   const found = /^(m|Pa|N|J|s|W|Hz)(²|³)?(\/.*)?$/.exec(plain);
   if (!found || !(greatest > 0) || !Number.isFinite(greatest)) return { factor: 1, unit: plain };
   const power = found[2] === '²' ? 2 : found[2] === '³' ? 3 : 1;
-  // Kiloseconds, megametres squared and the like are nobody's units.
   const largest = found[1] === 's' || power > 1 ? 1 : found[1] === 'm' ? 1e3 : 1e12;
   let best = prefixes[0];
   for (const prefix of prefixes) {
@@ -41,7 +38,7 @@ export function scaleFor(unit: string | undefined, greatest: number): Scale {
   return { factor: best[0] ** power, unit: best[1] + plain };
 }
 
-/** Four significant digits unless told otherwise; powers of ten as such; a true minus sign. */
+/** With powers of ten and a true minus sign. */
 export function numberText(value: number, digits = 4): string {
   if (Number.isNaN(value)) return 'nan';
   if (!Number.isFinite(value)) return value > 0 ? '∞' : '−∞';
@@ -57,7 +54,6 @@ export function numberText(value: number, digits = 4): string {
   return text.replace(/^-/, '−');
 }
 
-/** Whether two numbers differ by no more than rounding may have made of one. */
 export function sameToRounding(low: number, high: number): boolean {
   return high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high));
 }
@@ -71,7 +67,7 @@ export function withUnit(value: number, unit: string | undefined): string {
   return `${numberText(value / scale.factor)}${scale.unit ? ' ' + scale.unit : ''}`;
 }
 
-/** "Ra [µm]", or the name alone for a pure number. */
+/** "Ra [µm]"; only the name for a pure number. */
 export function label(name: string, scale: Scale): string {
   return scale.unit ? `${name} [${scale.unit}]` : name;
 }

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which values of a knob were recorded, and which recorded run a slider goes to: of those with the value it was
-// moved to, the one whose other knobs are the fewest steps from what they were.
+// Recorded knob values, and the run for a slider move: the new value, with the fewest steps in other knobs.
 
-/** The knobs of a recorded run by their names. */
 export type Recorded = Record<string, { value: number; text: string }>;
 
-/** The values of a knob in all runs, ascending, each once. */
+/** Ascending, without duplicates. */
 export function placesOf(runs: Recorded[], name: string): { value: number; text: string }[] {
   const known = new Map(runs.flatMap((r) => (r[name] ? [[r[name].value, r[name]] as const] : [])));
   return [...known.values()].sort((a, b) => a.value - b.value);
 }
 
-/** The run to go to from run `from` when the knob `name` is moved to a recorded value. */
 export function nearestTo(runs: Recorded[], from: number, name: string, value: number): number {
   const others = Object.keys(runs[from]).filter((other) => other !== name);
   const steps = (k: number): number =>

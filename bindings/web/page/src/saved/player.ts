@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The script of a saved run, the only one its content policy lets run: it goes through the pictures in the file,
-// with play and pause, and from one recorded value of a knob to the next. Nothing is computed. Without it, and on
-// paper, every picture and every recorded run stand one below the other.
+// The only script in a saved run: plays pictures and switches between recorded knob values. Without it, and
+// on paper, all are shown in sequence.
 
 import { h } from '../dom';
 import { Scrubber } from '../scrub';
 import { nearestTo, placesOf, type Recorded } from './places';
 
-const away = 'away'; // out of sight on a screen
+const away = 'away'; // hidden on screen
 
-/** Pictures of which one is seen. */
 class Frames {
   private readonly figures: HTMLElement[];
   private readonly titles: string[];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures that a script drew one after the other, told by their names: `press-1.png`, `press-2.png`, `press-3.png`.
-// Two may be any two pictures, and drawings in lines are figures to be read, so neither are a sequence.
+// Numbered pictures: `press-1.png`, `press-2.png`, `press-3.png`. Two pictures, and SVG drawings, form no
+// sequence.
 
-const least = 3; // pictures of a sequence
+const least = 3; // pictures
 
-/** The names in their order, those of a sequence together where its first one stands. */
+/** A sequence is at its first name. */
 export function sequencesOf(names: string[]): string[][] {
   const kinds = new Map<string, string[]>();
   for (const name of names) {
