@@ -14,8 +14,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Whether a function is one of those that the sandbox put in the place of what it took away: they keep
-// what to say in an upvalue called `what`.
+// Whether the sandbox replaced the function by a refusal, which has an upvalue called `what`.
 bool is_refused(lua_State* L, int index) {
   if (!is_sandbox_function(L, index)) return false;
   bool refused = false;
