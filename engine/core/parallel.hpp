@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops over independent blocks on threads. The blocks are fixed by the caller, never by the number
-// of threads, so results are the same bits for any number of them. An exception in a block stops
-// the loop; the one of the lowest block that threw is rethrown.
+// Parallel loops over independent blocks. The caller fixes the blocks, so results have the same bits for any
+// number of threads. An exception in a block stops the loop; the exception of the lowest failed block is
+// rethrown.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace asperity {
 
-// Threads a loop may use; at least 1. Starts as the number of processors.
+// Maximum threads of a loop, at least 1; initially the number of processors.
 int thread_count();
 void set_thread_count(int threads);
 
-// While it lives, loops of this thread run on this thread alone (a case of an ensemble).
+// During its lifetime, loops of this thread use this thread only (a case of an ensemble).
 class SingleThreaded {
  public:
   SingleThreaded();
