@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers by key, not by sequence: draw k of a stream is SplitMix64 of the stream's seed
-// and k, so a mode or a feature keeps its draw on any grid, in any order, on any thread.
-// Source: Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
+// Counter-based random numbers: draw k of a stream is SplitMix64 of the stream's seed and k. A mode or
+// feature keeps its draw on any grid, in any order, on any thread. Source: Steele, Lea & Flood (2014), "Fast
+// splittable pseudorandom number generators".
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t seed, std::uint64_t k) {
 // In [0, 1), 53 bits.
 constexpr double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
-// A named stream of a seed: streams of different names are independent.
+// Streams of different names are independent.
 class Stream {
  public:
   Stream(std::uint64_t seed, std::string_view name);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rounding mode that results are defined in. A program that loads the module may round upward or towards
-// zero for purposes of its own (interval arithmetic); what the engine computes must not depend on it.
+// Results are defined for rounding to nearest. A host program of the module may use another mode (interval
+// arithmetic), which must not change results.
 #pragma once
 
 #include <cfenv>
 
 namespace asperity {
 
-// While it lives, this thread, and threads it starts, round to nearest; then as before. A few nanoseconds.
+// Sets rounding to nearest for this thread and threads started from it; restores the old mode. A few
+// nanoseconds.
 class RoundToNearest {
  public:
   RoundToNearest() : before_(std::fegetround()) {
