@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cache of released memory blocks for requests of equal size: successive contacts need equal grids, and a
-// fresh page costs a trap and zeroing. The pool is limited in bytes and drops the oldest block first.
-// Thread-safe.
+// Cache of released memory blocks: successive contacts need equal grids, and a fresh page costs a trap and
+// zeroing. Limited in bytes; drops the oldest block first. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +11,16 @@ namespace asperity::memory {
 
 class BlockPool {
  public:
-  // Blocks come from std::malloc or relatives.
   explicit BlockPool(std::size_t most_bytes) : most_bytes_(most_bytes) {}
   ~BlockPool() { drop(); }
   BlockPool(const BlockPool&) = delete;
   BlockPool& operator=(const BlockPool&) = delete;
 
-  // std::malloc caches small blocks itself; one very large block would displace all others.
+  // std::malloc caches small blocks itself; a very large block would displace all others.
   bool takes(std::size_t bytes) const { return bytes >= least_bytes && bytes <= most_bytes_ / 4; }
-  // The last stored block of this size, or null. The content is undefined.
+  // The last stored block of this size, or null. Undefined content.
   void* take(std::size_t bytes);
-  // Takes ownership; false if the block is not stored and remains the caller's.
+  // On false, the block remains the caller's.
   bool give(void* block, std::size_t bytes) noexcept;
   void drop() noexcept;
   std::size_t bytes() const;

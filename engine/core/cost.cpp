@@ -18,7 +18,7 @@ thread_local std::int64_t thread_peak = 0;
 }  // namespace
 
 namespace cost {
-// Rounded to steps of 2^-24, so that sums and differences are exact and independent of earlier counts.
+// Steps of 2^-24 make sums and differences exact.
 void count_transforms(double weighted) {
   constexpr double steps = 1 << 24;
   thread_transforms += std::round(weighted * steps) / steps;

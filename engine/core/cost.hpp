@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a call: wall seconds, Fourier transforms and peak bytes. Counters belong to the calling thread;
-// parallel_for adds the counts of its helpers to its caller. Results never depend on a clock.
+// Cost of a call: wall seconds, Fourier transforms, peak bytes. Counters belong to the calling thread;
+// parallel_for adds its helpers' counts to its caller. Results never depend on a clock.
 #pragma once
 
 #include <chrono>
@@ -11,25 +11,24 @@ namespace asperity {
 struct Cost {
   double seconds = 0;
   double transforms = 0;   // one-way real 2-D transforms, weighted n² log n relative to the finest grid
-  std::int64_t bytes = 0;  // peak of counted memory above the amount at the start
+  std::int64_t bytes = 0;  // peak of counted memory above the start
 
-  Cost& operator+=(const Cost& other);  // adds seconds and transforms; bytes becomes the maximum
+  Cost& operator+=(const Cost& other);  // bytes becomes the maximum
 };
 
 namespace cost {
 void count_transforms(double weighted);
 void count_bytes(std::int64_t change) noexcept;
-// Running total of this thread.
 double transforms();
-// Processor time of this thread, without helper threads.
+// Excludes helper threads.
 double processor_seconds();
 }  // namespace cost
 
-// During its lifetime, this thread throws Spent once it has counted more than `most` transforms, at the same
-// place on every machine. The inner of two limits applies.
+// Throws Spent on this thread beyond `most` transforms, at the same place on every machine. The inner of two
+// limits applies.
 class TransformLimit {
  public:
-  struct Spent {};  // not an Error: only the code that set the limit may catch it
+  struct Spent {};  // only the code that set the limit may catch it
   explicit TransformLimit(double most);
   ~TransformLimit();
   TransformLimit(const TransformLimit&) = delete;
@@ -39,7 +38,7 @@ class TransformLimit {
   double outer_;
 };
 
-// Measures from construction on. Scopes nest; an inner peak also counts for the outer scope.
+// Scopes nest; an inner peak also counts for the outer scope.
 class CostScope {
  public:
   CostScope();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 128-bit digest of content (XXH3), 32 hexadecimal digits. For equality of values; not a cryptographic
-// signature.
+// 128-bit digest of content (XXH3), 32 hexadecimal digits. Not a cryptographic signature.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ class Digester {
   Digester(Digester&&) noexcept;
   Digester& operator=(Digester&&) noexcept;
 
-  // Each item includes its kind and length, so that sequences of items are unambiguous.
+  // Items include kind and length, so that sequences are unambiguous.
   Digester& add(std::string_view text);
   Digester& add(const char* text) { return add(std::string_view(text)); }
   Digester& add(double value);

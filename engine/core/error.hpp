@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's only exception type: code, sentence and hint. The sentence states the request and the finding,
-// the hint a valid alternative. The bindings add the script line. Both texts are plain text (plain_text in
-// text.hpp), even if they quote arbitrary bytes of a file or script.
+// The engine's only exception type. The sentence states the request and the finding, the hint a valid
+// alternative; the bindings add the script line. Both are plain text (plain_text in text.hpp), even if they
+// quote arbitrary bytes.
 #pragma once
 
 #include <exception>
@@ -11,7 +11,7 @@
 namespace asperity {
 
 enum class ErrorCode {
-  bad_value,      // a number, list or combination that the call refuses
+  bad_value,      // a refused number, list or combination
   unknown_name,   // an unknown key, field, unit, material or method
   bad_unit,       // a unit of another dimension, or an unknown unit
   bad_file,       // a missing, damaged or unsuitable file
@@ -22,10 +22,10 @@ enum class ErrorCode {
   out_of_memory,  // the machine's or the run's memory limit
   time_limit,     // the run's time limit
   interrupted,    // Ctrl-C
-  internal,       // an error in our own code
+  internal,       // a bug
 };
 
-// One word, "bad_value".
+// "bad_value".
 std::string_view name(ErrorCode code);
 
 class Error : public std::exception {

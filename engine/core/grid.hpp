@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A regular grid and a field of doubles. Index i runs along x, j along y, both from 0. Node (i, j) has the
-// position (i·hx, j·hy), hx = size_x / nx. Storage is row by row: value (i, j) has the index j·nx + i.
+// A regular grid and a field of doubles. Node (i, j), i along x, j along y, both from 0, is at (i·hx, j·hy),
+// hx = size_x / nx. Value (i, j) has the index j·nx + i.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,10 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-// Maximum per side.
 inline constexpr int max_cells = 65536;
 
-// Throws Error{bad_value} naming `cells` or `size` unless 1 <= nx, ny <= max_cells and the sizes are finite
-// and large enough for a positive cell width.
+// Throws Error{bad_value} naming `cells` or `size` unless 1 <= nx, ny <= max_cells and sizes are finite with
+// a positive cell width.
 Grid make_grid(double nx, double ny, double size_x, double size_y);
 
 class Field {
@@ -34,7 +33,7 @@ class Field {
   Field() = default;
   Field(int nx, int ny, double value = 0.0)
       : nx_(nx), ny_(ny), values_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), value) {}
-  // Takes over nx·ny values; throws Error{internal} for another number.
+  // Throws Error{internal} unless there are nx·ny values.
   Field(int nx, int ny, UnsetArray<double>&& values);
 
   int nx() const { return nx_; }
@@ -64,7 +63,7 @@ class Field {
 
 // Pairwise sum of fixed blocks of 1024: the same bits for any number of threads; the error grows with log n.
 double block_sum(std::span<const double> values);
-// Median of at least one value, the upper of two middle values. O(n); reorders the values.
+// The upper of two middle values. Needs at least one value. O(n); reorders.
 double upper_median(std::span<double> values);
 double mean(std::span<const double> values);
 struct Range {
@@ -74,12 +73,12 @@ struct Range {
 // {0, 0} without values.
 Range range(std::span<const double> values);
 
-// Statistics of the values that are not NaN. Equal to mean and range to the bit if no value is missing.
+// Ignore NaN. Equal to mean and range to the bit if no value is missing.
 std::size_t known_count(std::span<const double> values);
 double known_mean(std::span<const double> values);
 Range known_range(std::span<const double> values);
 
-// Accepts any i and j from a script. Throws Error{bad_value} unless both are integers inside the field.
+// Throws Error{bad_value} unless i and j are integers inside the field.
 double node_value(const Field& field, double i, double j);
 
 }  // namespace asperity

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records which changed laws a run meets, and where. A law is a rule of computation that changed between
-// versions (run/changed_laws.cpp). Code reports each use of such a law; `asperity replay` of a run by an
-// earlier version listens and so explains differences. Without a listener, a report costs one load.
+// Records where a run meets rules of computation that changed between versions (run/changed_laws.cpp), for
+// `asperity replay` of earlier runs. Without a listener, a report costs one load.
 #pragma once
 
 #include <array>
@@ -35,13 +34,13 @@ inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::separatio
 // Thread-safe.
 class LawsMet {
  public:
-  // Clears the record, then stores the value of `line`, a number from 1, when each law is first met. `line`
-  // may be called from any thread. An empty function stops recording.
+  // Clears the record, then stores `line()`, a number from 1, at the first use of each law; callable from any
+  // thread. An empty function stops recording.
   void follow(std::function<std::int64_t()> line);
   void meet(Law law) {
     if (followed_.load(std::memory_order_relaxed)) keep(law);
   }
-  // First line, or 0 if not met.
+  // 0 if not met.
   std::int64_t first_line(Law law) const;
 
  private:
@@ -53,7 +52,6 @@ class LawsMet {
   std::array<std::int64_t, law_count> lines_{};
 };
 
-// The instance of the process.
 LawsMet& laws_met();
 
 // Suspends recording on this thread, for trial computations.

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The object that contains this code.
+// The object with this code.
 struct Own {
   fs::path folder;  // empty if unknown
   bool program = true;
@@ -32,11 +32,11 @@ Own own_object() {
   std::error_code failure;
   if (::dladdr1(reinterpret_cast<void*>(&own_object), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
   const auto* const loaded = static_cast<const link_map*>(found);
-  // The loader knows a program only by its call name, which may be a word looked up on PATH.
+  // The loader knows a program only by its call name, perhaps a word looked up on PATH.
   const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
   const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
   fs::path folder = fs::canonical(file, failure).parent_path();
-  // A copy for one processor level is in FOLDER/glibc-hwcaps/LEVEL/; the parts are in FOLDER.
+  // Copies for a processor level are in FOLDER/glibc-hwcaps/LEVEL/, the parts in FOLDER.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
   return {std::move(folder), program};
 }
@@ -66,7 +66,7 @@ std::vector<fs::path> part_places(const LoadedPart& part) {
     const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
     if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
   }
-  // Another program linked with the installed library may be anywhere.
+  // For other programs linked with the installed library.
   const fs::path installed = fs::path(ASPERITY_PARTS_FOLDER) / file;
   if (std::ranges::find(places, installed) == places.end()) places.push_back(installed);
   return places;

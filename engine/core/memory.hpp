@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counted, aligned memory for grids and tables. Every engine buffer that grows with the number of cells is
-// counted: calls report their peak, runs obey a limit, and tests assert that disabled effects allocate
-// nothing. Thread-safe.
+// Counted, aligned memory for all engine buffers that grow with the number of cells: calls report their peak,
+// runs obey a limit, and tests assert that disabled effects allocate nothing. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ namespace asperity {
 
 namespace memory {
 
-// Bytes held by the process.
+// Counted bytes of the process.
 std::int64_t held();
 // Limit of held() in bytes; 0 means none. Beyond it, acquire() throws Error{out_of_memory}.
 void set_limit(std::int64_t bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Communication of a computation with its caller: progress, warnings and stop requests. The engine never
-// prints. progress and warn are called from the calling thread only.
+// Progress, warnings and stop requests of a computation. The engine never prints. progress and warn are
+// called from the calling thread only.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ class ResultStore;
 // Raised by signal handlers and watchdogs.
 enum class StopReason : int { none = 0, interrupt, time_limit, memory_limit };
 
-// The flag of the process. Lock-free and async-signal-safe.
+// Lock-free and async-signal-safe.
 class StopFlag {
  public:
   void raise(StopReason reason) noexcept {
@@ -44,31 +44,29 @@ class Monitor {
   virtual ~Monitor() = default;
   // `done` in [0, 1].
   virtual void progress(std::string_view what, double done) = 0;
-  // Progress of work in parts: `part` is the present part, `seconds` the time since the start of the whole.
-  // By default reported like progress.
+  // `part` is the present part, `seconds` the time since the start of the whole. By default calls progress().
   virtual void progress_of_parts(std::string_view what, double done, std::string_view /*part*/,
                                  double /*seconds*/) {
     progress(what, done);
   }
-  // A sentence for the experimenter, shown once and recorded in the journal.
+  // For the experimenter: shown once, recorded in the journal.
   virtual void warn(std::string_view sentence) = 0;
-  // Other information, such as the expected time. Ignored by default.
+  // Other information, such as the expected time; ignored by default.
   virtual void inform(std::string_view /*sentence*/) {}
-  // Store for results of heavy calls (result_store.hpp), or null. Thread-safe.
+  // May be null. Thread-safe.
   virtual ResultStore* results() { return nullptr; }
 
   // Discards everything.
   static Monitor& silent();
 };
 
-// Replaces numbers and their units; numbers in names and quoted texts stay. Warnings of one kind have equal
-// results.
+// Replaces numbers and their units, except in names and quoted texts; equal results mean one kind.
 std::string kind_of_warning(std::string_view sentence);
 
 class WarningKinds {
  public:
   bool is_first(std::string_view sentence);
-  // One line per kind with repeated warnings. Resets the counts.
+  // One line per repeated kind. Resets the counts.
   std::vector<std::string> rest();
 
  private:
@@ -80,11 +78,10 @@ class WarningKinds {
 };
 
 // Work of `total` steps. advance() checks for a stop and reports at most ten times per second, cheap enough
-// for loops of microseconds.
+// for microsecond loops.
 class Task {
  public:
   Task(Monitor& monitor, std::string_view what, std::int64_t total);
-  // Throws Error after a stop request.
   void advance(std::int64_t steps = 1);
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options of an effect or elasticity model. Each row describes one member of a plain struct: name, dimension,
-// range, default, sentence. The engine checks values by the rows; the bindings derive reading, help,
-// reference and record from them. Other options use the ranges too.
+// Options of effects and elasticity models. A row describes one member of a plain struct; the engine checks
+// values by the rows, and the bindings derive reading, help, reference and record from them.
 #pragma once
 
 #include <any>
@@ -17,14 +16,13 @@
 
 namespace asperity {
 
-// Range of an option, with texts for errors and the reference. NaN is never inside; infinity only with
-// `never`.
+// NaN is never inside; infinity only with `never`.
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
   bool never = false;
-  // Also accepts math.huge, meaning "never".
+  // Accepts math.huge as "never".
   constexpr NumberRange or_never() const {
     NumberRange r = *this;
     r.never = true;
@@ -33,7 +31,7 @@ struct NumberRange {
   bool contains(double value) const;
   // "above 0", "from 2 to 3"; "" if unlimited.
   std::string text(Dimension dimension) const;
-  // "a length above 0, e.g. \"250 um\""; `finite` adds the requirement, if infinity is the only fault.
+  // "a length above 0, e.g. \"250 um\""; `finite` says so if infinity is the only fault.
   std::string wanted(Dimension dimension, bool finite = false) const;
 };
 constexpr NumberRange any() { return {}; }
@@ -50,11 +48,11 @@ struct OptionRow {
   std::string name;
   Dimension dimension{};
   NumberRange range{};
-  std::vector<std::string> words{};  // for a choice, whose value is an index into `words`
+  std::vector<std::string> words{};  // of a choice; its value is an index
   std::string sentence;
   std::string default_text{};  // if the struct's default is not enough
   bool required = false;
-  // Access to the struct inside `any`; none: not given.
+  // On the struct inside `any`; none: not given.
   std::function<void(std::any&, double)> set{};
   std::function<std::optional<double>(const std::any&)> get{};
 
@@ -102,7 +100,7 @@ OptionRow choice_row(std::string name, M O::*member, std::vector<std::pair<std::
   return row;
 }
 
-// Throws Error{bad_value} for the first option out of range, with the valid range; `of` names the struct.
+// Throws Error{bad_value} for the first option out of range; `of` names the struct.
 void check_options(std::span<const OptionRow> rows, const std::any& options, const std::string& of);
 
 }  // namespace asperity

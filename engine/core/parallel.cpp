@@ -2,8 +2,8 @@
 // Helper threads live as long as the process and sleep between loops, because a loop over a small grid is
 // shorter than a thread start. One loop at a time uses the helpers; a concurrent loop runs on its own thread
 // alone. A loop never waits for a helper that has not begun. Each thread starts with the same share of blocks
-// in every loop of equal length, because its cache holds their data; a finished thread takes blocks from
-// other shares.
+// in loops of equal length, because its cache holds their data; a finished thread takes blocks from other
+// shares.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
@@ -84,8 +84,7 @@ class Loop {
   double helper_transforms_ = 0;
 };
 
-// Spin count before sleep: a few microseconds, the gap between the loops of one transform and less than a
-// wake-up.
+// A few microseconds: the gap between loops of one transform, less than a wake-up.
 constexpr int turns_before_sleep = 2000;
 
 void pause() {
@@ -106,7 +105,7 @@ class Pool {
     for (std::thread& helper : helpers_) helper.join();
   }
 
-  // Returns false without effect if another loop uses the helpers.
+  // False without effect if another loop uses the helpers.
   bool run(Loop& loop, int helpers) {
     const std::unique_lock taken(taken_, std::try_to_lock);
     if (!taken) return false;
@@ -128,7 +127,7 @@ class Pool {
   }
 
  private:
-  // No helper may use the loop after its caller continues, even after an exception.
+  // No helper may use the loop after its caller continues or throws.
   struct Recall {
     Pool& pool;
     ~Recall() { pool.recall(); }
@@ -165,7 +164,7 @@ class Pool {
 
   std::mutex taken_;  // held by the loop that uses the helpers
   std::vector<std::thread> helpers_;
-  std::mutex mutex_;  // guards all below; atomics are also read without it
+  std::mutex mutex_;  // guards the rest; atomics are also read without it
   std::condition_variable wake_, left_;
   std::atomic<std::int64_t> calls_{0};
   std::atomic<int> helping_{0};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parallel loops over independent blocks. The caller fixes the blocks, so results have the same bits for any
-// number of threads. An exception in a block stops the loop; the exception of the lowest failed block is
-// rethrown.
+// Parallel loops over independent blocks. The caller fixes the blocks, so bits do not depend on the number of
+// threads. An exception stops the loop; the exception of the lowest failed block is rethrown.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +8,11 @@
 
 namespace asperity {
 
-// Maximum threads of a loop, at least 1; initially the number of processors.
+// Per loop, at least 1; initially the number of processors.
 int thread_count();
 void set_thread_count(int threads);
 
-// During its lifetime, loops of this thread use this thread only (a case of an ensemble).
+// Loops of this thread use this thread only (a case of an ensemble).
 class SingleThreaded {
  public:
   SingleThreaded();
@@ -25,7 +24,7 @@ class SingleThreaded {
   bool outer_;
 };
 
-// Calls block(k) once for every k in [0, blocks). Checks the stop flag between blocks.
+// Calls block(k) for every k in [0, blocks). Checks the stop flag between blocks.
 void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block);
 
 }  // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Monitor of one part of longer work. Progress of the part from 0 to 1, possibly repeated (a solve has
-// stages), becomes a non-decreasing share of the whole. The clock of the whole runs through all parts.
+// Monitor of one part of longer work. Progress of the part, possibly repeated (a solve has stages), becomes a
+// non-decreasing share of the whole.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ class PartMonitor final : public Monitor {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // The part takes the whole from `before` to `after`, both in [0, 1]. The whole began at `begun`. `outer`
-  // must outlive the monitor.
+  // The part takes the whole, begun at `begun`, from `before` to `after` in [0, 1]. `outer` must outlive the
+  // monitor.
   PartMonitor(Monitor& outer, std::string whole, std::string part, double before, double after,
               Clock::time_point begun);
 
@@ -24,7 +24,7 @@ class PartMonitor final : public Monitor {
   void warn(std::string_view sentence) override { outer_.warn(sentence); }
   void inform(std::string_view sentence) override { outer_.inform(sentence); }
   ResultStore* results() override { return results_; }
-  // For timed parts: stored results are not used.
+  // For timed parts: ignores stored results.
   void compute_afresh() { results_ = nullptr; }
 
  private:

@@ -32,7 +32,7 @@ struct Search {
   std::string identity;
 };
 
-// Appends the build id from the object's notes if the object contains one of the addresses.
+// Appends the build id if the object contains one of the addresses.
 int look_for_build_id(dl_phdr_info* object, std::size_t, void* of) {
   Search& search = *static_cast<Search*>(of);
   const auto covers = [&](const ElfW(Phdr) & part) {
@@ -97,7 +97,7 @@ std::string c_library_version() {
 #endif
 }
 
-// Different roundings differ in one of a few hundred or thousand values.
+// Two roundings differ in about one of a thousand values.
 const std::string& c_library_functions() {
   static const std::string digest = [] {
     constexpr std::uint64_t arguments = 2000;

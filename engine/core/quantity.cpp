@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A unit is numerator / denominator × 10^ten, with exact integers where the definition allows. The power of
-// ten is inserted into the number's text before conversion, so "250 um" is the double nearest to 250e-6, with
-// one rounding.
+// A unit is numerator / denominator × 10^ten, with exact integers where possible. The power of ten is
+// inserted into the number's text, so "250 um" is the double nearest to 250e-6, with one rounding.
 #include "engine/core/quantity.hpp"
 
 #include <algorithm>
@@ -30,8 +29,8 @@ struct Unit {
 constexpr double lb = 44482216152605, in2 = 64516, lb_kg = 45359237;
 constexpr double vickers = 9806650;  // Pa; HV counts kgf/mm²
 
-// Whole names precede prefixes: the k of kip, m of mil and a of atm are no prefixes. Of equally near names
-// the first is suggested, so common units precede rare ones.
+// Whole names precede prefixes: the k of kip, m of mil and a of atm are no prefixes. Common units first: of
+// equally near names the first is suggested.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
     {"\u00B5m", dimension::length, 1, 1, -6}, {"\u03BCm", dimension::length, 1, 1, -6},
@@ -74,7 +73,7 @@ constexpr Unit units[] = {
     {"lb", dimension::mass, lb_kg, 1, -8},
 };
 
-// Quotes for a message: at most 40 bytes, one line, whole UTF-8 characters.
+// For messages: at most 40 bytes, one line, whole UTF-8 characters.
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string result = "\"";
@@ -177,7 +176,6 @@ class Reader {
     return rest_.empty();
   }
 
-  // Counts the number in `unit`; the dimension stays.
   void count_in(const Reader& unit) {
     numerator_ *= unit.denominator_;
     denominator_ *= unit.numerator_;
@@ -220,7 +218,7 @@ class Reader {
     if (negative) exponent_ = -exponent_;
   }
 
-  // Letters, %, _ and non-ASCII characters without other meaning.
+  // Letters, %, _ and other non-ASCII characters.
   std::size_t name_length() const {
     std::size_t n = 0;
     while (n < rest_.size()) {
@@ -308,7 +306,7 @@ class Reader {
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
-    // Hardness scales in kgf/mm² like HV, but over other indenter areas.
+    // In kgf/mm² like HV, but over other indenter areas.
     if (name == "HK" || name == "HB" || name == "HBW")
       refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
              "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
@@ -389,7 +387,7 @@ double parse_quantity_in(std::string_view text, std::string_view unit) {
   one.take_number_one();
   one.read_unit();
   const Dimension given = reader.result().dimension, wanted = one.result().dimension;
-  // "10" in a column "%" may mean 10 % or a factor of ten, so no unit is assumed.
+  // "10" in a column "%" may mean 10 % or a factor of ten.
   const bool untold = !has_unit && !unit.empty() && unit != "1";
   if (given != wanted || untold) {
     const std::string in = unit.empty() ? "without a unit" : "in " + std::string(unit);

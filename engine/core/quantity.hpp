@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Physical quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds the exponents
-// of metre, kilogram, second and radian. Angles differ from plain numbers. All values are SI (m, kg, s, rad,
-// Pa, N, …).
+// Physical quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds exponents of
+// metre, kilogram, second and radian, so angles differ from plain numbers. All values are SI.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +35,7 @@ inline constexpr Dimension acceleration{1, 0, -2, 0};
 inline constexpr Dimension frequency{0, 0, -1, 0};
 }  // namespace dimension
 
-// A name ("a length") and an accepted quantity ("250 um").
+// "a length"; "250 um".
 std::string describe(Dimension dimension);
 std::string example_quantity(Dimension dimension);
 // "m", "Pa", "J/m^2"; "" for a plain number.
@@ -50,34 +49,33 @@ struct Quantity {
   Dimension dimension;
 };
 
-// "<number> [unit]": a unit is a product such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next
-// unit only. A number without unit is dimensionless. "inf" and "nan" are refused. Decimal units round once:
-// "250 um" is the double nearest to 250e-6. Throws Error{bad_unit} with the text, the unreadable part and the
-// nearest unit.
+// "<number> [unit]": units are products such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next
+// unit only. No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is
+// the double nearest to 250e-6. Throws Error{bad_unit} with the text, the unreadable part and the nearest
+// unit.
 Quantity parse_quantity(std::string_view text);
 
-// A unit alone ("um" -> 1e-6 m), as in a table header "time [s]".
+// "um" -> 1e-6 m, as in a table header "time [s]".
 Quantity parse_unit(std::string_view text);
 
-// A quantity of one dimension, in SI. Throws Error{bad_unit} with both dimensions and an accepted example.
+// In SI. Throws Error{bad_unit} with both dimensions and an accepted example.
 double parse_quantity_as(std::string_view text, Dimension wanted);
 
-// The value counted in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05. Decimal units round once: ("0.1
-// um", "um") is 0.1. Throws Error{bad_unit} for different dimensions, and for a text without unit if `unit`
-// is not "".
+// The value in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05, with one rounding for decimal units.
+// Throws Error{bad_unit} for different dimensions, and for a text without unit unless `unit` is "".
 double parse_quantity_in(std::string_view text, std::string_view unit);
 
-// With a readable prefix: 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
+// 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
 
-// The prefixed unit for values up to a magnitude; for axes.
+// The prefixed unit for axes.
 struct DisplayUnit {
   std::string name;   // "um"
   double factor = 1;  // SI value of one unit
 };
 DisplayUnit display_unit(double largest_magnitude, Dimension dimension);
 
-// By the name from describe() without article ("length", "energy per area").
+// By its name in describe(), without article ("length", "energy per area").
 std::optional<Dimension> dimension_named(std::string_view name);
 std::vector<std::string> dimension_names();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Output of quantities: names of dimensions, examples, SI units and prefixes.
+// Output of quantities.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -97,7 +97,7 @@ DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) 
     return si == units.end() ? units.front() : *si;
   }
   DisplayUnit best = units.front();
-  // A value printed as 1000 of one unit becomes 1 of the next.
+  // 1000 of one unit, as printed, becomes 1 of the next.
   const double prints_as_one = 1 - 0.5 * elementary::pow(10.0, -digits);
   for (const DisplayUnit& unit : units)
     if (magnitude >= unit.factor * prints_as_one) best = unit;

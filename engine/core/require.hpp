@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Errors for unacceptable numbers and combinations. Keys check most script values earlier; these checks serve
-// callers in C++ and conditions on several numbers.
+// Errors for unacceptable numbers, for C++ callers and conditions on several numbers; keys check most script
+// values earlier.
 #pragma once
 
 #include <cmath>
@@ -16,14 +16,13 @@
 
 namespace asperity {
 
-// Text for messages.
 inline std::string metres(double length) { return format_quantity(length, dimension::length); }
 
 [[noreturn]] inline void refuse(std::string sentence, std::string hint) {
   throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
 }
 
-// Throws Error{bad_value} "`key` is VALUE UNIT" with the hint, unless `holds`.
+// Throws Error{bad_value} "`key` is VALUE UNIT" with the hint.
 template <class Number>
 void require(bool holds, std::string_view key, Number value, const char* unit, const char* hint) {
   if (holds) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the address or thread sanitizer is active; their memory exceeds operating-system limits. GCC
-// defines a macro, Clang a feature.
+// Whether the address or thread sanitizer is active, whose bookkeeping exceeds operating-system memory
+// limits. GCC defines a macro, Clang a feature.
 #pragma once
 
 namespace asperity {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reusable work spaces for the blocks of a parallel loop, one per concurrent block. The content is left from
-// the previous use. Thread-safe.
+// Reusable work spaces for parallel loops, one per concurrent block, with content from the previous use.
+// Thread-safe.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,6 @@ namespace asperity {
 template <class Scratch>
 class ScratchPool {
  public:
-  // Returns the work space at its end.
   class Loan {
    public:
     Loan(ScratchPool& pool, std::unique_ptr<Scratch> scratch) : pool_(pool), scratch_(std::move(scratch)) {}
@@ -31,7 +30,7 @@ class ScratchPool {
     std::unique_ptr<Scratch> scratch_;
   };
 
-  // `make` returns a unique_ptr<Scratch>; called if no work space is idle.
+  // `make` returns a unique_ptr<Scratch>.
   template <class Make>
   Loan borrow(const Make& make) {
     std::unique_ptr<Scratch> scratch;

@@ -55,7 +55,6 @@ std::string safe_file_name(std::string_view text) {
   }
   if (name.size() > longest) {
     name.resize(longest);
-    // Do not split a character.
     while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
     if (!name.empty() && static_cast<unsigned char>(name.back()) >= 0xC0) name.pop_back();
   }

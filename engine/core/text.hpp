@@ -19,12 +19,12 @@ std::string format_short(double value, int digits = 6);
 std::string format_bytes(std::int64_t bytes);
 // "`name`".
 std::string quoted(std::string_view name);
-// Otherwise argument-dependent look-up finds std::quoted where <iomanip> is included.
+// Otherwise std::quoted is found where <iomanip> is included.
 std::string quoted(const std::string& name);
 inline std::string quoted(std::string& name) { return quoted(std::string_view(name)); }
 inline std::string quoted(const char* name) { return quoted(std::string_view(name)); }
-// Keeps letters, digits, `_`, `.` and non-ASCII characters; each other run becomes one `-`. No leading dot or
-// `-`, no trailing `-`, at most 120 bytes, never empty.
+// Keeps letters, digits, `_`, `.` and non-ASCII characters; other runs become one `-`. No leading dot or `-`,
+// no trailing `-`, at most 120 bytes, never empty.
 std::string safe_file_name(std::string_view text);
 // "a", "a or b", "a, b or c".
 std::string joined(std::span<const std::string> items, std::string_view last = " or ");
@@ -32,18 +32,17 @@ std::string joined(std::span<const std::string> items, std::string_view last = "
 // Bytes of an incomplete UTF-8 character at the end, 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
 
-// Replaces control characters (except tabs and line ends) and invalid UTF-8 by question marks. Linear.
+// Replaces control characters (except tabs and line ends) and invalid UTF-8 by '?'. Linear.
 std::string plain_text(std::string text);
 
 std::string without_traceback(const std::string& message);
 
-// The candidate with the smallest edit distance, ignoring case, a transposition counting one; empty if none
-// is near.
+// By edit distance, ignoring case, a transposition counting 1; empty if none is near.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 // " (did you mean `x`?)" or empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
-// Only decimal digits and at most 64 bits; otherwise none.
+// None for other text or beyond 64 bits.
 std::optional<std::uint64_t> count_in(std::string_view text);
 
 }  // namespace asperity

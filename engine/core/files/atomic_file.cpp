@@ -35,7 +35,7 @@ constexpr std::string_view part_ending = ".part";
 constexpr std::size_t place_digits = 8, random_digits = 16;
 constexpr auto longest_silence = std::chrono::hours(24);
 
-// Host and PID namespace, because a process number is unique only inside them.
+// A process number is unique only on one host and in one PID namespace.
 std::string place_of_this_process() {
   utsname system{};
   const std::string host = ::uname(&system) == 0 ? system.nodename : "";

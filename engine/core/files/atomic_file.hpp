@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Atomic replacement of a file: written under a temporary name in the same folder, then renamed. A reader
-// sees the old file or the complete new file; a failed write leaves the old file. By default the write does
-// not wait for the disk: a power cut may lose the last moments, a kill does not.
+// Atomic replacement of a file: written under a temporary name in the same folder, then renamed. Readers see
+// the old or the complete new file; a failed write leaves the old file. By default without waiting for the
+// disk: a power cut may lose the last moments, a kill does not.
 //
-// Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER is 8 digits for the host, up to 10 for the
-// process and 64 random bits, so that processes on several hosts and in containers never share a file. A
-// killed writer leaves its part; the name shows whether the writer may still run.
+// Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER contains host (8 digits), process (up to 10) and
+// 64 random bits, so that processes on several hosts and in containers never share a file. A killed writer
+// leaves its part; the name shows whether the writer may still run.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@
 
 namespace asperity {
 
-// Whether the content reaches the disk before the rename. The name is on the disk once the folder is
+// Whether the content reaches the disk before the rename. The name reaches the disk with the folder
 // (core/files/disk.hpp).
 enum class Durable { no, yes };
 
-// Wording of errors: for a run (mentions `--out`), or for data files (also explains a missing folder and the
-// name of a folder).
+// Wording of errors: for a run (mentions `--out`), or for data files (explains a missing folder or the name
+// of a folder).
 enum class FileWords { run, data };
 
-// Not thread-safe. Two objects of one target are independent; the last commit wins.
+// Not thread-safe. Objects of one target are independent; the last commit wins.
 class AtomicFile {
  public:
   // Throws Error{bad_file} for a device or pipe, which the rename would replace by a file.
   explicit AtomicFile(std::filesystem::path target, FileWords words = FileWords::run);
-  // Removes the temporary file if not committed.
+  // Removes an uncommitted temporary file.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -35,7 +35,7 @@ class AtomicFile {
   const std::filesystem::path& temporary() const { return temporary_; }
   // Appends; the first call creates the file. Throws Error{bad_file}.
   void write(std::string_view bytes, unsigned mode = 0666);
-  // Renames the file. Throws Error{bad_file}.
+  // Throws Error{bad_file}.
   void commit(Durable durable = Durable::no);
 
  private:
@@ -48,29 +48,29 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// Throws Error{bad_file}; an earlier file then stays unchanged.
+// On Error{bad_file}, an earlier file stays unchanged.
 void write_atomically(const std::filesystem::path& target, std::string_view content,
                       Durable durable = Durable::no, unsigned mode = 0666);
 
-// Replaces a file with several hard links by a copy, so that writes do not change the other names. Other
-// files stay. Throws Error{bad_file}.
+// Replaces a file with several hard links by a copy, so that writes leave the other names unchanged. Throws
+// Error{bad_file}.
 void part_from_other_names(const std::filesystem::path& file);
 
-// A unique temporary name for `target`, at most 255 bytes. The extension is last, because some writers derive
-// the format from it.
+// A unique temporary name, at most 255 bytes, with the extension last, because some writers derive the format
+// from it.
 std::filesystem::path part_beside(const std::filesystem::path& target);
 
 // Call before the process loses access to /proc, which identifies the writer's host.
 void find_own_place();
 
-// Recognises part names of this and earlier versions.
+// Of this or an earlier version.
 bool is_part(const std::filesystem::path& file);
 
-// Whether the writer has ended on this host, or the part is unchanged for a day.
+// The writer ended on this host, or the part is unchanged for a day.
 bool is_abandoned(const std::filesystem::path& part);
 
 // Removes parts from a folder, without following links; recursive if `deep`. `all` requires that no other
-// process writes there. Unreadable or undeletable files stay. Returns the number of removed parts.
+// process writes there. Skips undeletable files. Returns the number removed.
 enum class Parts { abandoned, all };
 int sweep_parts(const std::filesystem::path& folder, Parts which, bool deep = false);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Serialisation of values in memory representation, bit for bit, between processes of one build on one kind
-// of machine. The reader checks all lengths and never reads past the end. Not for files that outlive a build.
+// Values in memory representation, bit for bit, between processes of one build and machine type. The reader
+// checks all lengths. Not for files that outlive a build.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}
 
-  // All functions throw Error{bad_file} for truncated or invalid bytes.
+  // All throw Error{bad_file} for truncated or invalid bytes.
   template <class T>
   T number() {
     static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
@@ -53,7 +53,7 @@ class ByteReader {
     if (value > 1) damaged();
     return value == 1;
   }
-  // Number of following items of at least `least` bytes each.
+  // Number of following items, each at least `least` bytes long.
   std::size_t count(std::size_t least = 1) {
     const auto value = number<std::uint64_t>();
     if (value > left_.size() / least) damaged();

@@ -55,7 +55,7 @@ void append_whole(int descriptor, std::string_view content, const std::filesyste
   const off_t before = ::lseek(descriptor, 0, SEEK_END);
   const int reason = write_all(descriptor, content);
   if (reason == 0) return;
-  // If the truncation fails too, the first reason is reported.
+  // If the truncation also fails, report the first reason.
   if (before >= 0 && ::ftruncate(descriptor, before) != 0) errno = 0;
   throw_file_error("write", path, reason);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complete writes, waiting for the disk, and sentences for system errors with file name and reason ("no space
-// left on device"). A written and renamed file (core/files/atomic_file.hpp) survives a kill at once. It
-// survives a power cut only after the disk has its content and the folder's names.
+// Complete writes, waiting for the disk, and system errors as sentences. A written and renamed file
+// (core/files/atomic_file.hpp) survives a kill at once, a power cut only after the disk has its content and
+// the folder's names.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,20 @@
 
 namespace asperity {
 
-// "cannot write `path`: <reason>" for the errno value `reason`.
+// "cannot write `path`: no space left on device"; `reason` is an errno value.
 [[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path, int reason);
 
-// Writes all bytes to a file, socket or pipe, repeating partial writes. Returns 0 or the error number.
+// To a file, socket or pipe; repeats partial writes. Returns 0 or the error number.
 int write_all(int descriptor, std::string_view bytes);
 
-// Appends all bytes or truncates the file to its old length, so that the file ends with a whole line. Throws
+// Appends all bytes or restores the old length, so that the file ends with a whole line. Throws
 // Error{bad_file} naming `path`.
 void append_whole(int descriptor, std::string_view content, const std::filesystem::path& path);
 
-// Appends to an existing file; returns false if the file is missing, a link, or has several hard links.
-// Throws as append_whole.
+// False if the file is missing, a link, or has several hard links. Throws as append_whole.
 bool append_to_existing(const std::filesystem::path& path, std::string_view content);
 
-// Waits until the disk has the file's content or the folder's names; milliseconds. Throws Error{bad_file}.
+// For a file's content or a folder's names; milliseconds. Throws Error{bad_file}.
 void wait_for_disk(const std::filesystem::path& file_or_folder);
 
 }  // namespace asperity

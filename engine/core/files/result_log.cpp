@@ -146,8 +146,8 @@ std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
   }
 }
 
-// Reads new files and records of other processes. The folder's time reveals new files, except within the
-// clock step of the last look; names are therefore read until the time is one second old.
+// Reads new files and records of other processes. The folder's time changes with new files, except within one
+// clock step; names are therefore read until the time is one second old.
 void ResultLog::look() {
   std::error_code missing;
   const fs::file_time_type changed = fs::last_write_time(folder_, missing);
@@ -199,7 +199,7 @@ void ResultLog::go_through(int number) {
       file.read += static_cast<std::int64_t>(length);
       rest.remove_prefix(length);
     }
-    // The record exceeds this read, or its writer has not finished.
+    // The record exceeds this read, or is unfinished.
     if (rest.size() == text.size() || file.read >= facts.st_size) return;
   }
 }
@@ -263,11 +263,11 @@ void ResultLog::wait_for_disk() {
   next_sync_ = std::chrono::steady_clock::now() + sync_every;
   if (reason != 0) throw_file_error("write", path, reason);
   synced_ = std::max(synced_, written);
-  // Another process may delete the file to free space; later records need a new file.
+  // Another process may delete the file to free space.
   if (gone && own_ >= 0 && files_[static_cast<std::size_t>(own_)].path == path) leave_file();
 }
 
-// A new random name: other processes may remember the read position of a deleted file.
+// Under a new random name, because other processes may remember their position in a deleted file.
 void ResultLog::begin_file() {
   std::error_code problem;
   fs::create_directory(folder_, problem);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Log of small results in a store. An ensemble stores thousands of results; one file and one disk wait for
-// each would cost more than a press. Each process appends to its own randomly named log and reads all logs of
-// the folder, so that processes may share the folder. A record is its length, digest, name and bytes
-// (ByteWriter: for one build), appended in one system call: a kill loses no record, and changed records are
-// reported and ignored. The log syncs at most once per second while records arrive, and in wait_for_disk().
+// Log of small results in a store: thousands of cases would cost more with a file and a disk wait each than
+// the presses. Each process appends to its own randomly named log and reads all logs of the folder, which
+// processes may share. A record is length, digest, name and bytes (ByteWriter: for one build), appended in
+// one piece: a kill loses no record; altered records are reported and ignored. Syncs at most once per second
+// while records arrive, and in wait_for_disk().
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@
 
 namespace asperity {
 
-// Key and result as bytes. result_from() expects a reader behind the key and throws Error{bad_file} for other
+// Key and result as bytes. result_from() expects the key to be read, and throws Error{bad_file} for other
 // bytes.
 std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields);
 FoundResult result_from(ByteReader& in);
@@ -33,25 +33,25 @@ class ResultLog {
   static constexpr std::string_view folder_name = "small";  // inside the store's folder
   // Bytes of a record besides its result.
   static constexpr std::int64_t bytes_beside = 72;
-  // A log file exceeds this length by at most one record.
+  // Exceeded by at most one record.
   static constexpr std::int64_t longest_file = std::int64_t{64} << 20;
 
-  // `note` receives damaged files with a sentence. The constructor reads and creates nothing.
+  // `note` receives damaged files. The constructor reads and creates nothing.
   using Note = std::function<void(const std::string& file, std::string sentence)>;
   ResultLog(std::filesystem::path folder, Note note) : folder_(std::move(folder)), note_(std::move(note)) {}
   ~ResultLog();
   ResultLog(const ResultLog&) = delete;
   ResultLog& operator=(const ResultLog&) = delete;
 
-  // Finds records of all processes by name, 32 characters; also returns the file.
+  // Finds records of all processes by name, 32 characters.
   struct Found {
     std::string bytes;
     std::filesystem::path file;
   };
   std::optional<Found> find(const std::string& name);
-  // Returns the record's file. Throws Error{bad_file}.
+  // Returns the file. Throws Error{bad_file}.
   std::filesystem::path keep(const std::string& name, std::string_view bytes);
-  // Waits until the disk has all records. Throws Error{bad_file}.
+  // Throws Error{bad_file}.
   void wait_for_disk();
 
  private:
@@ -67,7 +67,7 @@ class ResultLog {
     bool own = false;       // already in places_
   };
 
-  // Private functions expect the mutex to be held.
+  // With the mutex held.
   void look();
   void go_through(int file);
   std::optional<std::string> record_at(const Place& place, std::string_view name);
@@ -80,7 +80,7 @@ class ResultLog {
   std::unordered_map<std::string, Place> places_;
   std::map<std::string, int> known_;  // file names and indices into files_
   std::vector<File> files_;
-  std::filesystem::file_time_type listed_{};  // the folder's time at the last listing
+  std::filesystem::file_time_type listed_{};  // at the last listing
   bool listed_once_ = false, settled_ = false;
   int own_ = -1, descriptor_ = -1;         // the file being written
   std::int64_t written_ = 0, synced_ = 0;  // numbers of records

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Store for results of heavy calls. A result depends only on the arguments of its call, which form the key; a
-// repeated call reads the result instead of computing. Calls find the store through their monitor; without a
-// store, calls compute at no extra cost. A stored result includes its original cost, so all numbers are equal
-// either way.
+// Store for results of heavy calls. A result depends only on the arguments of its call, which form the key.
+// Calls find the store through their monitor; without a store, they compute at no extra cost. A stored result
+// keeps its original cost, so all numbers are equal either way.
 #pragma once
 
 #include <limits>
@@ -18,22 +17,22 @@
 
 namespace asperity {
 
-// A result without its fields. Names are unique within each list.
+// Names are unique within each list.
 struct ResultFacts {
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
   bool however_cheap = false;  // store even if recomputation is faster
-  bool one_of_many = false;    // one of thousands of small results, which share a file and a disk wait
-  double least_seconds = 0;    // not stored if the cost was lower
-  // Processor time of the calling thread, if known: on a busy machine, a cheap result may take long.
+  bool one_of_many = false;    // small; many share a file and a disk wait
+  double least_seconds = 0;    // not stored below this cost
+  // Of the calling thread, if known: on a busy machine, a cheap result may take long.
   double processor_seconds = std::numeric_limits<double>::infinity();
 };
 
 struct FoundResult : ResultFacts {
   std::vector<std::pair<std::string, Field>> fields;
 
-  // Throw Error{internal} if the name is missing.
+  // Throw Error{internal} for unknown names.
   double number(std::string_view name) const;
   const std::string& text(std::string_view name) const;
   Field take(std::string_view name);
@@ -45,9 +44,9 @@ using KeptFields = std::vector<std::pair<std::string, const Field*>>;
 class ResultStore {
  public:
   virtual ~ResultStore() = default;
-  // None if the key is unknown or the data is damaged.
+  // None for unknown keys and damaged data.
   virtual std::optional<FoundResult> find(const std::string& key) = 0;
-  // `call` describes the origin. Never fails; the store reports results that it cannot keep.
+  // `call` describes the origin. Never fails; the store reports lost results.
   virtual void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                     const KeptFields& fields) = 0;
 };
@@ -58,7 +57,7 @@ struct Costed {
   Cost cost;  // of the original computation
 };
 
-// Converts a kind of result to a record and back, exact to the last bit.
+// Conversion to a record and back, exact to the last bit.
 template <class Result>
 struct ResultForm {
   std::string_view call;
@@ -66,8 +65,8 @@ struct ResultForm {
   Result (*read)(FoundResult& found);
 };
 
-// Returns the stored result for `key()`, or computes and stores it. `key` is called only with a store.
-// Transforms of a stored result are counted as if computed.
+// Returns the stored result, or computes and stores it. `key` is called only with a store. Transforms of a
+// stored result count as if computed.
 template <class Result, class Key, class Compute>
 Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key key, Compute compute) {
   ResultStore* store = monitor.results();

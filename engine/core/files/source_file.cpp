@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t piece = std::size_t{1} << 20;
 
-// `expected` comes from the file system and may be wrong; it only estimates the memory.
+// `expected`, from the file system, may be wrong.
 template <class Bytes, class Advance>
 void read_to_end(std::ifstream& stream, const std::string& path, std::size_t expected, Bytes& bytes,
                  const Advance& advance) {

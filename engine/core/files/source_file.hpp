@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A measured file in memory for the readers. The whole file is read once into counted memory, so that readers
-// never access the disk and file size bounds all later allocations. Not for files larger than memory.
+// A measured file, read once into counted memory, so that readers never access the disk and the file size
+// bounds all allocations. Not for files larger than memory.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,11 @@ namespace asperity {
 
 class SourceFile {
  public:
-  // Throws Error{bad_file} for a missing, unreadable or empty path or one that is no plain file;
-  // Error{out_of_memory} if too large.
+  // Throws Error{bad_file} if missing, unreadable, empty or no plain file, Error{out_of_memory} if too large.
   SourceFile(std::string path, Monitor& monitor);
-  // Copies bytes from memory. `name` is used in errors and for the extension. Throws Error{bad_file} if
-  // empty.
+  // Copies bytes; `name` serves errors and the extension. Throws Error{bad_file} if empty.
   SourceFile(std::string name, std::string_view bytes);
-  // Takes over bytes, for example from an archive. Throws Error{bad_file} if empty.
+  // Takes over bytes, for example of an archive. Throws Error{bad_file} if empty.
   SourceFile(std::string name, Array<char> bytes, std::string extension);
 
   const std::string& path() const { return path_; }
@@ -29,7 +27,7 @@ class SourceFile {
   std::string_view bytes() const { return {bytes_.data(), bytes_.size()}; }
   // Without a UTF-8 byte-order mark.
   std::string_view text() const;
-  // False if the first few thousand bytes contain a zero.
+  // False for a zero among the first few thousand bytes.
   bool looks_like_text() const;
 
  private:
@@ -39,16 +37,15 @@ class SourceFile {
   Array<char> bytes_;
 };
 
-// Reads a script or a file of a run; may be empty, a pipe or a device. Throws Error{bad_file} for read
-// errors, Error{out_of_memory} as above.
+// Content of a script or run file, which may be empty, a pipe or a device. Throws Error{bad_file},
+// Error{out_of_memory}.
 std::string text_of_file(const std::string& path);
-// Throws Error{out_of_memory} if `bytes` exceed the memory limit or, without a limit, a quarter of the
-// machine's memory.
+// Throws Error{out_of_memory} beyond the memory limit or, without a limit, a quarter of the machine's memory.
 void require_room_for(const std::string& path, std::uintmax_t bytes);
 
 // Lower case, without the dot.
 std::string file_extension(const std::string& path);
-// "\"path\"", for errors.
+// "\"path\"".
 std::string file_name(const std::string& path);
 // Throws Error{bad_file}: file name, a blank, `finding`; then the hint.
 [[noreturn]] void refuse_file(const SourceFile& file, const std::string& finding,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder for temporary files, removed with its content by the destructor. The name contains the writer
-// (atomic_file.hpp). Each new folder removes folders of killed writers from the same parent.
+// A temporary folder, removed with its content by the destructor. Its name contains the writer
+// (atomic_file.hpp); each new folder removes those of killed writers from the same parent.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Conversion to UTF-8 of UTF-16 (spreadsheets' "Unicode text") and of one-byte encodings (older loggers).
+// UTF-8 from UTF-16 (spreadsheets' "Unicode text") and one-byte encodings (older loggers).
 #pragma once
 
 #include <optional>
@@ -13,8 +13,7 @@ bool is_utf16(std::string_view bytes);
 // Nothing for other bytes. Unpaired surrogates become U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 
-// Short texts: valid UTF-8 is unchanged; other bytes are Windows-1252, which extends Latin-1 by dashes,
-// quotes and the euro sign.
+// Valid UTF-8 is unchanged; otherwise bytes are Windows-1252, Latin-1 plus dashes, quotes and the euro sign.
 std::string utf8_or_cp1252(std::string_view text);
 
 }  // namespace asperity

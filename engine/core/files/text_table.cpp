@@ -22,7 +22,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-// Every comma is between two digits, and no cell contains two commas.
+// Every comma is between digits, at most one per cell.
 bool commas_are_decimal(std::string_view line) {
   bool several_cells = false, comma_in_cell = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -100,7 +100,7 @@ Separator separator_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return Separator::semicolon;
   if (line.find(',') != std::string_view::npos && !commas_are_decimal(trimmed(line))) return Separator::comma;
   if (line.find('\t') == std::string_view::npos) return Separator::blank;
-  // Blanks inside a cell mean that tabs are blanks too.
+  // Blanks inside a cell: tabs are blanks too.
   for (const std::string_view cell : cells_of(line, Separator::tab))
     if (trimmed(cell).find(' ') != std::string_view::npos) return Separator::blank;
   return Separator::tab;

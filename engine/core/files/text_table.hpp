@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of numbers in text formats: any line ends; cells separated by blanks, tabs, commas or semicolons;
-// decimal points or commas; comments; missing cells. Columns have no meaning here.
+// Tables of numbers in text formats: any line ends; blanks, tabs, commas or semicolons as separators; decimal
+// points or commas; comments; missing cells.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,14 @@
 
 namespace asperity {
 
-// Line ends: LF, CRLF, CR CRLF (some stylus profilers) or CR.
+// LF, CRLF, CR CRLF (some stylus profilers) or CR.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : text_(text) {}
-  // False at the end. `line` has no line end; blanks are preserved.
+  // False at the end. `line` excludes the line end, not blanks.
   bool next(std::string_view& line);
   // Number of the last line, from 1.
   std::size_t number() const { return number_; }
-  // Bytes consumed.
   std::size_t position() const { return position_; }
 
  private:
@@ -34,11 +33,11 @@ class LineReader {
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-// For errors: at most 24 bytes, whole UTF-8 characters, unprintable characters as '?'.
+// For errors: at most 24 bytes, whole UTF-8 characters, '?' for unprintable ones.
 std::string shown(std::string_view text);
 
-// Separator of the cells. Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2"
-// three; "1,5" alone is two cells.
+// Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2" three; "1,5" alone is
+// two.
 enum class Separator { blank, tab, comma, semicolon };
 Separator separator_of(std::string_view line);
 std::vector<std::string_view> cells_of(std::string_view line, Separator separator);
@@ -61,12 +60,11 @@ struct TextTable {
   Array<double> values;  // row by row; NaN for holes
   int columns = 0, rows = 0;
 };
-// Reads the remaining lines. Text after # is a comment. A last column without values is dropped (separators
-// at line ends). Throws Error{bad_file} naming the line of an unreadable or infinite cell or of a row with
-// another length.
+// Reads the remaining lines. Text after # is a comment. Drops an empty last column (separators at line ends).
+// Throws Error{bad_file} naming the line of an unreadable or infinite cell or of a row with another length.
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor);
 
-// Warns of a last line without line end, because a truncated file looks the same.
+// Warns of a last line without line end: the file may be truncated.
 void warn_if_cut(const SourceFile& file, Monitor& monitor);
 
 }  // namespace asperity

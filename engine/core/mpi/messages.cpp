@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A message is its length, then pieces within MPI's int count. Sends are buffered until complete, so that two
-// processes may send to each other without deadlock.
+// A message is its length, then pieces within MPI's int count. Sends are buffered, so that two processes may
+// send to each other without deadlock.
 #include "engine/core/mpi/messages.hpp"
 
 #include <dlfcn.h>

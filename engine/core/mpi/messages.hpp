@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of asperity-mpi.so: byte messages between the processes of mpirun. All calls come from one
-// thread. Plain C, for late loading.
+// Interface of asperity-mpi.so: byte messages between the processes of mpirun, from one thread each. Plain C,
+// for late loading.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,6 @@ struct AsperityMpi {
   int (*receive)(int* from, char** bytes, std::uint64_t* length);
   // Waits for delivery of all sent messages, then leaves. Collective.
   void (*close)();
-  // Ends all processes.
   void (*abort)(int status);
 };
 

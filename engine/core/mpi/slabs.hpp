@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of asperity-mpi.so for fields spread over processes in slabs of rows: gather, row exchange, and
-// FFTW's in-place MPI transforms. All functions except `shape` are collective, in the same order, from one
-// thread each. Plain C, for late loading.
+// Interface of asperity-mpi.so for fields in slabs of rows over processes: gather, row exchange, FFTW's
+// in-place MPI transforms. Except `shape`, all functions are collective, in the same order, from one thread
+// each.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct AsperitySlabs {
   // Counts of doubles per process, in order.
   void (*exchange)(const double* out, const int* out_counts, double* in, const int* in_counts);
   AsperitySlabShape (*shape)(int nx, int ny);
-  // `buffer` must be 64-byte aligned. Null without a plan. FFTW_ESTIMATE, so that no timing selects the plan.
+  // `buffer`: 64-byte aligned. Null without a plan. FFTW_ESTIMATE, so that no timing selects the plan.
   void* (*plan)(int nx, int ny, double* buffer);
   // From rows of nx values, 2(nx/2 + 1) apart, to waves, ny complex values each, or back; unnormalised.
   void (*transform)(void* plan, int back);
