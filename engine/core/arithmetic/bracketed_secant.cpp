@@ -10,10 +10,10 @@ namespace asperity {
 
 namespace {
 constexpr int slow_steps = 1;          // slow steps before the bracket is halved
-constexpr double enough_gain = 0.3;    // fraction of the error; a step below it is not slow
+constexpr double enough_gain = 0.3;    // error ratio below which a step is not slow
 constexpr int few_short = 2;           // steps in a row below the target before steps grow
 constexpr double furthest = 100;       // largest ratio to the last place
-constexpr double off_the_ends = 0.01;  // fraction of the bracket between a chord step and the ends
+constexpr double off_the_ends = 0.01;  // fraction of the bracket between a chord step and its ends
 constexpr double near_the_end = 0.3;   // fraction of the initial upper end
 constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
@@ -38,7 +38,7 @@ double BracketedSecant::secant() const {
   const auto ratio = [](double x, double y) { return elementary::log(x / y); };
   if (scale_ == Scale::logarithmic && end_.value < unknown && last_.at > near_the_end * end_.at &&
       last_.at < end_.at && last_.value < end_.value) {
-    // Uses the deficits from the upper end, where the function may approach as any power.
+    // From the deficits to the upper end, which the function may approach as any power.
     const double lacks = end_.at - last_.at, power = [&] {
       if (first || !(before_.at < end_.at && before_.value < end_.value)) return usual_power;
       return ratio(end_.value - last_.value, end_.value - before_.value) / ratio(lacks, end_.at - before_.at);
@@ -53,8 +53,7 @@ double BracketedSecant::secant() const {
     const double by_power = elementary::pow(wanted_ / last_.value, usual_power);
     double factor = by_power;
     if (end_.value < unknown && last_.value < wanted_ && last_.at < end_.at) {
-      // The step of a function that flattens near its end is between the usual power and the chord to the
-      // end.
+      // Between the usual power and the chord to the end, for a function that flattens near its end.
       const double chord = ratio(end_.value, last_.value) / ratio(end_.at, last_.at);
       const double by_chord = elementary::exp(ratio(wanted_, last_.value) / chord);
       factor = std::sqrt(by_power * std::max(by_power, by_chord));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves f(place) = wanted for an expensive, non-decreasing f. The next place is the secant through the last
-// two values, inside the bracket; after slow steps the bracket is halved. Without an upper value, steps that
-// fall short repeatedly grow. A value too rough to decide its side leaves the bracket unchanged. The
-// logarithmic scale takes the secant of logarithms while f follows a power of the place; near a known upper
-// end it uses the deficits from the end.
+// Solves f(place) = wanted for an expensive, non-decreasing f by the secant through the last two values,
+// inside a bracket that is halved after slow steps. Without an upper value, steps that fall short repeatedly
+// grow. A value too rough to decide its side leaves the bracket unchanged. The logarithmic scale uses
+// logarithms while f follows a power of the place, and the deficits from a known upper end near it.
 #pragma once
 
 #include <limits>
@@ -34,10 +33,10 @@ class BracketedSecant {
 
  private:
   double secant() const;
-  // Whether the last value is nearer to the line through the two previous values than to their power law.
+  // Whether the last value is nearer to the line than to the power law through the two previous values.
   bool bends_as_a_line() const;
   double width() const;
-  // The place at a share of the bracket, or at the chord through its values.
+  // At a share of the bracket, or at the chord through its values.
   double part_of_the_way(double share) const;
   double chord() const;
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each fast function computes high + low with a proven error bound. If high + (low ± bound) round alike, the
+// Each fast function computes high + low with an error bound. If high + (low ± bound) round alike, the
 // rounded value is the result; otherwise MPFR decides. Tables reduce the argument until three or four terms
-// of a series suffice; the first one or two terms are exact. MPFR also handles rare cases: huge angles,
-// subnormal results, zeros, infinities.
-// angles, subnormal results, zeros and infinities.
+// of a series suffice; the first one or two are exact. MPFR also handles huge angles, subnormal results,
+// zeros and infinities.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <mpfr.h>
@@ -69,7 +68,7 @@ template <class Function, class... Arguments>
   return mpfr_get_d(result.value, MPFR_RNDN);
 }
 
-// high + low with an absolute error of at most `bound`.
+// error| <= bound.
 struct Unrounded {
   double high, low, bound;
 };
@@ -83,7 +82,7 @@ inline bool decided(const Unrounded& value, double& result) {
 // A logarithm with a relative error of at most 2^-67.
 //
 // x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is exact in two parts: log x = e ln 2 + log c + r
-// − r²/2 + r³/3 … The first three terms are summed exactly, and r² comes from a short part of r.
+// − r²/2 + r³/3 … The first three terms are summed exactly, with r² from a short part of r.
 inline Pair logarithm(double x, double x_low = 0) {
   constexpr std::uint64_t first = 0x3fe6800000000000;  // 360/512
   constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
@@ -194,7 +193,7 @@ inline Unrounded sine_of(const Angle& b) {
 }
 inline Unrounded cosine_of(const Angle& b) { return turned(sine_table[256 - b.j], sine_table[b.j], -1, b); }
 
-// sin (or cos, a quarter further) of the reduced angle; false if undecided.
+// sin (or cos, one quarter on) of the reduced angle; false if undecided.
 inline bool sine_in_quarter(const Angle& angle, unsigned quarter, double& result) {
   const bool settled = decided(quarter % 2 == 0 ? sine_of(angle) : cosine_of(angle), result);
   if (quarter >= 2) result = -result;
@@ -359,7 +358,7 @@ double hypot(double x, double y) {
     double long_side = std::abs(x), short_side = std::abs(y);
     if (long_side < short_side) std::swap(long_side, short_side);
     if (short_side <= long_side * 0x1p-28) {
-      // Half a last place is at least 2^-54 of the longer side; the shorter side adds at most 2^-57.
+      // Half a last place is at least 2^-54 of the longer side; the shorter adds at most 2^-57.
       if (short_side == 0 || long_side >= 0x1p-900) return long_side;
     } else if (long_side >= 0x1p-960 && long_side <= 0x1p1022) {
       const std::uint64_t exponent = std::bit_cast<std::uint64_t>(long_side) >> 52;

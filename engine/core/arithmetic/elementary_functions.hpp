@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Correctly rounded elementary functions: each returns the double nearest to the exact value (ties to even),
-// so that results have the same bits with every processor, compiler and C library. C libraries select fused
-// multiply-add by processor and differ in the last bit. Method: Ziv (1991), with tables and short polynomials
-// in pairs of doubles of 66 bits or more; MPFR decides about one argument in several thousand. Functions
-// exact by IEEE 754 (sqrt, fma, fmod, remainder, ldexp, floor) are omitted.
+// Correctly rounded elementary functions (nearest, ties to even): the same bits with every processor,
+// compiler and C library. C libraries select fused multiply-add by processor and differ in the last bit.
+// Method: Ziv (1991), with tables and short polynomials in pairs of doubles (66 bits or more); MPFR decides
+// about one argument in several thousand. Functions exact by IEEE 754 (sqrt, fma, fmod, remainder, ldexp,
+// floor) are omitted.
 //
-// All are thread-safe and expect the default rounding mode (rounding_mode.hpp). Special values, infinities
-// and signed zeros follow C's Annex F; floating-point exceptions are not guaranteed. "Fast" means up to twice
-// the time of the C library, "slow" some microseconds.
+// Thread-safe; expect the default rounding mode (rounding_mode.hpp). Special values, infinities and signed
+// zeros follow C's Annex F; floating-point exceptions are not guaranteed. "Fast" means up to twice the time
+// of the C library, "slow" some microseconds.
 #pragma once
 
 namespace asperity::elementary {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables for elementary_functions.cpp, exact to 80 bits or more: powers of 2^(1/128), sines of multiples of
-// π/512, reciprocals and their logarithms. Computed at compile time in pairs of doubles. High parts are
+// Tables for elementary_functions.cpp, exact to 80 bits or more, computed at compile time in pairs of
+// doubles: powers of 2^(1/128), sines of multiples of π/512, reciprocals and their logarithms. High parts are
 // short, so that products with a short factor are exact.
 #pragma once
 
@@ -43,7 +43,7 @@ constexpr std::array<Pair, 128> powers_of_two() {
   return table;
 }
 
-// sin(jπ/512), j = 0 … 256, as multiples of 2^-26 and the rest: Taylor series of the sine to π/4, then of the
+// sin(jπ/512), j = 0 … 256, as multiples of 2^-26 and the rest: Taylor series of the sine, beyond π/4 of the
 // cosine.
 constexpr std::array<Pair, 257> sines() {
   std::array<Pair, 257> table{};

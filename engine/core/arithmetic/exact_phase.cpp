@@ -21,7 +21,6 @@ namespace asperity {
 
 namespace {
 
-// An MPFR number of fixed precision.
 class Real {
  public:
   explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
@@ -51,8 +50,8 @@ class Integer {
   mpz_t value_;
 };
 
-// cos(π·part/whole) for 0 ≤ part ≤ whole. Rational values (Niven) are exact, and the second quadrant mirrors
-// the first to the last bit.
+// cos(π·part/whole) for 0 ≤ part ≤ whole. Rational values (Niven) are exact; the second quadrant mirrors the
+// first to the last bit.
 void set_cosine(mpfr_ptr result, long part, long whole) {
   if (2 * part > whole) {
     set_cosine(result, whole - part, whole);
@@ -76,7 +75,7 @@ std::uint64_t fraction_of_turn(mpfr_ptr turns, mpz_ptr whole) {
   mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
   mpfr_add_d(turns, turns, 0.5, MPFR_RNDN);
   mpfr_get_z(whole, turns, MPFR_RNDD);
-  // GMP returns the low word of the magnitude, without the sign.
+  // GMP returns the low word without the sign.
   static_assert(sizeof(unsigned long) == sizeof(std::uint64_t));
   const std::uint64_t low = mpz_get_ui(whole);
   return mpz_sgn(whole) < 0 ? 0 - low : low;
@@ -104,7 +103,7 @@ void check(double gamma, double span, int cells, int directions, int n_max) {
                 "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
 }
 
-// For fewer turns per grid step, the resolution of the 64-bit fractions would be visible in the heights.
+// For fewer turns per grid step, the grain of 64-bit fractions would show in the heights.
 constexpr double smallest_step = 0x1p-32;
 
 mpfr_prec_t precision(double gamma, double span, int n_max) {
@@ -117,8 +116,8 @@ mpfr_prec_t precision(double gamma, double span, int n_max) {
 }  // namespace
 
 UnitPhase unit_phase(std::uint64_t turns) {
-  // Within an eighth of a turn of the nearest quarter, the angle is as exact as a double; quarters only swap
-  // and negate.
+  // Within an eighth of a turn of a quarter, the angle is exact to double precision; quarters only swap and
+  // negate.
   const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
   const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);

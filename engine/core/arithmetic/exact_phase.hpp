@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exact phases of plane waves with geometrically growing wave numbers. Wave (m, n), m = 1 … M, n = 0 … n_max,
-// makes u = γⁿ·(cos(πm/M), sin(πm/M))·span/cells turns per grid step. Doubles cannot resolve the phase long
-// before the published n_max = 100. Only the fraction of u matters: MPFR computes it once, stored in units of
-// 2⁻⁶⁴ turn. The phase at node i is i·increment modulo 2⁶⁴.
+// makes u = γⁿ·(cos(πm/M), sin(πm/M))·span/cells turns per grid step. Doubles lose the phase long before the
+// published n_max = 100. MPFR computes the fraction of u once, in units of 2⁻⁶⁴ turn; the phase at node i is
+// i·increment modulo 2⁶⁴.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct PhaseIncrements {
   }
 };
 
-// Limits: γ^n_max ≤ 2^2048, and the following counts.
+// Limits: γ^n_max ≤ 2^2048, and these counts.
 inline constexpr double max_wave_octaves = 2048;
 inline constexpr int max_wave_order = 4096;                       // n_max
 inline constexpr int max_wave_directions = 65536;                 // M
@@ -46,8 +46,8 @@ int greatest_wave_order(double gamma);
 // Precision: the bits of u before the point, 64 for the result and 64 guard bits, at least 384. Waves m and
 // M−m have exactly opposite increments in x and equal increments in y; cos and sin of 0, ±½ and ±1 are exact.
 // About 0.3 µs and 16 bytes per wave. Thread-safe; frees MPFR's cache. Throws Error{bad_value} naming
-// `gamma`, `n_max`, `M`, `span` or `cells`: `n_max` if n_max·log2 γ > 2048 or n_max > 4096; `span` if even
-// wave n_max makes less than 2⁻³² turn per step.
+// `gamma`, `n_max`, `M`, `span` or `cells`: `n_max` if n_max·log2 γ > 2048 or n_max > 4096; `span` if wave
+// n_max makes less than 2⁻³² turn per step.
 PhaseIncrements phase_increments(double gamma, double span, int cells, int directions, int n_max);
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counter-based random numbers: draw k of a stream is SplitMix64 of the stream's seed and k. A mode or
-// feature keeps its draw on any grid, in any order, on any thread. Source: Steele, Lea & Flood (2014), "Fast
-// splittable pseudorandom number generators".
+// Counter-based random numbers: draw k of a stream is SplitMix64 of the stream's seed and k, so draws do not
+// depend on grid, order or thread. Source: Steele, Lea & Flood (2014), "Fast splittable pseudorandom number
+// generators".
 #pragma once
 
 #include <cstdint>

@@ -2,9 +2,8 @@
 // Vectors of one processor register: width, two-operand shuffles, conversions between doubles, floats and
 // bytes. GCC 12 keeps wider vectors on the stack, which slows inner loops five to ten times.
 //
-// Private to sources compiled for one processor, because the width, and any class with a vector, differs
-// between them. Functions take vectors by reference: the calling convention of vectors depends on the
-// processor.
+// Private to sources compiled for one processor, because width and layout differ between them. Vectors are
+// passed by reference: their calling convention depends on the processor.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +29,8 @@ namespace register_vectors {
 template <class Number>
 inline constexpr int register_lanes = register_bytes / static_cast<int>(sizeof(Number));
 
-// `lanes` numbers. `Anywhere` has the alignment of one number. Use only pointers to `Anywhere`: Clang drops
-// its alignment from references and template arguments.
+// `lanes` numbers; `Anywhere` is aligned as one number. Use only pointers to `Anywhere`: Clang drops its
+// alignment from references and template arguments.
 template <class Number, int lanes = register_lanes<Number>>
 struct Of {
   typedef Number Vector __attribute__((vector_size(lanes * sizeof(Number)), may_alias));
@@ -64,7 +63,7 @@ template <int first>
 struct Stretch {
   static constexpr int of(int l) { return first + l; }
 };
-// Two rows of blocks of `step` lanes each: off-diagonal blocks exchange rows.
+// Two rows of blocks of `step` lanes: off-diagonal blocks exchange rows.
 template <int lanes, int step>
 struct UpperRow {
   static constexpr int of(int l) { return (l & step) != 0 ? l - step + lanes : l; }
@@ -84,7 +83,7 @@ inline __attribute__((always_inline)) void interleave(const Vector& a, const Vec
   shuffle<Interleaved<lanes, lanes>>(a, b, high);
   low = first;
 }
-// The inverse: a0 a1 … and b0 b1 … from a0 b0 a1 b1 …
+// The inverse of interleave.
 template <class Vector>
 inline __attribute__((always_inline)) void separate(const Vector& low, const Vector& high, Vector& a,
                                                     Vector& b) {
@@ -174,7 +173,7 @@ inline __attribute__((always_inline)) void widen(const Floats& from, Doubles& lo
   high = __builtin_convertvector(half, Doubles);
 }
 
-// GCC 12 needs several instructions for these conversions, and reads four bytes one by one.
+// GCC 12 needs several instructions for these conversions, and reads bytes one by one.
 #if defined(__AVX2__)
 inline __attribute__((always_inline)) void read(const float* from, Of<double, 4>::Vector& to) {
   to = reinterpret_cast<Of<double, 4>::Vector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));

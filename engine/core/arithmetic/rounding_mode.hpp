@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results are defined for rounding to nearest. A host program of the module may use another mode (interval
-// arithmetic), which must not change results.
+// Results are defined for rounding to nearest, even if the host of the module uses another mode (interval
+// arithmetic).
 #pragma once
 
 #include <cfenv>
 
 namespace asperity {
 
-// Sets rounding to nearest for this thread and threads started from it; restores the old mode. A few
-// nanoseconds.
+// For this thread and threads started from it; restores the old mode. A few nanoseconds.
 class RoundToNearest {
  public:
   RoundToNearest() : before_(std::fegetround()) {

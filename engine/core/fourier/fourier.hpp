@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real 1-D and 2-D Fourier transforms: rows, then columns, in batches of lanes (fourier_batch.hpp). The bits
+// Real 1-D and 2-D Fourier transforms, rows before columns, in batches of lanes (fourier_batch.hpp); the bits
 // depend neither on threads nor on the processor. Unnormalised forwards; the inverse divides by n. Tables are
 // cached per length. Thread-safe. Any length from 1; a prime factor above 31 costs about six times as much.
 #pragma once
@@ -39,9 +39,9 @@ class HalfSpectrum {
   Array<std::complex<double>> bins_;
 };
 
-// One transform each by cost::count_transforms.
+// Each counts one transform (cost::count_transforms).
 HalfSpectrum fourier_forward(const Field& field);
-// Overwrites the spectrum. Ignores imaginary parts of bins that must be real.
+// Overwrites the spectrum; ignores imaginary parts of real bins.
 Field fourier_inverse(HalfSpectrum spectrum);
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fourier transforms of any length for a batch of signals in lanes (fourier_lanes.hpp), with the same bits on
-// every processor. A length with a prime factor above 31 is a chirp convolution (Bluestein 1970) of about
-// twice the length, at about six times the cost. Two real signals share one complex transform. Unnormalised.
+// every processor. Lengths with a prime factor above 31 use a chirp convolution (Bluestein 1970) of about
+// twice the length, at six times the cost. Two real signals share one complex transform. Unnormalised.
 #pragma once
 
 #include <complex>
@@ -13,7 +13,7 @@
 
 namespace asperity {
 
-// In-place transforms of n values in each of `lanes` lanes.
+// In-place transforms of length n in each lane.
 template <int lanes>
 class AnyLengthFourier {
  public:
@@ -49,7 +49,7 @@ extern template class AnyLengthFourier<Lanes<double>::count>;
 class BatchFourier {
  public:
   // Complex signals of a batch. Real signals r and r + columns share a transform, so the number affects the
-  // bits; a vector holds `lanes` columns.
+  // bits.
   static constexpr int columns = 8;
   static constexpr int lanes = Lanes<double>::count, parts = columns / lanes;
   static constexpr int rows = 2 * columns;  // real signals
@@ -62,32 +62,31 @@ class BatchFourier {
   };
 
   explicit BatchFourier(int n) : fourier_(n) {}
-  // Cached per length for the life of the process. Thread-safe.
+  // Cached for the life of the process. Thread-safe.
   static const BatchFourier& of_length(int n);
 
-  // Size of a Work for a length, in lanes.
+  // For one length, in lanes.
   static std::size_t work_values(int n);
 
   int length() const { return fourier_.length(); }
   int bins() const { return length() / 2 + 1; }
   int place(int k) const { return fourier_.place(k); }
 
-  // Transforms signals r < count: `given` values at in[r], then zeros; writes n/2 + 1 bins to out[r]. in[r]
-  // and out[r] may overlap, but not for different r.
+  // Transforms signals r < count: `given` values at in[r], then zeros, to n/2 + 1 bins at out[r]. in[r] and
+  // out[r] may overlap, but not for different r.
   void real_forward(Work& work, const double* const* in, int given, int count,
                     std::complex<double>* const* out) const;
-  // Writes the first `wanted` values times `scale` to out[r]. Ignores imaginary parts of bins that must be
-  // real.
+  // Writes the first `wanted` values times `scale` to out[r]. Ignores imaginary parts of real bins.
   void real_inverse(Work& work, const std::complex<double>* const* in, int count, int wanted, double scale,
                     double* const* out) const;
 
-  // The steps of the real transforms: load signals, store signals.
+  // Steps of the real transforms.
   void load_reals(Work& work, const double* const* in, int given, int count) const;
   void store_reals(const Work& work, int count, int wanted, double scale, double* const* out) const;
-  // Multiplies bins ±b of every signal by factors[b], b = 0 … n/2; real signals stay real.
+  // Multiplies bins ±b by factors[b], b = 0 … n/2; real signals stay real.
   void multiply_even(Work& work, const double* factors) const;
 
-  // Loads columns c < count of a spectrum with row distance `stride`: `given` rows, then zeros.
+  // Loads columns c < count with row distance `stride`: `given` rows, then zeros.
   void load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given, int count) const;
   // The same for bins in natural order.
   void load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int count) const;
@@ -99,7 +98,7 @@ class BatchFourier {
   void inverse(Work& work) const {
     for (int p = 0; p < parts; ++p) fourier_.inverse(part(work, p), work.more.data());
   }
-  // Values of columns p·lanes … (p + 1)·lanes − 1.
+  // Columns p·lanes … (p + 1)·lanes − 1.
   Lane* part(Work& work, int p) const {
     return work.values.data() + static_cast<std::ptrdiff_t>(length()) * p;
   }

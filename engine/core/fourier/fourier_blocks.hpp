@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distribution of the loops of 2-D transforms. Private to this folder.
+// Loops of 2-D transforms. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ constexpr std::int64_t block_count(int items, int block) {
   return (static_cast<std::int64_t>(items) + block - 1) / block;
 }
 
-// For fewer nodes, waking a helper costs more than it saves.
+// For fewer nodes, waking a helper does not pay.
 inline constexpr std::int64_t nodes_worth_sharing = 64 * 64;
 
 }  // namespace asperity

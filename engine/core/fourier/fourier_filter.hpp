@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Applies a real, even Fourier multiplier to a real field: forward transform, multiplication, inverse
-// transform, in place of the result. Rows come first; then blocks of columns are gathered, transformed,
-// multiplied and transformed back within the cache. Periodic, or zero-padded to a longer period (a
-// convolution without wrap-around) without storing the zero rows. Any period; the same bits for any number of
-// threads and every processor.
+// Applies a real, even Fourier multiplier to a real field in place of the result. After the row transforms,
+// blocks of columns are gathered, transformed, multiplied and transformed back within the cache. Periodic, or
+// zero-padded to a longer period (convolution without wrap-around) without storing zero rows. Any period; the
+// same bits for any number of threads and every processor.
 #pragma once
 
 #include <complex>
@@ -19,15 +18,15 @@ namespace asperity {
 
 class FourierFilter {
  public:
-  // Writes the factors of waves (a, b), b = 0 … period_y/2, for one a in 0 … period_x/2. Called concurrently.
+  // Writes the factors of waves (a, b), b = 0 … period_y/2, for one a of 0 … period_x/2. Called concurrently.
   using Multiplier = std::function<void(int a, std::span<double> factors)>;
 
   // 1 <= nx <= period_x, 1 <= ny <= period_y.
   FourierFilter(int nx, int ny, int period_x, int period_y);
   ~FourierFilter();
 
-  // `in` and `out` hold nx·ny values row by row and may be the same. Uses threads but is not thread-safe.
-  // Counts no transforms.
+  // `in` and `out`: nx·ny values row by row, may be the same. Uses threads but is not thread-safe. Counts no
+  // transforms.
   void apply(std::span<const double> in, std::span<double> out, const Multiplier& multiplier);
 
   int bins_x() const { return period_x_ / 2 + 1; }
@@ -46,7 +45,7 @@ class FourierFilter {
   std::complex<double>* row(int j) { return spectrum_ + static_cast<std::ptrdiff_t>(j) * stride_; }
 
   int nx_, ny_, period_x_, period_y_;
-  // Bins of a row. The first and, for an even period, the last bin are real and share a place.
+  // Per row. The first and, for an even period, the last bin are real and share a place.
   int bins_;
   int stride_;                                // between rows of the spectrum
   std::complex<double>* spectrum_ = nullptr;  // in `out` or in own_

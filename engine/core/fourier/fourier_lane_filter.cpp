@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A row of n real values is transformed as n/2 complex values (even and odd places), then separated: X(k) = E
-// + W^k O. The multiplier contains the factor 1/2.
+// + W^k O, with the factor 1/2 in the multiplier.
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <algorithm>
@@ -44,8 +44,7 @@ inline void write(const Singles& from, double scale, double* to) {
   register_vectors::write(high, to + Lanes<double>::count);
 }
 
-// Whole cache lines in an odd number of pairs: rows a power of two apart would share few cache sets when a
-// column is gathered.
+// As own_stride in fourier_filter.cpp.
 int odd(int blocks) { return blocks % 2 == 0 ? blocks + 1 : blocks; }
 
 }  // namespace
@@ -147,7 +146,7 @@ void FourierLaneFilter<Real>::apply(std::span<const double> in, std::span<double
   apply([&](int j, double*) { return in.data() + static_cast<std::ptrdiff_t>(j) * nx_; }, {}, out, scale);
 }
 
-// Loads rows first … first + lanes − 1 into lanes, two neighbours as one complex value.
+// Rows first … first + lanes − 1 in lanes, two neighbours as one complex value.
 template <class Real>
 void FourierLaneFilter<Real>::load_rows(Scratch& scratch, const Source& source, int first,
                                         double scale) const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FourierFilter for an even period_x and periods without a prime factor above 31, several times as fast: each
-// vector lane transforms one row, then one column. The field arrives by rows from a source and leaves by rows
-// into a sink, so that work before and after needs no pass over memory. Real is the precision of transforms
-// and multiplier; fields are double. The same bits for any number of threads.
+// vector lane transforms one row, then one column. Rows come from a source and go to a sink, so that work
+// before and after needs no pass over memory. Real is the precision of transforms and multiplier; fields are
+// double. The same bits for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,6 @@ class FourierLaneFilter {
   using Multiplier = std::function<void(int a, std::span<double> factors)>;
   // Returns the nx values of row j, in `scratch` or elsewhere.
   using Source = std::function<const double*(int j, double* scratch)>;
-  // Receives row j of the result.
   using Sink = std::function<void(int j, const double* row)>;
 
   static bool possible(int period_x, int period_y);
@@ -31,18 +30,17 @@ class FourierLaneFilter {
   FourierLaneFilter(int nx, int ny, int period_x, int period_y, const Multiplier& multiplier);
   ~FourierLaneFilter();
 
-  // Source and sink are called concurrently, once per row, in any order; all source calls precede the sink
-  // calls. `scale`, a power of two, brings values near 1, inside the range of single precision. A non-empty
-  // `out` of nx·ny values receives the rows before the sink, which may then be empty. Uses threads but is not
-  // thread-safe.
+  // Source and sink are called concurrently, once per row, in any order; all source calls come first.
+  // `scale`, a power of two, brings values near 1 for single precision. A non-empty `out` of nx·ny values
+  // receives the rows before the sink, which may then be empty. Uses threads but is not thread-safe.
   void apply(const Source& source, const Sink& sink, std::span<double> out = {}, double scale = 1);
 
   void apply(std::span<const double> in, std::span<double> out, double scale = 1);
 
-  // Frees the spectrum until the next apply(); the multiplier remains.
+  // Frees the spectrum until the next apply().
   void rest() { spectrum_ = UnsetArray<Complex>(); }
 
-  // The stored multiplier of wave (a, b), 0 <= a <= period_x/2, 0 <= b <= period_y/2.
+  // As stored; 0 <= a <= period_x/2, 0 <= b <= period_y/2.
   double factor(int a, int b) const;
 
  private:

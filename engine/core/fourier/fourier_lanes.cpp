@@ -92,7 +92,7 @@ inline __attribute__((always_inline)) void butterfly8(Complex* x) {
     x[5] = {-r.im, r.re};
     x[7] = {-(q.im + q.re) * half, (q.re - q.im) * half};
   }
-  // The even half has its bins in x[0], x[2], x[4], x[6]; the multiplied odd half in x[1], x[3], x[5], x[7].
+  // Bins of the even half in x[0], x[2], x[4], x[6]; the multiplied odd half in x[1], x[3], x[5], x[7].
   Complex y[8];
   for (int k = 0; k < 4; ++k) {
     const Complex &e = x[2 * k], &o = x[2 * k + 1];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complex in-place Fourier transforms of several signals, one per vector lane. The forward transform
-// (decimation in frequency) leaves bins in the order of place(); the inverse (decimation in time) expects
-// this order, so that filters never sort. Lengths without a prime factor above 31. Unnormalised.
+// Complex in-place Fourier transforms, one signal per vector lane. The forward transform (decimation in
+// frequency) leaves bins in the order of place(); the inverse (decimation in time) expects this order, so
+// filters never sort. Lengths without a prime factor above 31. Unnormalised.
 //
 // The operations of a lane do not depend on the vector width, so the bits are the same on every processor.
-// FFTW selects operations by processor. FFTW transforms contacts spread over ranks, and is the reference in
+// FFTW selects operations by processor; it transforms contacts spread over ranks, and is the reference in
 // tests and benches.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// Real and imaginary parts of one value of `count` signals, one register each; plain numbers for one lane.
+// One value of `count` signals, in two registers; plain numbers for one lane.
 template <class Real, int lanes = register_vectors::register_lanes<Real>>
 struct Lanes {
   static constexpr int count = lanes;
@@ -36,7 +36,7 @@ struct Lanes<Real, 1> {
 // Smallest length >= `least` with the cheap prime factors 2, 3, 5 and 7 only.
 int smooth_length(int least);
 
-// cos and sin of 2π k/n, 0 <= k < n, computed in the first octant, so that equal angles have equal bits.
+// cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
 struct UnitTurn {
   double cosine, sine;
 };
@@ -71,7 +71,7 @@ class LaneFourier {
 
   int n_;
   std::vector<Stage> stages_;
-  // Small, of the size of a row: not counted.
+  // Of the size of a row: not counted.
   std::vector<Real> factors_;  // by stage: e^{−2πi kq/(radix·part)} as pairs, q = 1 … radix − 1 per k
   std::vector<int> places_;
 };
