@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One value on the Lua stack, read without raising a Lua error: no metamethods, no allocating conversions.
-// Table elements are visited in place, so a table of a million heights needs no C++ copy. Valid while the
-// value keeps its stack index.
+// One value on the Lua stack, read without raising: no metamethods, no allocating conversions. Tables are
+// visited in place, so a million heights need no C++ copy. Valid while the value keeps its stack index.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +42,6 @@ class Argument {
   // `a string ("5 um")`, `a table`, `a surface`, `the number 3`, `nothing`.
   std::string describe() const;
 
-  // Raw length.
   std::int64_t length() const { return static_cast<std::int64_t>(lua_rawlen(L, index_)); }
   // Nil if absent.
   template <class Visit>
@@ -100,11 +98,11 @@ auto with_key(const Argument& table, std::string_view key, Use&& use) {
 // Key of the metatable of placeholders.
 const void* unknown_key();
 
-// A Lua function that C++ calls. Valid during a body.
+// A Lua function for C++, valid during a body.
 class Callback {
  public:
   explicit Callback(const Argument& function) : function_(function) {}
-  // Throws Error with the function's message if the call fails, or if its first result is no number.
+  // Throws Error with the function's message if the call fails or returns no number.
   double operator()(std::initializer_list<double> arguments, std::string_view key) const;
   double operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const;
   bool answer(std::initializer_list<double> arguments, std::string_view key) const;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of named options, described once: name, dimension, default, range and sentence of each key. The
-// block reads a Lua table into a plain C++ struct and reports all problems in one Error: unknown keys with
-// the nearest name, missing keys, wrong types, units and ranges. help(), editor types, reference and journal
-// use the same description.
+// A block of named options: name, dimension, default, range and sentence of each key. The block reads a Lua
+// table into a plain C++ struct and reports all problems in one Error: unknown keys with the nearest name,
+// missing keys, wrong types, units and ranges. help(), editor types, reference and journal use the same
+// description. options.hpp has the kinds of options.
 //
 //   Block<CutKeys>{"cut", {number("fraction", &CutKeys::fraction, between(0, 1), "of the height")}};
-//
-// The kinds of options are in options.hpp.
 #pragma once
 
 #include <concepts>
@@ -54,25 +52,25 @@ using Resolved = std::vector<std::pair<std::string, std::string>>;
 
 using Problems = std::vector<std::string>;
 
-// Suggests a name: the new name after a renaming, else the nearest of `names`, else "".
+// The new name after a renaming, else the nearest of `names`, else "".
 std::string meant_by(std::string_view name, std::span<const std::string> names);
 
 namespace detail {
-// On failure these readers append a problem and return nothing.
+// On failure, these append a problem and return nothing.
 std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
                                     Problems& problems);
 std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
                                          const NumberRange& range, Problems& problems);
-// The number of cells, scaled during an accuracy study (refinement.hpp).
+// Scaled during an accuracy study (refinement.hpp).
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
                                        const NumberRange& range, Problems& problems);
 void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
 // Returns the index of the word.
 std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
                                      const std::vector<std::string>& words, Problems& problems);
-// As written in a script: "250 um", 0.02, math.huge.
+// Script text: "250 um", 0.02, math.huge.
 std::string number_text(double value, Dimension dimension);
-// Calls read(option index, value) for known keys; reports unknown and missing keys.
+// Calls read(index, value) for known keys; reports unknown and missing keys.
 void read_table(const Argument& table, const std::string& caller,
                 const std::vector<const OptionInfo*>& options,
                 const std::function<void(std::size_t, const Argument&, Problems&)>& read,
@@ -99,7 +97,7 @@ template <class O>
 struct Option {
   OptionInfo info;
   std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
-  // Returns the value as script text, "" for none. May be null. Used for defaults and the record.
+  // Script text of the value, "" for none; may be null. For defaults and the record.
   std::function<std::string(const O&)> show;
 
   Option() = default;
@@ -115,7 +113,7 @@ struct Option {
     show = std::move(text);
     return std::move(*this);
   }
-  // Text of the default where the struct cannot give it ("size", "roll_off = long_wave").
+  // For a default outside the struct ("size", "roll_off = long_wave").
   Option defaults_to(std::string text) && {
     info.default_text = std::move(text);
     return std::move(*this);
@@ -125,7 +123,7 @@ struct Option {
 template <class O>
 class Block final : public BlockInfo {
  public:
-  // `whole` checks the struct after all keys were read without a problem; it may append problems.
+  // `whole` checks the struct if all keys were read without a problem.
   using Check = void (*)(O&, Problems&);
 
   Block(std::string name, std::vector<Option<O>> options, Check whole = nullptr)
@@ -144,8 +142,8 @@ class Block final : public BlockInfo {
     return infos;
   }
 
-  // Throws one Error with all problems. No argument reads as an empty table. `resolved` receives every key
-  // and its effective value.
+  // Throws one Error with all problems. Nil reads as an empty table. `resolved` receives all effective
+  // values.
   O read(const Argument& table, const std::string& caller, Resolved* resolved = nullptr) const {
     O result{};
     bool placeholders = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inputs of an ensemble's case besides its arguments: files, knobs and random numbers. A stored result is
-// reused only if all inputs are unchanged.
+// Inputs of an ensemble's case besides its arguments: files, knobs and random numbers. A stored result
+// requires equal inputs.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace asperity::lua {
 
-// A file read or looked for by a case; the digest is empty if the file was missing. A file found by `require`
-// in the script's folder is named relative to the folder, because another run may have another folder.
+// A file that a case read or looked for; no digest if missing. Files found by `require` in the script's
+// folder are named relative to it, because runs may have different folders.
 struct CaseInput {
   std::string file;
   std::int64_t bytes = 0;
@@ -29,7 +29,7 @@ std::string present_digest(const std::string& file);
 const LoadedFile* recorded_copy(const std::shared_ptr<const LoadedFiles>& loaded, const std::string& file);
 
 class Session;
-// Adds the files to the inputs of the run, or of the outer case.
+// To the run, or to the outer case.
 void note_inputs_of_case(const Session& session, const std::vector<CaseInput>& inputs);
 
 struct CaseNotes {

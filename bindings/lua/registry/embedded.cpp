@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Cache of compiled texts with line numbers and names. Compilation dominated the creation of a case's state.
+// Compiled texts with line numbers and names; compilation dominated the creation of states.
 class CompiledTexts {
  public:
   std::shared_ptr<const std::string> find(const void* text) {
@@ -44,7 +44,7 @@ int append_bytes_of_code(lua_State*, const void* bytes, std::size_t size, void* 
   }
 }
 
-// Returns -1 if not cached. No destructor may be pending where Lua can raise.
+// -1 if not cached. No destructor may be pending where Lua can raise.
 int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
   const std::shared_ptr<const std::string> code = compiled_texts().find(text.data());
   return code == nullptr ? -1 : luaL_loadbufferx(L, code->data(), code->size(), chunk, "b");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Lua files of scripts/, built into the program. Scripts load the public ones with `require
-// "asperity.NAME"`.
+// The Lua files of scripts/, built into the program; `require "asperity.NAME"` loads the public ones.
 #pragma once
 
 #include <span>
@@ -18,10 +17,10 @@ struct EmbeddedScript {
 std::span<const EmbeddedScript> embedded_scripts();
 std::span<const EmbeddedScript> embedded_lessons();
 std::string_view embedded_script(std::string_view name);
-// Like luaL_loadbufferx under the name `chunk` ("=sandbox"). `text` must live as long as the program. The
-// text is compiled once; other states and threads load the cached code. Raises on an error.
+// Like luaL_loadbufferx under the name `chunk` ("=sandbox"). `text` must live as long as the program; states
+// and threads share the compiled code. Raises on an error.
 void load_embedded_text(lua_State* L, std::string_view text, const char* chunk);
-// Registers every embedded script for `require`. Raises on lack of memory.
+// For `require`. Raises on lack of memory.
 void preload_embedded_scripts(lua_State* L);
 
 }  // namespace asperity::lua

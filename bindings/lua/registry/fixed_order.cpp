@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pairs and next in the same order in every process. Lua's own order depends on a string hash whose seed
-// (luai_makeseed) comes from the clock and from addresses. No call of Lua 5.4 sets the seed, and Debian does
-// not fix it. A loop therefore sorts the keys when it begins.
+// pairs and next in the same order in every process. Lua's order depends on a string hash whose seed
+// (luai_makeseed) comes from clock and addresses, and no call of Lua 5.4 sets the seed. A loop therefore
+// sorts the keys when it begins.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -19,8 +19,7 @@ namespace {
 
 enum class Kind : std::uint32_t { number, text, boolean, other };
 
-// Sort key. `head` is compared first: the ordered bits of a number, the first eight bytes of a string, the
-// address of a table.
+// `head` is compared first: ordered bits of a number, first eight bytes of a string, address of a table.
 struct Key {
   Kind kind = Kind::other;
   std::uint32_t place = 0;  // position in the list of keys, from 1
@@ -77,7 +76,7 @@ void note_other_keys(lua_State* L) noexcept {
                           "in another order in every run; use numbers or strings as keys");
 }
 
-// Pushes the walk over the table at an absolute index, then the list of its keys. Raises.
+// Pushes the walk over the table at an absolute index, and the list of its keys. Raises.
 Walk* push_walk(lua_State* L, int table) {
   luaL_checkstack(L, 8, nullptr);
   std::size_t count = 0;
@@ -104,7 +103,7 @@ Walk* push_walk(lua_State* L, int table) {
   return walk;
 }
 
-// Pushes the next key still in the table and its value; nil at the end.
+// The next key still in the table and its value; nil at the end.
 int push_next(lua_State* L, int table, Walk& walk, int list) {
   for (; walk.next < walk.count; lua_pop(L, 2)) {
     lua_rawgeti(L, list, walk.keys()[walk.next++].place);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The middle of the three frames of a call. The guard runs a C++ body, catches its exception and leaves
-// results or an error message on the Lua stack. The outer frame owns no destructor and then returns or
-// raises. Never `catch (...)`: in the C++ build of Lua it would swallow Lua's own unwinding.
+// The middle frame of a call: runs a C++ body, catches its exception and leaves results or a message on the
+// Lua stack. The outer frame, without destructors, then returns or raises. Never `catch (...)`: in the C++
+// build of Lua it would swallow Lua's own unwinding.
 #pragma once
 
 #include <exception>
@@ -20,12 +20,12 @@ namespace asperity::lua {
 // "script.lua:12: " of the innermost running Lua function, or "".
 std::string where(lua_State* L);
 std::string message_of(lua_State* L, const std::string& name, const Error& error);
-// Pushes the message and returns -1, for the outer frame.
+// Returns -1.
 int fail(lua_State* L, const std::string& message);
 // Returns the number of results; -1 with the error on the stack if memory runs out.
 int deliver(lua_State* L, const Values& results);
 
-// Returns -1 with the error on the stack if the body throws. `name` is prefixed to messages that lack it.
+// -1 with the error on the stack if the body throws. `name` is prefixed to messages that lack it.
 template <class Run>
 int guarded(lua_State* L, const std::string& name, Run run) {
   const RoundToNearest whatever_the_host_does;
@@ -41,8 +41,7 @@ int guarded(lua_State* L, const std::string& name, Run run) {
   }
 }
 
-// Runs the body again after a garbage collection if memory ran out. A failed body must leave everything
-// unchanged.
+// Repeats the body after a garbage collection if memory ran out. A failed body must change nothing.
 template <class Run>
 auto with_collection(lua_State* L, Run run) {
   try {
@@ -54,7 +53,7 @@ auto with_collection(lua_State* L, Run run) {
   try {
     return run();
   } catch (const Error& error) {
-    // A second failure means that the memory limit is reached, even if the script catches the error.
+    // The limit is reached, even if the script catches the error.
     if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
     throw;
   }

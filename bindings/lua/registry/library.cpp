@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `lab` in Lua: each module is an empty table whose metatable looks up members. Unknown names are errors with
-// the nearest name, and modules are read-only.
+// `lab` in Lua: each module is an empty, read-only table whose metatable finds members. Unknown names are
+// errors with the nearest name.
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -12,8 +12,7 @@ namespace {
 
 const char module_key = 0;  // metatable[module_key] = Module*
 
-// One member of a module, or none. A submodule hides a constant of the same name; a constant hides a
-// function.
+// At most one is set. A submodule hides a constant of the same name; a constant hides a function.
 struct Member {
   const Module* module = nullptr;
   const Constant* constant = nullptr;
@@ -47,7 +46,7 @@ std::vector<std::string> names_of_members(const Module& module) {
   return names;
 }
 
-// Pushes a member and caches it in `storage`: scripts use few of several hundred functions. Raises.
+// Caches the member in `storage`: scripts use few of several hundred functions. Raises.
 void make_member(lua_State* L, int storage, const char* name, const Member& member) {
   if (member.module != nullptr) {
     push_proxy(L, *member.module);
@@ -62,7 +61,7 @@ void make_member(lua_State* L, int storage, const char* name, const Member& memb
   lua_setfield(L, storage, name);
 }
 
-// Makes the members not cached yet. Raises.
+// Makes the missing members. Raises.
 template <class Named>
 void make_all(lua_State* L, int storage, const Module& module, const std::vector<Named>& members) {
   for (const Named& named : members) {
@@ -122,7 +121,7 @@ int module_pairs(lua_State* L) {
   return 3;
 }
 
-// Stack: [-1] = new metatable, [-2] = storage. Sets a closure over module and storage.
+// Stack: [-1] = new metatable, [-2] = storage. The closure has module and storage.
 void set_module_method(lua_State* L, const char* name, lua_CFunction function, const Module& module) {
   lua_pushlightuserdata(L, const_cast<Module*>(&module));
   lua_pushvalue(L, -3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mistakes of a dry run that continues after them. A refused call or field is noted with its place and
-// returns a placeholder, so that one run reports all mistakes of a file. An error caught by a pcall is raised
-// as usual and noted. Lua's own errors, and paths that depend on a result, end the dry run.
+// Mistakes of a dry run that continues after them, so that one run reports all. A refused call or field is
+// noted with its place and returns a placeholder. An error caught by a pcall is raised and noted. Lua's own
+// errors, and paths that depend on a result, end the dry run.
 #pragma once
 
 #include <map>
@@ -26,7 +26,7 @@ class Mistakes {
   const std::vector<std::string>& notes() const { return notes_; }
 
   std::string script;
-  // Columns written so far, by notebook; an empty name stands for any column.
+  // By notebook; an empty name stands for any column.
   std::map<std::string, std::set<std::string>> columns;
 
  private:
@@ -34,9 +34,9 @@ class Mistakes {
   std::vector<std::string> messages_, notes_;
 };
 
-// In a dry run that continues after mistakes: notes and pops the error on top of the stack, returns true.
-// Returns false with the stack unchanged if the error must be raised: in other runs, after a stop, or if the
-// script's path depends on a result. Raises nothing.
+// In a dry run that continues after mistakes: notes and pops the error on the stack, returns true. Returns
+// false, changing nothing, if the error must be raised: in other runs, after a stop, or if the script's path
+// depends on a result. Raises nothing.
 bool noted_as_mistake(lua_State* L);
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Native values in Lua: the metatable of a class, for fields, methods and recognition.
+// The metatable of a class: fields, methods and recognition of native values.
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
@@ -55,7 +55,7 @@ const Function* method_of(const Class& type, std::string_view name) {
   return nullptr;
 }
 
-// Closures of methods are made on first use: scripts use few methods.
+// Closures are made on first use: scripts use few methods.
 int outer_index(lua_State* L) {
   lua_pushvalue(L, 2);
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;

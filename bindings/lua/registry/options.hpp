@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kinds of options for a block (block.hpp): quantities and numbers with a range, integers, flags, texts,
-// words, native values, nested tables, `cells` and pairs of lengths. Each kind reads one key into one member
-// of a plain struct.
+// Kinds of options for a block (block.hpp). Each kind reads one key into one member of a plain struct.
 #pragma once
 
 #include <cmath>
@@ -158,7 +156,7 @@ Option<O> native(std::string name, M O::*member, std::string type, std::string w
   return option;
 }
 
-// Any other option: `read` appends its problems, which begin with quoted(info.name).
+// Any option: `read` appends problems that begin with quoted(info.name).
 template <class O, class Read>
 Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
   Option<O> option;

@@ -40,8 +40,8 @@ bool any_unknown(lua_State* L) {
   return false;
 }
 
-// Calls the original in upvalue 1 on the same frame, so that errors keep the script's line. The original is a
-// Lua library function without upvalues, never a wrapper.
+// Calls the original, upvalue 1, on the same frame, so that errors keep the script's line. The original is a
+// library function without upvalues, never a wrapper.
 int call_original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
 int pass_unknown(lua_State* L) { return any_unknown(L) ? again(L) : call_original(L); }
@@ -76,7 +76,7 @@ int unknown_once(lua_State* L) {
   return 2;
 }
 
-// Assertions may fail only because of a placeholder: == with a placeholder is silently false.
+// == with a placeholder is silently false, so an assertion may fail wrongly.
 int assert_known(lua_State* L) {
   if (lua_gettop(L) == 0 || lua_toboolean(L, 1)) return call_original(L);
   const bool any = lua_rawgetp(L, LUA_REGISTRYINDEX, &unknown_made_key) != LUA_TNIL;
@@ -105,7 +105,7 @@ void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wra
   }
 }
 
-// Values of one turn, from a type such as "State" or "ProtocolEvent and State?".
+// From "State", or "ProtocolEvent and State?".
 std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::string& types) {
   if (*done) return std::nullopt;
   *done = true;
@@ -207,7 +207,7 @@ bool met_nothing(const std::string& message) {
 }
 
 namespace {
-// The digits of ":12:"; empty, at the end of the message, if absent.
+// The digits of ":12:"; empty at the end if absent.
 std::string_view line_number(std::string_view message) {
   for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
     const std::size_t end = message.find_first_not_of("0123456789", at + 1);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records and iterators as Lua values. A record is read-only, reports an unknown field with the nearest name,
-// prints with units, and supports pairs() in field order. `for ... in` calls an iterator; a script can close
-// it early.
+// Records and iterators as Lua values. A record is read-only, names the nearest field in errors, prints with
+// units, and supports pairs() in field order. `for ... in` calls an iterator; a script can close it early.
 #pragma once
 
 #include <memory>
@@ -19,7 +18,7 @@ void push_record(lua_State* L, const std::shared_ptr<Record>& record);
 void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator);
 
 const RecordType<Cost>& cost_type();
-// One cost record per effect, "table<string, Cost>".
+// "table<string, Cost>".
 Record cost_by_effect(const std::vector<std::pair<std::string, Cost>>& costs);
 
 std::shared_ptr<Record> record_at(lua_State* L, int index);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Types of results. A type describes each field once: name, unit, sentence and the source of the value. The
-// same entries fill the record, and drive help, completion, editor types, reference and the placeholders of a
-// dry run.
+// Types of results: name, unit, sentence and source of each field. The same entries fill the record and drive
+// help, completion, editor types, reference and placeholders.
 #pragma once
 
 #include <concepts>
@@ -79,7 +78,7 @@ T class_of_member(V T::*);
 
 }  // namespace detail
 
-// Functions of a class that its values provide: description, digest and equality of digests.
+// For a Class whose values provide description and digest.
 template <auto read, class T = decltype(detail::class_of_member(read))>
 std::string text_of(const void* self) {
   return std::invoke(read, *static_cast<const T*>(self));
@@ -110,8 +109,8 @@ Getter getter(std::string name, std::string type, std::string sentence, Read, Di
           [](Call& call) -> Values { return {detail::value_of_held(Read{}(call.self<T>()))}; }};
 }
 
-// A field of a record made from a T. `read` is a member, a member function or a function of T. The field's
-// type follows from the type of the value: numbers, texts, optionals (nil if empty) and lists.
+// A field of a record made from a T. `read` is a member, a member function or a function of T; its result
+// determines the field's type: numbers, texts, optionals (nil if empty) and lists.
 template <class T>
 class RecordField {
  public:
@@ -124,7 +123,7 @@ class RecordField {
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, std::string sentence)
       : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
-  // A record of another type, or a list of records.
+  // A record or a list of records.
   template <std::invocable<const T&> Read, class U>
   RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
       : info{std::move(name), type.name + (std::same_as<Held<Read>, U> ? "" : "[]"), std::move(sentence), {}},
@@ -143,21 +142,20 @@ class RecordField {
           return std::invoke(*static_cast<const Read*>(held), of);
         }) {}
 
-  // The field exists only if the scene names the effect. Without the effect, reading the field is an error
-  // that names the effect.
+  // Without the effect, the record lacks the field, and reading it is an error that names the effect.
   RecordField& needs(std::string effect) {
     where_known();
     info.sentence += "; needs " + effect;
     effect_ = std::move(effect);
     return *this;
   }
-  // A record without a value lacks the field; the field is not nil.
+  // A record without a value lacks the field, instead of nil.
   RecordField& where_known() {
     where_known_ = true;
     if (info.type.ends_with('?')) info.type.pop_back();
     return *this;
   }
-  // The unit varies between records; the field's sentence must say so.
+  // The unit varies between records; the sentence must say so.
   RecordField& in(Dimension (*unit)(const T&)) {
     unit_ = unit;
     return *this;
@@ -183,7 +181,7 @@ class RecordField {
     Read read;
     const RecordType<U>* type;
   };
-  // Avoids std::function, which would instantiate several functions for each of a thousand fields.
+  // std::function would instantiate several functions for each of a thousand fields.
   struct Reader {
     using Function = Value (*)(const T&, const void* held);
     template <class H>
@@ -201,7 +199,7 @@ class RecordField {
   Dimension (*unit_)(const T&) = nullptr;
 };
 
-// Lives as long as the program, because records and other types store its address.
+// Lives as long as the program; records store its address.
 template <class T>
 class RecordType : public RecordInfo {
  public:
@@ -238,11 +236,10 @@ class RecordType : public RecordInfo {
 // In the results of modules and classes, each once.
 const std::vector<const RecordInfo*>& record_types();
 const RecordInfo* find_record_type(std::string_view name);
-// Record types inside a type name: "iterator<ProtocolEvent and State?>", "table<string, Cost>".
+// "iterator<ProtocolEvent and State?>", "table<string, Cost>".
 std::vector<const RecordInfo*> record_types_in(std::string_view type);
 
-// Checks a record, or the first record of a list, against the declared type. Throws Error{internal} for
-// another type or none.
+// Throws Error{internal} unless the record, or the first record of a list, has the declared type.
 void check_declared(std::string_view giver, std::string_view declared, const Value& given);
 
 }  // namespace asperity::lua

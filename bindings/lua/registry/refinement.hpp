@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grid refinement for `asperity accuracy` without changes of the script. Every `cells` of the script is
-// multiplied by a factor and rounded, at least 1; the tolerance of every contact is replaced. Surfaces from
-// files and tables keep their cells. The counters tell the study which quantities can vary.
+// Grid refinement for `asperity accuracy` with the script unchanged: `cells` are multiplied by a factor and
+// rounded, at least 1, and the tolerances of contacts replaced. Surfaces from files and tables keep their
+// cells. Counters tell the study which quantities can vary.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace asperity::lua {
 
-// Shared by a run and the cases of its ensembles. Thread-safe.
+// Shared by a run and its cases. Thread-safe.
 struct Refinement {
   double cells_factor = 1;
   std::optional<double> tolerance;
@@ -23,7 +23,7 @@ struct Refinement {
   std::atomic<std::int64_t> contacts{0};
   std::atomic<double> tightest{std::numeric_limits<double>::infinity()};
 
-  // Return the effective cells or tolerance and update the counters.
+  // Return effective values and update the counters.
   std::int64_t cells(std::int64_t given);
   double tolerance_for(double given);
 };

@@ -101,7 +101,7 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
-// Whether a dry run needs the function's result, a body or a protocol, to plan contacts.
+// Whether planning needs the result, a body or a protocol.
 bool is_planned_with(const Function& function) {
   const Class* made = find_class(function.returns);
   return made != nullptr && (made->known != nullptr || made->name == "Protocol");
@@ -163,8 +163,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  // `explain` needs the bodies and protocols of contacts, except from files that the script itself writes.
-  // `check` needs none.
+  // `explain` needs bodies and protocols, except from files written by the script. `check` needs none.
   const bool left_out =
       function.unknown_when_dry ||
       (function.heavy && (call.session().explanation == nullptr || !is_planned_with(function) ||

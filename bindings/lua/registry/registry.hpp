@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registry of all functions, classes and modules of scripts: sentence, parameters, units, defaults, example.
-// The entries drive calls, "did you mean", help(), editor types, the reference page and the dry run.
+// Registry of all functions, classes and modules of scripts. The entries drive calls, "did you mean", help(),
+// editor types, the reference page and the dry run.
 //
 // A call has three frames. The outer frame has no destructors and raises. The guard catches C++ exceptions,
 // never `catch (...)`, which would swallow Lua's own. The body is ordinary C++; it reads its arguments
@@ -37,7 +37,7 @@ struct Parameter {
   std::string sentence{};
 };
 
-// A table below a function in help and reference. The first cell of a row is its name.
+// A table below a function in help and reference; the first cell of a row is its name.
 struct Listing {
   std::string title{};
   std::vector<std::string> columns{};
@@ -55,16 +55,15 @@ struct Function {
   std::string returns{};
   std::string example{};  // required; runs after example_preamble()
   bool heavy = false;     // skipped by `asperity check`
-  // `asperity check` skips the call because its result depends on rows unknown to a dry run. Not in the
-  // journal.
+  // Skipped by `asperity check` because the result depends on rows unknown to a dry run. Not in the journal.
   bool unknown_when_dry = false;
   Listing (*listing)() = nullptr;
-  // Called in a dry run for arguments with placeholders, after the options; may be null.
+  // For arguments with placeholders in a dry run, after the options; may be null.
   void (*look)(const Call& call) = nullptr;
 };
 
 std::vector<std::string> result_types(const Function& function);
-// Named fields of a list, with types: "Profile[] with tip_effect: TipEffect and lines: Traverse[]".
+// "Profile[] with tip_effect: TipEffect and lines: Traverse[]".
 std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type);
 
 struct Getter {
@@ -75,7 +74,6 @@ struct Getter {
   Body body = nullptr;
 };
 
-// A Lua operator with a native value on either side.
 struct Operator {
   std::string event{};    // "__sub"
   std::string form{};     // "a - b", for errors and help
@@ -83,11 +81,11 @@ struct Operator {
   std::string sentence{};
   std::string returns{};
   std::string example{};
-  Body body = nullptr;  // arguments: both operands in order; a unary operand twice
+  Body body = nullptr;  // both operands in order; a unary operand twice
 };
 
 struct Class {
-  std::string name{};          // "Surface"; messages and types
+  std::string name{};          // "Surface"
   std::string article_name{};  // "a surface"
   std::string sentence{};
   std::vector<Getter> fields{};
@@ -95,17 +93,16 @@ struct Class {
   std::vector<Function> methods{};
   std::vector<Operator> operators{};
   std::vector<const RecordInfo*> results{};
-  bool shareable = true;                               // immutable; cases of an ensemble may share the value
+  bool shareable = true;                               // immutable; cases may share the value
   std::int64_t (*length)(const void* self) = nullptr;  // may be null
   std::string (*describe)(const void* self) = nullptr;
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory invisible to Lua
   bool (*equal)(const void* a, const void* b) = nullptr;
   std::string (*digest)(const void* self) = nullptr;  // of the content, for the journal
-  // Adds the cost of a value to the ledger by effect, for each result of a heavy call or of an iterator's
-  // turn. May be null.
+  // Adds the cost to the ledger by effect, for results of heavy calls and of iterators' turns. May be null.
   void (*enter)(const void* self, Ledger& ledger) = nullptr;
   void (*closing)(void* self) = nullptr;  // called before :close() and <close>
-  // Facts about the result of a call in a dry run; may be null.
+  // In a dry run; may be null.
   std::shared_ptr<const KnownBody> (*known)(const Call& call, const Function& function) = nullptr;
   std::vector<std::string> names() const;
 };
@@ -132,7 +129,7 @@ const std::vector<const Module*>& modules();
 const std::vector<const Class*>& classes();
 const Class* find_class(std::string_view name);
 
-// The arguments and surroundings of a body. Lives on the guard's frame.
+// Lives on the guard's frame.
 class Call {
  public:
   Call(lua_State* state, const std::string& function_name, bool is_method)
@@ -140,12 +137,12 @@ class Call {
 
   Session& session() const;
   const std::string& function_name() const { return function_; }
-  // Positional arguments after self, numbered from 1.
+  // Arguments after self, from 1.
   int count() const { return lua_gettop(L) - first_ + 1; }
   Argument argument(int k) const { return Argument(L, first_ + k - 1); }
   bool given(int k) const { return k <= count() && !argument(k).is_nil(); }
 
-  // The object before the colon. Throws Error if called with a dot.
+  // Throws Error if called with a dot.
   template <class T>
   T& self() const {
     return *static_cast<T*>(self_pointer(class_of<T>()));
@@ -164,12 +161,12 @@ class Call {
     return *static_cast<const T*>(object_pointer(k, name, class_of<T>()));
   }
 
-  // Reads the options table in argument k; one Error reports all problems.
+  // From argument k; one Error reports all problems.
   template <class Options>
   Options options(const Block<Options>& block, int k = 1) const {
     return block.read(argument(k), function_, notes_inputs() ? &inputs_ : nullptr);
   }
-  // The options read, for the journal; empty in a case of an ensemble.
+  // For the journal; empty in a case.
   const Resolved& inputs() const { return inputs_; }
 
   lua_State* const L;
@@ -183,8 +180,8 @@ class Call {
   mutable Resolved inputs_;
 };
 
-// Writes the journal line of a heavy call: object before the colon (may be null), inputs, digest of the
-// results. Called for every heavy function and for each turn of an iterator.
+// Writes the journal line of a heavy call or an iterator's turn: object before the colon (may be null),
+// inputs, digest of the results.
 void record_call(const Session& session, const std::string& function, const Object* self,
                  const Resolved& inputs, const Values& results);
 
@@ -194,28 +191,27 @@ void enter_into_ledger(const Session& session, const Values& results);
 void push_function(lua_State* L, const Function& function);
 // "lab.surface.sine", "surface:scaled".
 const std::string& qualified_name(const Function& function);
-// The full name of the function whose closures have this pointer as upvalue; null if none.
+// By the upvalue of its closures; null if none.
 const std::string* name_of_entry(const void* pointer);
-// Pushes the metatable of a class; creates it on first use.
+// Creates the metatable on first use.
 void push_metatable(lua_State* L, const Class& type);
-// Handles an error of a field look-up on the stack: raises it, or returns a placeholder in a dry run that
-// continues after mistakes.
+// Raises the error on the stack, or returns a placeholder in a dry run that continues after mistakes.
 int mistaken_field(lua_State* L);
-// The native value at an index, of any class; null if none.
+// Null if not native.
 Object* native_at(lua_State* L, int index);
 
 const Module* module_at(lua_State* L, int index);
 void push_proxy(lua_State* L, const Module& module);
 
 // pairs and next in the same order in every process (fixed_order.cpp): numbers, strings by bytes, booleans,
-// other keys in Lua's order. A dry run notes a loop over several other keys. A loop visits the keys present
-// at its beginning and not removed since. Both are C functions without upvalues.
+// other keys in Lua's order, which a dry run notes. A loop visits the keys of its beginning, less removed
+// ones. Both are C functions without upvalues.
 int ordered_pairs(lua_State* L);
 int ordered_next(lua_State* L);
-// Pushes the iterator function of an ordered loop over the table at an index. Raises.
+// The iterator function for the table at an index. Raises.
 void push_ordered_loop(lua_State* L, int index);
 
-// Pushes `lab`. Raises like any luaopen function.
+// Raises like any luaopen function.
 void push_library(lua_State* L);
 
 }  // namespace asperity::lua

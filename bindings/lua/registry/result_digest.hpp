@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digest of the results of a heavy call, for the journal. Native values enter by their digests; records,
-// lists and tables by all numbers, booleans and texts. Costs are excluded, because equal calls take different
-// times.
+// Digest of the results of a heavy call, for the journal: native values by their digests; records, lists and
+// tables by all numbers, booleans and texts. Costs are excluded, because equal calls take different times.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@
 namespace asperity::lua {
 
 std::string digest_of(const Object& object);
-// "" without comparable values: no value, or texts only (paths of files).
+// "" for no value, or for texts only (paths of files).
 std::string digest_of(const Values& results);
 
 }  // namespace asperity::lua

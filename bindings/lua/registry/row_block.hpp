@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block for options that the engine describes (core/options.hpp): read, reported and documented like every
-// other block.
+// A block for options described by the engine (core/options.hpp).
 #pragma once
 
 #include <any>
@@ -13,14 +12,13 @@
 
 namespace asperity::lua {
 
-// Describes one row; reads one option into the struct inside `options`.
 OptionInfo row_info(const OptionRow& row, const std::any& defaults);
 void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
               Problems& problems);
 
 class RowBlock final : public BlockInfo {
  public:
-  // `rows` must outlive the block. `defaults` holds the struct without options.
+  // `rows` must outlive the block. `defaults`: the struct without options.
   RowBlock(std::string name, std::span<const OptionRow> rows, std::any defaults);
 
   const std::string& name() const override { return name_; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The script's name on the command line. Results must not depend on it: files in the script's folder are
-// identified by content.
+// The script's name on the command line. Results must not depend on it.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Environment of a Lua state: monitor, seed, limits and the recorded run. Each state has one session, stored
-// in the Lua registry. Sessions of an ensemble's cases have no run.
+// Environment of a Lua state, in its registry: monitor, seed, limits and recorded run. Sessions of cases have
+// no run.
 #pragma once
 
 #include <cstdint>
@@ -46,9 +46,8 @@ struct SharedStore {
   std::optional<Shard> shard;     // compute this share of the cases
   std::optional<CaseNumber> one;  // or only this case
   bool merge_only = false;        // or no case; otherwise all missing cases
-  // Whether a file of this size fits the folder's limit.
   std::function<bool(std::int64_t bytes)> takes;
-  // Writes to standard error, outside the record.
+  // To standard error, outside the record.
   std::function<void(const std::string& sentence)> tell;
   std::function<void(SharedEnd end, const std::string& sentence)> end;
 };
@@ -84,7 +83,7 @@ class Session {
     static thread_local const Running* innermost;
   };
 
-  // Script functions used by surfaces. A function is released some time after its surface.
+  // Script functions of surfaces, released some time after their surface.
   struct HeldFunctions {
     std::mutex mutex;
     std::vector<int> released;
@@ -98,36 +97,36 @@ class Session {
   int depth = 0;                      // enclosing ensembles
   bool is_case = false;               // a case of an ensemble: cannot record
   std::shared_ptr<RunDirectory> run;  // may be null
-  // Plan of `asperity explain`, a dry run that makes surfaces and plans contacts; otherwise null.
+  // Of `asperity explain`, a dry run that makes surfaces and plans contacts; otherwise null.
   std::shared_ptr<Explanation> explanation;
-  // Paths in skipped calls: the script may have written these files.
+  // Paths that the script may have written in skipped calls.
   std::set<std::string, std::less<>> paths_left_out;
-  // Called for each heavy call skipped in a dry run; may be empty.
+  // For each heavy call skipped in a dry run; may be empty.
   std::function<void(const Call& call, const Function& function)> on_call_left_out;
-  // Mistakes of a dry run that continues after them; otherwise null.
+  // Null unless a dry run continues after mistakes.
   std::shared_ptr<Mistakes> mistakes;
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
-  // Called by os.exit(code) before the process ends. If it throws Error{interrupted}, the process continues
-  // and the script must be interrupted.
+  // Called by os.exit(code). If it throws Error{interrupted}, the process continues and the script must be
+  // interrupted.
   std::function<void(int)> exit_hook;
   bool with_other_ranks = false;           // other ranks wait: os.exit is an error
   std::FILE* output = stdout;              // a buffer in a case
   std::map<std::string, int> studies;      // names of studies of work and precision, with counts
   std::shared_ptr<Refinement> refinement;  // null unless an accuracy study runs
   std::shared_ptr<Variation> variation;    // null unless a replay changes values
-  // Numbers that the script requests from its user; shared with the ensemble's cases.
+  // Shared with the ensemble's cases.
   std::shared_ptr<RunKnobs> knobs = std::make_shared<RunKnobs>();
-  // Called by lab.knob.set with an accepted value; empty if nothing runs again.
+  // For accepted values of lab.knob.set; empty if nothing runs again.
   std::function<void(const std::string& name, const std::string& value)> move_knob;
   ScriptSpelling script;  // may be empty
   // Script files of a replay or resume; may be null.
   std::shared_ptr<const LoadedFiles> loaded;
-  std::string script_digest;            // digest of script text and arguments; may be empty
+  std::string script_digest;            // of script text and arguments; may be empty
   int ensembles = 0;                    // started by the script
   std::int64_t heavy_calls = 0;         // computed calls and calls found in the store
-  int numbered_ensembles = 0;           // lab.ensemble calls of the script itself, counted by --case
+  int numbered_ensembles = 0;           // lab.ensemble calls of the script itself, for --case
   const SharedStore* shared = nullptr;  // null: no other process computes cases
-  // Called in a dry run for each ensemble with its place, number of cases and their names; may be empty.
+  // For each ensemble of a dry run; may be empty.
   std::function<void(const std::string& place, std::size_t cases,
                      const std::function<std::string(std::size_t)>& name)>
       on_ensemble;
@@ -136,15 +135,15 @@ class Session {
   Ranks* ranks = nullptr;  // may be null
   // Null outside a case.
   CaseNotes* notes = nullptr;
-  // Globals that could not be copied into a case, and the reasons; null outside a case.
+  // Globals that could not be copied into a case, with reasons; null outside a case.
   const std::map<std::string, std::string>* left_behind = nullptr;
 
-  // Ledger scope of a call. If not `lasting`, the call gets a line only if it takes long enough.
+  // Unless `lasting`, only a slow call gets a line.
   LedgerScope ledger_scope(std::string_view call, bool lasting, std::string_view owner = {}) const {
     return LedgerScope(*ledger, owner, call, is_case, lasting);
   }
 
-  // Reports memory invisible to Lua; runs a collection after enough bytes.
+  // May run a collection.
   void nudge_collector(lua_State* L, std::size_t bytes);
 
   static Session& of(lua_State* L);

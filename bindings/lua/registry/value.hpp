@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of a binding: C++ values, converted to Lua in one protected step after the body. Lists and maps
-// become plain tables, records become read-only values, objects become native values.
+// Results of a binding: C++ values, converted to Lua in one protected step after the body.
 #pragma once
 
 #include <concepts>
@@ -30,7 +29,7 @@ const Class& class_of();
 struct KnownBody;
 struct RecordInfo;
 
-// A null pointer is a placeholder of a dry run, unless the value was closed.
+// Null pointer: a placeholder of a dry run, or a closed value.
 struct Object {
   const Class* type = nullptr;
   std::shared_ptr<void> pointer;
@@ -39,17 +38,17 @@ struct Object {
   bool is_placeholder() const { return pointer == nullptr && !closed; }
 };
 
-// A read-only result with named fields in order. print() shows each value with its unit.
+// A read-only result with ordered fields. print() shows units.
 struct Record {
   struct Entry;
   std::string name;  // "roughness"
   std::vector<Entry> entries;
   // Absent fields and the effects that would provide them.
   std::vector<std::pair<std::string, std::string>> missing_effects{};
-  const RecordInfo* type = nullptr;  // null if the record was restored from bytes
-  bool placeholder = false;          // fields without values, in a dry run
+  const RecordInfo* type = nullptr;  // null if restored from bytes
+  bool placeholder = false;          // fields without values
   Record& add(std::string field, Value value, Dimension dimension = {});
-  // Adds the field if it has a value; otherwise reading the field is an error that names the effect.
+  // Without a value, reading the field is an error that names the effect.
   Record& add_if(std::string effect, std::string field, Value value, Dimension dimension = {});
   const Value* find(std::string_view field) const;
 };
@@ -65,20 +64,20 @@ struct Map {
   std::vector<std::pair<std::string, Value>> items;
 };
 
-// `next` returns the values of one turn, or nothing at the end.
+// `next` returns one turn's values, or nothing at the end.
 struct Iterator {
   std::function<std::optional<Values>(Call&)> next;
-  std::string name = "iterator";  // the creating call, "contact:sweep", for errors and the ledger
+  std::string name = "iterator";  // the creating call, "contact:sweep"
 };
 
 struct Unknown {};
 
-// The value returned by a Lua file of scripts/.
+// From a file of scripts/.
 struct Script {
   const char* name;
 };
 
-// A value outside any state; can be pushed into states repeatedly.
+// A value outside any state, for repeated use.
 class StoredValue {
  public:
   virtual ~StoredValue() = default;
@@ -120,7 +119,7 @@ class Value {
   }
 
   bool is_nil() const { return std::holds_alternative<std::monostate>(data); }
-  // The integer or double as a double.
+  // Integer or double.
   std::optional<double> number() const;
 
   Variant data;
@@ -146,7 +145,7 @@ Value object(std::shared_ptr<T> pointer) {
                 std::const_pointer_cast<std::remove_const_t<T>>(std::move(pointer)), false};
 }
 
-// Text as in print: a record on one line; an entry with its unit.
+// As print: a record on one line, an entry with its unit.
 std::string show(const Value& value);
 std::string show(const Record::Entry& entry);
 

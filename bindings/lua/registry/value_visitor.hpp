@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Depth-first traversal of a binding's result: records, lists and maps with all contents, each in its own
-// order. Visitors compute a digest, bytes or a predicate. Results contain no cycles, because they are
-// immutable. Tables of a script may contain cycles; ensemble/transfer.hpp traverses them.
+// Depth-first traversal of a binding's result, each container in its own order. Results contain no cycles,
+// because they are immutable; tables of a script may (ensemble/transfer.hpp).
 #pragma once
 
 #include <cstddef>
@@ -14,8 +13,8 @@
 
 namespace asperity::lua {
 
-// Base of visitors: derived visitors hide the functions they need, and provide `leaf` for each Value
-// alternative without contents.
+// Derived visitors hide the functions they need, and provide `leaf` for each Value alternative without
+// contents.
 struct ValueVisitor {
   void begin(const Value&) {}  // before and after each value
   void end() {}
@@ -23,7 +22,7 @@ struct ValueVisitor {
   void enter(const List&) {}
   void enter(const Map&) {}
   void leave(const Record&) {}
-  void named(std::size_t) {}                       // number of named values that follow, in a list or map
+  void named(std::size_t) {}                       // named values that follow, in a list or map
   bool under(const std::string&) { return true; }  // before a named value; false skips it
   void after(const Record::Entry&) {}
 };

@@ -19,7 +19,7 @@ bool is_of(std::string_view caller, std::string_view wanted) {
   return before == '.' || before == ':';
 }
 
-// As script text: a number, true, false, otherwise a string without quotes.
+// A number, true, false, otherwise a string without quotes.
 void push_value(lua_State* L, const std::string& text) {
   if (text == "true" || text == "false") return lua_pushboolean(L, text == "true");
   if (lua_stringtonumber(L, text.c_str()) != 0) return;

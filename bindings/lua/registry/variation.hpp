@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Changed values for `asperity replay --set key=value`, without changes of the script. The value replaces the
-// key while a call's options are read; it is checked and recorded like any other. `press.pressure=...`
-// applies only to calls of this name, and also sets the key if the script omits it.
+// Changed values for `asperity replay --set key=value`. The value replaces the key while a call's options are
+// read; it is checked and recorded like any other. `press.pressure=...` applies only to calls of this name,
+// and also sets an omitted key.
 #pragma once
 
 #include <functional>
@@ -17,23 +17,22 @@
 
 namespace asperity::lua {
 
-// Shared by a run and the cases of its ensembles. Thread-safe after the last set().
+// Shared by a run and its cases. Thread-safe after the last set().
 class Variation {
  public:
-  // "pressure=200 MPa" or "press.pressure=200 MPa". Throws Error{bad_value} without `=` or key.
+  // Throws Error{bad_value} without `=` or key.
   void set(const std::string& text);
   bool empty() const { return settings_.empty(); }
   // Calls made while this returns false keep their values. Thread-safe.
   std::function<bool()> in_force = [] { return true; };
 
-  // Called when options are read. If `key` has a new value, pushes it on `L`, which must have room, and
-  // returns true. `given`: the script gives the key. Keys of a knob keep their recorded values. Raises no Lua
-  // error.
+  // If `key` has a new value, pushes it on `L`, which must have room, and returns true. `given`: the script
+  // gives the key. Knobs keep their recorded values. Raises no Lua error.
   bool replaces(lua_State* L, std::string_view caller, std::string_view key, bool given);
-  // Called if the new value is not acceptable for the key.
+  // For a new value that the call refused.
   void note_refused(std::string_view caller, std::string_view key, const std::string& problem);
-  // Throws Error{bad_value} if a call refused a value, and Error{unknown_name} with the nearest key if no
-  // call matched a setting.
+  // Throws Error{bad_value} for a refused value, and Error{unknown_name} with the nearest key for a setting
+  // without matching call.
   void check_all_met() const;
   // "pressure = 200 MPa and seed = 7"
   std::string text() const;

@@ -41,7 +41,7 @@ FunctionPaths read_function_paths() {
         if (function == nullptr || !key.is_text()) return;
         const auto [path, is_new] =
             paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
-        // Aliases (math.atan2 is math.atan) get the alphabetically first name in every process.
+        // Of aliases (math.atan2 is math.atan), the alphabetically first.
         if (!is_new && path->second.library == library && key.text() < path->second.key)
           path->second.key = key.text();
       });
@@ -64,8 +64,8 @@ BaseLibrary::BaseLibrary(lua_State* L) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   paths_.reserve(32);
   paths_.emplace_back(lua_topointer(L, -1), BasePath{"_G", ""});
-  // One pass over the loaded libraries, because every case of an ensemble comes here. The first library by
-  // name wins if two paths share a table.
+  // One pass, because every case of an ensemble comes here. The first library by name wins if two paths share
+  // a table.
   struct Library {
     const void* table = nullptr;
     std::vector<std::pair<const void*, std::string>> parts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names of Lua's own library values (`math`, `math.random`, `io.stdout`, the globals), to find them again in
-// another state. Functions without upvalues have the same pointer in every state and need no name.
+// Names of Lua's own library values (`math`, `math.random`, `io.stdout`, the globals), to find them in
+// another state. C functions without upvalues are the same pointer in every state.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct BasePath {
 inline constexpr std::array<std::string_view, 10> base_libraries = {
     "_G", "string", "table", "math", "os", "io", "coroutine", "utf8", "debug", "package"};
 
-// The name of a C function in a fresh Lua; null if not Lua's own. Thread-safe.
+// In a fresh Lua; null if not Lua's own. Thread-safe.
 const BasePath* base_function(lua_CFunction function);
 
 // One state's library tables and files. Reads without raising.

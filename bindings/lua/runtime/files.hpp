@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files as scripts name them: read from anywhere and listed among the run's inputs, written into the run
-// directory. Also the option keys shared by all readers.
+// Files of scripts: read from anywhere and listed among the run's inputs, written into the run directory.
+// Also option keys shared by readers.
 #pragma once
 
 #include <string>
@@ -19,15 +19,15 @@ namespace asperity::lua {
 
 // Throws Error{not_permitted} outside the run directory and inside a case of an ensemble.
 std::string writable_path(const Call& call, const std::string& name);
-// Throws Error{not_permitted} inside a case of an ensemble: `does` completes the sentence ("draws no
-// charts"), `instead` is the hint.
+// Throws Error{not_permitted} inside a case: `does` completes the sentence ("draws no charts"), `instead` is
+// the hint.
 RunDirectory& run_of(const Call& call, const char* does, const char* instead);
-// A file of this name written by the run, or the path as given.
+// The run's file of this name, or the path as given.
 std::string readable_path(const Call& call, const std::string& name);
 void warn_of(const Call& call, const std::vector<std::string>& warnings);
 void note_input(const Call& call, const std::string& path);
 
-// A length or the name of a unit: "um" means "1 um".
+// "um" means "1 um".
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
 template <class O>
 Option<O> length_of_one(std::string name, std::optional<double> O::*member, std::string sentence) {

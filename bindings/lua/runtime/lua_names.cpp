@@ -14,7 +14,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Whether the sandbox replaced the function by a refusal, which has an upvalue called `what`.
+// Refusals of the sandbox have an upvalue `what`.
 bool is_refused(lua_State* L, int index) {
   if (!is_sandbox_function(L, index)) return false;
   bool refused = false;

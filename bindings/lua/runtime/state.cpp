@@ -41,8 +41,8 @@ void refuse_pipe(const std::string& name, const std::string& place) {
                 "write what it gives into a file first");
 }
 
-// Text of a script file for `require`, `dofile` and `loadfile`. Returns none for an unreadable file, because
-// Lua reports this error itself. A case records a module in the script's folder by its name in the folder.
+// For `require`, `dofile` and `loadfile`; none for an unreadable file, whose error Lua reports. A case
+// records a module of the script's folder by its name there.
 std::optional<std::string> loaded_text(const Session& session, const std::string& name, bool is_module) {
   const std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
   const std::string own = session.run == nullptr ? "" : session.run->own_name(place);
@@ -168,7 +168,7 @@ int mistaken(lua_State* L) {
   return 2;
 }
 
-// Ends the process. Returns a message if the process must continue.
+// Returns a message if the process must continue.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return "a case of an ensemble cannot end the run";
@@ -207,10 +207,10 @@ struct Setup {
 int set_up(lua_State* L) {
   const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
   Session& session = *setup.session;
-  // Everything allocated here is permanent, so a collection would free nothing.
+  // A collection would find nothing to free.
   lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
-  // Only in states of the program and of cases: the loadable module leaves the host's `pairs` unchanged.
+  // Only here: the loadable module leaves the host's `pairs` unchanged.
   lua_register(L, "pairs", ordered_pairs);
   lua_register(L, "next", ordered_next);
   Session::attach(L, session);
@@ -325,7 +325,7 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
     lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
     lua_error(L);
   }
-  // No line runs: the script has ended, perhaps by this stop. An error here would lose its message.
+  // The script has ended, perhaps by this stop. An error here would lose its message.
 }
 }  // namespace
 

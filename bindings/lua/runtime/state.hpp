@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua states of the program and of ensemble cases: counted memory, the reduced library (the whole library if
-// trusted), strict globals, `require "asperity"`, and math.random seeded from the run. The loadable module
-// runs in the host's state instead.
+// Lua states of the program and of cases: counted memory, the reduced library (the whole one if trusted),
+// strict globals, `require "asperity"`, and math.random seeded from the run. The loadable module uses the
+// host's state.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ struct StateCloser {
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
 
-// Offset of the first byte after a byte-order mark and a first line "#!...".
+// After a byte-order mark and a first line "#!...".
 std::size_t begin_of_script(std::string_view text);
 
 std::string search_path(const std::string& script_folder);
@@ -28,11 +28,10 @@ std::string search_path(const std::string& script_folder);
 // Error{out_of_memory}.
 State make_state(Session& session, const std::string& script_folder);
 
-// Makes every following instruction raise "interrupted". May be called from another thread or a signal
-// handler.
+// Every following instruction raises "interrupted". For other threads and signal handlers.
 void interrupt(lua_State* L);
-// Checks the stop flag every few thousand instructions, also in coroutines. Pure Lua runs up to twice as
-// long; use only for runs with a limit.
+// Checks the stop flag every few thousand instructions, also in coroutines. Slows pure Lua up to two times;
+// only for runs with a limit.
 void watch_for_stops(lua_State* L);
 
 // Strings unchanged; other values as by tostring.

@@ -17,12 +17,12 @@ namespace asperity::lua {
 
 namespace {
 
-// The last refused request of this thread. Lua collects and repeats the request; the next request shows
-// whether the refusal was final.
+// The last refused request of this thread. Lua collects and retries; the next request shows whether the
+// refusal was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
 
-// The script's place at the last refusal. Lua raises its memory error without place, after unwinding the
-// stack. The buffers need no allocation.
+// The script's place at the last refusal, because Lua raises its memory error after unwinding the stack. No
+// allocation.
 struct RefusalPlace {
   char line[96] = "";     // "script.lua:12: "
   char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" ...
@@ -50,8 +50,8 @@ void note_refusal_place(lua_State* L) {
   }
 }
 
-// Whether a request may reallocate a thread's stack, at most about a million 16-byte values. The frames
-// cannot be read meanwhile.
+// Whether a request may move a thread's stack, at most about a million 16-byte values, whose frames are then
+// unreadable.
 bool may_move_a_stack(const void* block, std::size_t old_size, std::size_t new_size) {
   constexpr std::size_t slot = 16, biggest = 1'100'000 * slot;
   return block != nullptr && old_size % slot == 0 && new_size % slot == 0 && new_size <= biggest;
@@ -64,15 +64,15 @@ void note_refusal(lua_State* main, void* block, std::size_t old_size, std::size_
   if (main != nullptr && !may_move_a_stack(block, old_size, new_size)) note_refusal_place(main);
 }
 
-// A granted request for more memory: if it differs from the refused one, the refusal was final.
+// If a granted growth differs from the refused request, the refusal was final.
 void note_grant(void* block, std::size_t new_size) {
   if (!refused) return;
   if (*refused != std::pair(block, new_size)) memory::note_exceeded();
   refused.reset();
 }
 
-// Regions for reuse by later states; unused under a sanitizer, which must see every block. Never destroyed,
-// because a state may be closed last.
+// Regions of closed states; unused under a sanitizer, which must see every block. Never destroyed, because a
+// state may be closed last.
 memory::BlockPool& regions() {
   static memory::BlockPool& pool = *new memory::BlockPool(std::size_t{8} << 20);
   return pool;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of one Lua state, under the same limit as the engine's grids. Small blocks come from one region,
-// reused by later states: a case of an ensemble makes several thousand small objects that live as long as its
-// state. The region counts as a whole while the state lives. Large blocks, and blocks that do not fit, come
-// from std::malloc and count by the byte.
+// Memory of one Lua state, under the engine's limit. Small blocks come from one region, reused by later
+// states: a case makes several thousand small objects that live as long as its state. The region counts as a
+// whole; other blocks come from std::malloc and count by the byte.
 #pragma once
 
 #include <array>
@@ -19,18 +18,17 @@ class SmallBlocks {
  public:
   static constexpr std::size_t step = 16, longest = 512;
 
-  // `region` has `bytes` bytes, is aligned to `step` and outlives this object; may be null.
+  // `region`: aligned to `step`, outlives this object; may be null.
   SmallBlocks(std::byte* region, std::size_t bytes) : next_(region), begin_(region), end_(region + bytes) {}
 
   bool holds(const void* block) const {
     const auto place = [](const void* at) { return reinterpret_cast<std::uintptr_t>(at); };
     return place(block) - place(begin_) < place(end_) - place(begin_);
   }
-  // Whether both sizes belong to one block class.
   static bool same(std::size_t a, std::size_t b) { return class_of(a) == class_of(b); }
-  // Null for 0 bytes, for more than `longest` bytes, or without room.
+  // Null for 0 bytes, more than `longest` bytes, or without room.
   void* take(std::size_t bytes) noexcept;
-  // A block of this region; `bytes` as taken, or fewer.
+  // `bytes` as taken, or fewer.
   void give(void* block, std::size_t bytes) noexcept;
 
  private:
@@ -69,12 +67,11 @@ class StateHeap {
   SmallBlocks small_;
 };
 
-// Whether memory was refused finally to this thread's states or the engine since the limit was set, even if
-// the script caught the error.
+// Whether a refusal to this thread's states or the engine was final since the limit was set, even if the
+// script caught the error.
 bool memory_limit_met();
 
-// Adds the script line of the last refusal and a traceback to Lua's memory error; returns other messages
-// unchanged.
+// Adds the script's place and traceback to Lua's memory error; other messages are unchanged.
 std::string placed_memory_error(const std::string& message);
 
 }  // namespace asperity::lua

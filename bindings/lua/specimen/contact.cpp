@@ -139,7 +139,7 @@ const Block<SweepKeys>& sweep_block() {
   return block;
 }
 
-// With adhesion, a sweep follows its branch: each state depends on the turning points of the earlier loads.
+// With adhesion, each state depends on the turning points of the earlier loads.
 Values sweep(Call& call) {
   const SweepKeys keys = call.options(sweep_block());
   auto pair = call.shared_self<SpecimenPair>();

@@ -17,7 +17,7 @@ namespace asperity::lua {
 template <>
 const Class& class_of<SpecimenPair>();
 
-// Option tables of c:press, c:place and c:shift, also used by protocol events.
+// Options of c:press, c:place and c:shift, also in protocol events.
 struct PressKeys {
   int given = 0;  // number of given controls; exactly one is allowed
   PressRequest request;
@@ -25,10 +25,9 @@ struct PressKeys {
   std::vector<double> preload;
 };
 const Block<PressKeys>& press_block();
-// The presses requested by a call of c:press or c:sweep; empty for other functions and for values unknown in
-// a dry run. Throws like the call.
+// Of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws like the call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
-// Writes the journal line of a press made by an iterator, equal to the line of c:press.
+// For a press by an iterator; equal to the line of c:press.
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state);
 struct PlaceKeys {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Converts the options of lab.contact into a Scene. Each effect has its own block.
+// Options of lab.contact, with one block per effect.
 #include "bindings/lua/specimen/contact_scene.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace asperity::lua {
 
 namespace {
 
-// `elasticity` as a table: the model and the options of all models; a model accepts only its own.
+// `elasticity` as a table: the model and its options.
 class ElasticityBlock final : public BlockInfo {
  public:
   ElasticityBlock() {
@@ -89,7 +89,7 @@ const ElasticityBlock& elasticity_block() {
   return block;
 }
 
-// As in a script: "box", or { model="layer", thickness= } if options are required.
+// "box", or { model="layer", thickness= } with required options.
 std::string written(const ElasticModel& model, bool all_options) {
   std::string keys;
   for (const OptionRow& row : model.options)
@@ -233,7 +233,6 @@ struct SceneKeys {
   AccuracyKeys accuracy;
 };
 
-// Appends errors thrown by `act`.
 template <class Act>
 void collect(Problems& problems, Act act) {
   try {
@@ -261,7 +260,6 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
   });
 }
 
-// An effect other than elasticity, with the options of its record.
 Option<SceneKeys> effect_option(const Effect& effect) {
   const RowBlock& block = effect_block(effect);
   Option<SceneKeys> option = custom<SceneKeys>(
@@ -314,7 +312,7 @@ std::vector<std::string> effects_named(const Argument& value, const std::string&
 
 namespace {
 
-// Each key names an effect; effects missing from this build are refused.
+// Effects missing from this build are refused.
 void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);

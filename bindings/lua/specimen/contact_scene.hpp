@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the options of lab.contact into a Scene: bodies, boundary, effects and accuracy.
+// Options of lab.contact as a Scene: bodies, boundary, effects and accuracy.
 #pragma once
 
 #include <string>
@@ -13,10 +13,9 @@ namespace asperity::lua {
 
 // One Error reports all problems.
 Scene read_scene(Call& call);
-// In a dry run with placeholder bodies: throws the errors of read_scene and of the contact, as far as the
-// bodies are known.
+// In a dry run with placeholder bodies: throws the errors of read_scene and of the contact, as far as known.
 void look_at_scene(const Call& call);
-// The keys of a table of effects, in order. Keys that are no text become problems with this hint.
+// In order. Keys that are no text become problems with this hint.
 std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems);
 const RowBlock& effect_block(const Effect& effect);
 const BlockInfo& scene_keys();

@@ -31,7 +31,7 @@ Explanation::Calls& Explanation::calls_of(Planned& planned, const std::string& w
   return *known;
 }
 
-// At most `most_tried` different values per control are planned; further values use the mean of the plans.
+// Plans at most `most_tried` values per control; further values use the mean.
 Explanation::Expected Explanation::expected(const SpecimenPair& pair, const PressRequest& request,
                                             Calls& calls) {
   constexpr std::size_t most_tried = 12;
@@ -174,7 +174,7 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
       return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
     return nullptr;
   };
-  // A function with a `path` writes a file and presses nothing.
+  // Functions with a `path` write files.
   if (!function.heavy ||
       std::ranges::find(function.parameters, "path", &Parameter::name) != function.parameters.end())
     return nullptr;
@@ -182,7 +182,7 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   return own != nullptr || call.count() < 1 ? own : contact_at(2);
 }
 
-// Counts one press, the values of a sweep, the events of a protocol or the probe pressures of a stage.
+// One press, or the number of values, events or probe pressures.
 std::int64_t presses_of(const Call& call) {
   const Object* self = Argument(call.L, 1).as_any_object();
   if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
@@ -191,7 +191,7 @@ std::int64_t presses_of(const Call& call) {
       return std::holds_alternative<PressRequest>(event.step);
     });
   }
-  // Probe pressures raised during the run are not counted.
+  // Without probe pressures raised during the run.
   if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
     const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
     const bool probes = stage->contact->scene().elasticity.model().moves_every_node;
@@ -205,7 +205,6 @@ std::int64_t presses_of(const Call& call) {
   return presses;
 }
 
-// The presses known before the call, with their counts.
 std::vector<Explanation::Asked> known_presses_of(const Call& call, const Function& function) {
   const Object* self = Argument(call.L, 1).as_any_object();
   if (self == nullptr || self->pointer == nullptr) return {};

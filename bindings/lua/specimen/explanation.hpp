@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plan of a script without its solves: surfaces are made, contacts are planned, and the plan of each press is
-// noted. Contacts with equal plans are shown once and share the estimates of their presses. A loop over a
-// sweep runs once; an ensemble runs its first case for all cases. Estimated transforms belong to the script's
-// own presses if their values are known.
+// Plan of a script without its solves: surfaces are made, contacts are planned, and each press is noted with
+// its plan. Contacts with equal plans are shown once. A loop over a sweep runs once; an ensemble runs its
+// first case for all. Estimated transforms are those of the script's presses, if known.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +28,14 @@ class Explanation {
     PressRequest request;
     std::int64_t times = 1;
   };
-  // Notes a call ("contact:press") with its presses; if `named` is empty, `presses` unknown presses.
+  // For example "contact:press"; if `named` is empty, `presses` unknown presses.
   void note(const SpecimenPair& pair, const std::string& what, std::span<const Asked> named,
             std::int64_t presses = 1);
 
-  // Notes a press without a plan: the contact is unknown before the run, or is spread over ranks.
+  // Without a plan: the contact is unknown before the run, or spread over ranks.
   void note_unplanned(const std::string& what) { unplanned_[what] += times_; }
 
-  // Multiplies the counts of everything noted during its lifetime.
+  // Multiplies the counts noted during its lifetime.
   class Repeating {
    public:
     Repeating(Explanation* explanation, std::int64_t times);
@@ -56,7 +55,7 @@ class Explanation {
   struct Expected {
     double transforms = 0, seconds = 0;
   };
-  // Presses with one plan and one control; `by` is empty if unknown.
+  // Presses with one plan and control; `by` is empty if unknown.
   struct Calls {
     std::string what;
     std::optional<PressBy> by;
@@ -80,7 +79,7 @@ class Explanation {
   std::int64_t times_ = 1;
 };
 
-// Notes a heavy call skipped in a dry run.
+// For heavy calls skipped in a dry run.
 void note_call(Explanation& explanation, const Call& call, const Function& function);
 
 }  // namespace asperity::lua

@@ -36,7 +36,7 @@ std::optional<double> pressed_to(const NumberedEvent& e) {
   const auto* press = std::get_if<PressRequest>(&e.step());
   return press != nullptr && press->by == by ? std::optional<double>(press->value) : std::nullopt;
 }
-// The member of a step of this kind, else empty. An optional member stays a plain optional.
+// Empty for a step of another kind. An optional member stays a plain optional.
 template <class Kind, auto member>
 auto part_of(const NumberedEvent& e) {
   const auto* step = std::get_if<Kind>(&e.step());

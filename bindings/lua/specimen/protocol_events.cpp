@@ -39,7 +39,6 @@ std::vector<std::string> event_names() {
   return names;
 }
 
-// Reads the events and collects all problems.
 class EventReader {
  public:
   std::optional<Protocol> read(const Argument& list, const std::string& caller) {
@@ -115,7 +114,7 @@ class EventReader {
     });
   }
 
-  // Returns "" after a problem.
+  // "" after a problem.
   std::string only_key(const Argument& event) {
     const std::vector<std::string> names = event_names();
     std::vector<std::string> known, unknown;
@@ -138,7 +137,7 @@ class EventReader {
     return known.size() == 1 && unknown.empty() && !unnamed ? known.front() : std::string();
   }
 
-  // Message for an unknown key, which may belong inside the event's own table.
+  // An unknown key may belong inside the event's own table.
   static std::string stranger(const std::string& name, const std::vector<std::string>& known) {
     for (const OptionInfo& info : infos()) {
       if (info.inner == nullptr) continue;

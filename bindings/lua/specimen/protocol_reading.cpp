@@ -144,7 +144,7 @@ DetectionOptions detection_options(const ReadProtocolKeys& keys, const PressReco
   return options;
 }
 
-// Converts loads on the whole specimen to mean pressures.
+// Loads on the whole specimen become mean pressures.
 Protocol over_area(const Protocol& protocol, const std::optional<double>& area) {
   if (!area) return protocol;
   std::vector<Protocol::Event> events(protocol.events().begin(), protocol.events().end());
