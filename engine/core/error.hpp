@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's only exception type. The sentence states the request and the finding, the hint a valid
-// alternative; the bindings add the script line. Both are plain text (plain_text in text.hpp), even if they
-// quote arbitrary bytes.
+// The engine's only exception type. The sentence states request and finding, the hint a valid alternative;
+// the bindings add the script line. Both are plain text (plain_text in text.hpp), even if they quote
+// arbitrary bytes.
 #pragma once
 
 #include <exception>

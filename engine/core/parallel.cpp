@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Helper threads live as long as the process and sleep between loops, because a loop over a small grid is
-// shorter than a thread start. One loop at a time uses the helpers; a concurrent loop runs on its own thread
-// alone. A loop never waits for a helper that has not begun. Each thread starts with the same share of blocks
-// in loops of equal length, because its cache holds their data; a finished thread takes blocks from other
-// shares.
+// shorter than a thread start. One loop at a time uses the helpers; a concurrent loop runs alone. A loop
+// never waits for a helper that has not begun. Loops of equal length give each thread the same first share of
+// blocks, still in its cache; a finished thread takes blocks from other shares.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ class Loop {
     }
   }
 
-  // Call after every thread has left work().
+  // Only after every thread has left work().
   void finish() {
     cost::count_transforms(helper_transforms_);
     if (failure_) std::rethrow_exception(failure_);
@@ -84,7 +83,7 @@ class Loop {
   double helper_transforms_ = 0;
 };
 
-// A few microseconds: the gap between loops of one transform, less than a wake-up.
+// The gap between loops of one transform, less than a wake-up.
 constexpr int turns_before_sleep = 2000;
 
 void pause() {
@@ -105,7 +104,7 @@ class Pool {
     for (std::thread& helper : helpers_) helper.join();
   }
 
-  // False without effect if another loop uses the helpers.
+  // False without effect if the helpers are in use.
   bool run(Loop& loop, int helpers) {
     const std::unique_lock taken(taken_, std::try_to_lock);
     if (!taken) return false;

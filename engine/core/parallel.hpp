@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parallel loops over independent blocks. The caller fixes the blocks, so bits do not depend on the number of
+// Parallel loops over independent blocks, fixed by the caller, so that bits do not depend on the number of
 // threads. An exception stops the loop; the exception of the lowest failed block is rethrown.
 #pragma once
 

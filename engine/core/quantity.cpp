@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A unit is numerator / denominator × 10^ten, with exact integers where possible. The power of ten is
-// inserted into the number's text, so "250 um" is the double nearest to 250e-6, with one rounding.
+// A unit is numerator / denominator × 10^ten, exact where possible. The power of ten is inserted into the
+// number's text, so "250 um" is the double nearest to 250e-6, with one rounding.
 #include "engine/core/quantity.hpp"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ struct Unit {
 constexpr double lb = 44482216152605, in2 = 64516, lb_kg = 45359237;
 constexpr double vickers = 9806650;  // Pa; HV counts kgf/mm²
 
-// Whole names precede prefixes: the k of kip, m of mil and a of atm are no prefixes. Common units first: of
-// equally near names the first is suggested.
+// The k of kip, m of mil and a of atm are no prefixes. Common units first: of equally near names the first is
+// suggested.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
     {"\u00B5m", dimension::length, 1, 1, -6}, {"\u03BCm", dimension::length, 1, 1, -6},
@@ -218,7 +218,6 @@ class Reader {
     if (negative) exponent_ = -exponent_;
   }
 
-  // Letters, %, _ and other non-ASCII characters.
   std::size_t name_length() const {
     std::size_t n = 0;
     while (n < rest_.size()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Physical quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds exponents of
-// metre, kilogram, second and radian, so angles differ from plain numbers. All values are SI.
+// Quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds exponents of metre,
+// kilogram, second and radian, so angles differ from plain numbers. Values are SI.
 #pragma once
 
 #include <cstdint>
@@ -49,13 +49,12 @@ struct Quantity {
   Dimension dimension;
 };
 
-// "<number> [unit]": units are products such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next
-// unit only. No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is
-// the double nearest to 250e-6. Throws Error{bad_unit} with the text, the unreadable part and the nearest
-// unit.
+// "<number> [unit]": products such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next unit only.
+// No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is the double
+// nearest to 250e-6. Throws Error{bad_unit} with the unreadable part and the nearest unit.
 Quantity parse_quantity(std::string_view text);
 
-// "um" -> 1e-6 m, as in a table header "time [s]".
+// As in a table header "time [s]".
 Quantity parse_unit(std::string_view text);
 
 // In SI. Throws Error{bad_unit} with both dimensions and an accepted example.

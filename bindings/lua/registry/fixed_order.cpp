@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pairs and next in the same order in every process. Lua's order depends on a string hash whose seed
-// (luai_makeseed) comes from clock and addresses, and no call of Lua 5.4 sets the seed. A loop therefore
-// sorts the keys when it begins.
+// pairs and next in the same order in every process. Lua's order depends on a string hash with a seed
+// (luai_makeseed) from clock and addresses, which no call of Lua 5.4 sets. A loop therefore sorts the keys
+// when it begins.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -19,16 +19,16 @@ namespace {
 
 enum class Kind : std::uint32_t { number, text, boolean, other };
 
-// `head` is compared first: ordered bits of a number, first eight bytes of a string, address of a table.
+// `head` is compared first: bits of a number, eight bytes of a string, address of a table.
 struct Key {
   Kind kind = Kind::other;
-  std::uint32_t place = 0;  // position in the list of keys, from 1
+  std::uint32_t place = 0;  // index in the list of keys, from 1
   std::uint64_t head = 0;
   std::int64_t rest = 0;       // integer, or length of a string
   const char* text = nullptr;  // valid as long as the list
 };
 
-// Sorted keys of one loop: a userdata whose user value is the list of keys.
+// Sorted keys of a loop, a userdata whose user value is their list.
 struct alignas(Key) Walk {
   std::uint32_t count, next;
   Key* keys() { return reinterpret_cast<Key*>(this + 1); }
@@ -76,7 +76,7 @@ void note_other_keys(lua_State* L) noexcept {
                           "in another order in every run; use numbers or strings as keys");
 }
 
-// Pushes the walk over the table at an absolute index, and the list of its keys. Raises.
+// Pushes the walk over a table and the list of its keys. Raises.
 Walk* push_walk(lua_State* L, int table) {
   luaL_checkstack(L, 8, nullptr);
   std::size_t count = 0;
@@ -84,7 +84,7 @@ Walk* push_walk(lua_State* L, int table) {
   auto* walk = new (lua_newuserdatauv(L, sizeof(Walk) + count * sizeof(Key), 1)) Walk{0, 0};
   const int at = lua_gettop(L), list = at + 1;
   lua_createtable(L, static_cast<int>(count), 0);
-  // A collection may have changed a table with weak keys. Nothing is allocated from here on.
+  // A collection may have changed a weak table. Nothing is allocated from here on.
   std::uint32_t found = 0, others = 0;
   for (lua_pushnil(L); found < count && lua_next(L, table) != 0;) {
     lua_pop(L, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua's headers. A function that may raise is called only inside protect(): an error leaves by longjmp in the
+// Lua's headers. Functions that may raise are called only inside protect(): an error leaves by longjmp in the
 // C build of Lua (no destructor runs) and by Lua's own exception in the C++ build (which no other code may
 // swallow).
 #pragma once
@@ -10,9 +10,8 @@
 
 namespace asperity::lua {
 
-// Runs action(L) under lua_pcall with the top `arguments` values and leaves the results. Returns a Lua
-// status; an error value is on top of the stack. The action must own no destructor, because Lua may leave by
-// longjmp.
+// Runs action(L) under lua_pcall with the top `arguments` values; leaves the results, or an error value.
+// Returns a Lua status. The action must own no destructor, because Lua may leave by longjmp.
 template <class Action>
 int protect(lua_State* L, int arguments, int results, Action& action) {
   static_assert(!std::is_const_v<Action>);

@@ -119,7 +119,7 @@ std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::str
   return values;
 }
 
-// For a field of a record or an element of a list. A nested list has an unknown length.
+// For a field or an element. A nested list has an unknown length.
 Value placeholder_inside(const std::string& type) {
   return type.ends_with("[]") ? Value(Unknown{}) : placeholder_of(type);
 }
@@ -246,7 +246,6 @@ void open_dry_run_library(lua_State* L) {
   wrap(L, "math", "type", refuse_unknown);
   for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
   wrap(L, "_G", "assert", assert_known);
-  // A dry run prints nothing for the script.
   wrap(L, "_G", "print", ignored);
   wrap(L, "io", "write", again);
   lua_getglobal(L, "io");

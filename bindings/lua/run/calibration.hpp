@@ -38,11 +38,11 @@ struct CalibrationInput {
   std::size_t left_out = 0;
 };
 
-// Selects rows with a number in each named column, a specimen if named, and a weight above 0. Throws like
+// Selects rows with a number in each named column, a named specimen, and a weight above 0. Throws like
 // number_columns(), and Error{bad_value} for a negative weight or if no row matches `where`.
 CalibrationInput calibration_input(const Table& table, const CalibrationKeys& keys);
 
-// Reports the warnings, and warns of a column of specimens without a key.
+// Warns of a column of specimens without a key.
 CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, CalibrationInput input,
                                      Calibration found);
 

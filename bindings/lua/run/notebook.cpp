@@ -47,14 +47,14 @@ Values open_notebook(Call& call) {
   return {object(book)};
 }
 
-// Columns written in a dry run; null in a run.
+// Null in a run.
 std::set<std::string>* columns_seen(const Call& call) {
   Mistakes* const mistakes = call.session().mistakes.get();
   const auto* book = call.argument(0).as<Notebook>();
   return mistakes == nullptr || book == nullptr ? nullptr : &mistakes->columns[book->name()];
 }
 
-// A name absent from the script's text is computed and may differ in the next turn of a loop.
+// A name absent from the script's text is computed and may change in the next turn of a loop.
 void note_columns(const Call& call) {
   std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr) return;
@@ -68,7 +68,7 @@ void note_columns(const Call& call) {
     });
 }
 
-// Refuses an unknown column if all column names are known.
+// Refuses an unknown column, if all columns are known.
 void look_at_columns(const Call& call) {
   const std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr || columns->empty() || columns->contains("")) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:fit: fits a line, a power law or a script function to two columns. The function receives x and one table
-// of parameters by name, reused in all calls. x, y and weights are in the units of their columns.
+// t:fit: a line, a power law or a script function. The function receives x and one table of parameters by
+// name, reused in all calls. x, y and weights are in the units of their columns.
 #include <algorithm>
 #include <map>
 
@@ -85,8 +85,8 @@ const Block<FitKeys>& fit_block() {
   return block;
 }
 
-// A script function as model. Its parameter table and names stay on the stack until the surrounding guard
-// removes them, so that a call allocates nothing.
+// Parameter table and names stay on the stack until the surrounding guard removes them, so that a call
+// allocates nothing.
 class ScriptModel {
  public:
   ScriptModel(const Argument& function, const std::vector<CalibrationParameter>& start)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells, rows and filters exchanged between scripts and tables.
+// Cells, rows and filters of scripts.
 #pragma once
 
 #include <functional>
@@ -15,19 +15,18 @@
 
 namespace asperity::lua {
 
-// Number, boolean or text; nothing for other values. Lua integers stay integers.
+// Nothing for other values. Lua integers stay integers.
 std::optional<Cell> cell_of(const Argument& value);
-// Nil for an empty cell. Integers become floats in a column with a unit, because their squares may exceed the
-// integer range.
+// Nil for an empty cell. A column with a unit gives floats, because squares may exceed the integer range.
 Value value_of(const Cell& cell, const TableColumn& column);
-// One row by column name, without empty cells.
+// Without empty cells.
 Map row_of(const Table& table, std::size_t row);
 List rows_of_table(const Table& table);
 
-// A row from a script, sorted by column name. "Ra [um]" means column Ra with unit um. "3 um" is converted to
-// the unit that `unit_of` returns for the column, or to SI without one. Cells unknown in a dry run are
-// skipped. Throws Error{bad_value} with the hint `example` if the value is no row, and Error{bad_unit} for
-// another dimension than the column's.
+// A row, sorted by column name. "Ra [um]" means column Ra with unit um. "3 um" is converted to the unit that
+// `unit_of` returns for the column, or to SI. Cells unknown in a dry run are skipped. Throws Error{bad_value}
+// with the hint `example` if the value is no row, and Error{bad_unit} for another dimension than the
+// column's.
 std::vector<Entry> entries_of(const Argument& row, bool dry, const std::string& example,
                               const std::function<std::string(const std::string& column)>& unit_of);
 
@@ -41,7 +40,7 @@ Option<O> where_key(TableFilter O::*member) {
                    });
 }
 
-// The table before the colon, or the notebook's present rows.
+// The table, or the notebook's present rows.
 std::shared_ptr<const Table> table_of_self(const Call& call);
 
 }  // namespace asperity::lua

@@ -66,7 +66,7 @@ std::optional<std::string> loaded_text(const Session& session, const std::string
   return text.substr(begin_of_script(text));
 }
 
-// Pushes the text from `find`; nil and the message if `find` throws.
+// Pushes the text; nil and the message if `find` throws.
 template <class Find>
 int give_text(lua_State* L, const Find& find) {
   std::optional<std::string> text;
@@ -86,7 +86,7 @@ int give_text(lua_State* L, const Find& find) {
   return protect(L, 0, text ? 1 : 2, action) == LUA_OK ? (text ? 1 : 2) : -1;
 }
 
-// host.script_text(name, is_module) -> text; nothing if Lua must open the file; nil and a message on error
+// host.script_text(name, is_module) -> text, nothing (Lua must open the file), or nil and a message
 int script_text(lua_State* L) {
   const int results = give_text(L, [L](const Session& session, const std::string& name) {
     return loaded_text(session, name, lua_toboolean(L, 2) != 0);
@@ -94,7 +94,7 @@ int script_text(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.was_loaded(name) -> whether the replayed or resumed run loaded this file
+// host.was_loaded(name) -> whether the recorded run loaded this file
 int was_loaded(lua_State* L) {
   lua_pushboolean(
       L, lua_isstring(L, 1) != 0 && recorded_copy(Session::of(L).loaded, lua_tostring(L, 1)) != nullptr);
@@ -112,7 +112,7 @@ int output_path(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.settled(removed): the script wrote files, or removed `removed`, a path from output_path()
+// host.settled(removed): the script wrote files, or removed this output_path()
 int settled(lua_State* L) {
   const auto& run = Session::of(L).run;
   if (run != nullptr && lua_isstring(L, 1) != 0) run->forget_output(lua_tostring(L, 1));
@@ -159,7 +159,7 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
-// host.mistaken(message) -> true and a placeholder in a dry run that continues after mistakes, else false
+// host.mistaken(message) -> true and a placeholder after a noted mistake, else false
 int mistaken(lua_State* L) {
   const bool noted = noted_as_mistake(L);
   lua_pushboolean(L, noted ? 1 : 0);
@@ -252,7 +252,7 @@ int set_up(lua_State* L) {
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   lua_gc(L, LUA_GCRESTART);
-  // As after a collection, the next cycle begins at twice the present size.
+  // The next cycle begins at twice the present size, as after a collection.
   lua_gc(L, LUA_GCSTEP, -lua_gc(L, LUA_GCCOUNT));
   return 0;
 }
@@ -305,7 +305,7 @@ const char* stop_sentence(StopReason reason) {
   return nullptr;
 }
 
-// Whether the hook runs for the traceback handler. A second stop would prevent the traceback.
+// Whether the hook runs for the traceback handler, which a second stop would prevent.
 bool calls_the_handler(lua_State* L, lua_Debug* frame) {
   if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
   lua_getinfo(L, "f", frame);
@@ -317,7 +317,7 @@ bool calls_the_handler(lua_State* L, lua_Debug* frame) {
 void stop_hook(lua_State* L, lua_Debug* frame) {
   const char* sentence = stop_sentence(stop_flag().reason());
   if (sentence == nullptr || calls_the_handler(L, frame)) return;
-  // The running line, or the caller's line in a C function.
+  // The running line, or the caller's line.
   lua_Debug running;
   for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
     lua_getinfo(L, "Sl", &running);
@@ -356,7 +356,6 @@ std::string error_text(lua_State* L, int index) {
 }
 
 int traceback_handler(lua_State* L) {
-  // Raising is allowed: lua_pcall returns LUA_ERRERR.
   if (lua_type(L, 1) != LUA_TSTRING) {
     luaL_tolstring(L, 1, nullptr);
     if (lua_type(L, 1) != LUA_TUSERDATA) {
@@ -368,7 +367,7 @@ int traceback_handler(lua_State* L) {
     lua_replace(L, 1);
   }
   lua_settop(L, 1);
-  // Disables the stop hook during the traceback.
+  // No stop during the traceback.
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
   lua_sethook(L, nullptr, 0, 0);

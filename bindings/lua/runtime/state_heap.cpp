@@ -21,8 +21,7 @@ namespace {
 // refusal was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
 
-// The script's place at the last refusal, because Lua raises its memory error after unwinding the stack. No
-// allocation.
+// The script's place, because Lua raises its memory error after unwinding the stack. No allocation.
 struct RefusalPlace {
   char line[96] = "";     // "script.lua:12: "
   char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" ...
@@ -50,7 +49,7 @@ void note_refusal_place(lua_State* L) {
   }
 }
 
-// Whether a request may move a thread's stack, at most about a million 16-byte values, whose frames are then
+// Whether a request may move a thread's stack (at most about a million 16-byte values), whose frames are then
 // unreadable.
 bool may_move_a_stack(const void* block, std::size_t old_size, std::size_t new_size) {
   constexpr std::size_t slot = 16, biggest = 1'100'000 * slot;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plan of a script without its solves: surfaces are made, contacts are planned, and each press is noted with
-// its plan. Contacts with equal plans are shown once. A loop over a sweep runs once; an ensemble runs its
-// first case for all. Estimated transforms are those of the script's presses, if known.
+// Plan of a script without its solves: surfaces are made, contacts planned, and each press noted with its
+// plan. Contacts with equal plans are shown once. A loop over a sweep runs once; an ensemble runs its first
+// case for all.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Facts that a dry run knows about an unmade surface: material and, if the call gives them, cells and size. A
-// placeholder carries the facts, so that a dry run refuses the same contacts as the run.
+// Known facts about a surface that a dry run does not make: material and, from the call, cells and size. A
+// dry run thus refuses the same contacts as the run.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,13 @@ struct KnownBody {
   std::optional<Grid> grid;          // empty: unknown before the run
 };
 
-// Facts of a surface or placeholder; null if unknown.
+// Null if unknown.
 std::shared_ptr<const KnownBody> known_body(const Argument& value);
 
-// Facts of the call's result, from its options and the surface before the colon; null if unknown.
+// From the call's options and the surface before the colon; null if unknown.
 std::shared_ptr<const KnownBody> known_result(const Call& call, const Function& function);
 
-// A small surface of this material and, if known, size, for trial scenes.
+// For trial scenes: a small surface of this material and, if known, size.
 Surface stand_in(const KnownBody& body);
 
 }  // namespace asperity::lua

@@ -38,7 +38,7 @@ double BracketedSecant::secant() const {
   const auto ratio = [](double x, double y) { return elementary::log(x / y); };
   if (scale_ == Scale::logarithmic && end_.value < unknown && last_.at > near_the_end * end_.at &&
       last_.at < end_.at && last_.value < end_.value) {
-    // From the deficits to the upper end, which the function may approach as any power.
+    // From the deficits to the end, which f may approach as any power.
     const double lacks = end_.at - last_.at, power = [&] {
       if (first || !(before_.at < end_.at && before_.value < end_.value)) return usual_power;
       return ratio(end_.value - last_.value, end_.value - before_.value) / ratio(lacks, end_.at - before_.at);
@@ -53,7 +53,7 @@ double BracketedSecant::secant() const {
     const double by_power = elementary::pow(wanted_ / last_.value, usual_power);
     double factor = by_power;
     if (end_.value < unknown && last_.value < wanted_ && last_.at < end_.at) {
-      // Between the usual power and the chord to the end, for a function that flattens near its end.
+      // Between the usual power and the chord to the end, for an f that flattens near its end.
       const double chord = ratio(end_.value, last_.value) / ratio(end_.at, last_.at);
       const double by_chord = elementary::exp(ratio(wanted_, last_.value) / chord);
       factor = std::sqrt(by_power * std::max(by_power, by_chord));

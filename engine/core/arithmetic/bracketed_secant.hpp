@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solves f(place) = wanted for an expensive, non-decreasing f by the secant through the last two values,
-// inside a bracket that is halved after slow steps. Without an upper value, steps that fall short repeatedly
-// grow. A value too rough to decide its side leaves the bracket unchanged. The logarithmic scale uses
-// logarithms while f follows a power of the place, and the deficits from a known upper end near it.
+// inside a bracket that is halved after slow steps. Without an upper value, repeatedly short steps grow. A
+// value too rough to decide its side leaves the bracket unchanged. The logarithmic scale uses logarithms
+// while f follows a power of the place, and near a known upper end the deficits from it.
 #pragma once
 
 #include <limits>
@@ -24,8 +24,7 @@ class BracketedSecant {
                            Scale scale = Scale::linear)
       : wanted_(wanted), scale_(scale), low_(low), high_(high), end_(high) {}
 
-  // `sure`: the value may move the bracket. `instead`: replaces the last, rougher value at about the same
-  // place.
+  // `sure`: may move the bracket. `instead`: replaces the last, rougher value at about the same place.
   void take(Point found, bool sure, bool instead = false);
   bool holds(double place) const { return place > low_.at && place < high_.at; }
   // None if no double is left inside the bracket.
@@ -33,7 +32,7 @@ class BracketedSecant {
 
  private:
   double secant() const;
-  // Whether the last value is nearer to the line than to the power law through the two previous values.
+  // Whether the last value is nearer to the line than to the power law through the previous two.
   bool bends_as_a_line() const;
   double width() const;
   // At a share of the bracket, or at the chord through its values.

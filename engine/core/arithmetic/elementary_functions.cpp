@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each fast function computes high + low with an error bound. If high + (low ± bound) round alike, the
-// rounded value is the result; otherwise MPFR decides. Tables reduce the argument until three or four terms
-// of a series suffice; the first one or two are exact. MPFR also handles huge angles, subnormal results,
-// zeros and infinities.
+// A fast function computes high + low with an error bound. If high + (low ± bound) round alike, this is the
+// result; otherwise MPFR decides. Tables reduce the argument to three or four terms of a series, the first
+// one or two exact. MPFR also handles huge angles, subnormal results, zeros and infinities.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <mpfr.h>
@@ -28,12 +27,12 @@ constexpr auto reciprocal_table = elementary_tables::reciprocals();
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Frees MPFR's per-thread caches of π and log 2 at thread exit.
+// Frees MPFR's constants at thread exit.
 struct ThreadConstants {
   ~ThreadConstants() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
 };
 
-// MPFR with one rounding, also for subnormal results.
+// One rounding, also for subnormal results.
 template <class Function, class... Arguments>
 [[gnu::noinline]] double rounded_slowly(Function function, Arguments... arguments) {
   thread_local const ThreadConstants constants{};
@@ -73,16 +72,15 @@ struct Unrounded {
   double high, low, bound;
 };
 
-// Whether both ends of the bound round alike, to `result`.
+// Whether both ends of the bound round to `result`.
 inline bool decided(const Unrounded& value, double& result) {
   result = value.high + (value.low - value.bound);
   return result == value.high + (value.low + value.bound);
 }
 
-// A logarithm with a relative error of at most 2^-67.
-//
-// x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is exact in two parts: log x = e ln 2 + log c + r
-// − r²/2 + r³/3 … The first three terms are summed exactly, with r² from a short part of r.
+// log x with a relative error of at most 2^-67. x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is
+// exact in two parts: log x = e ln 2 + log c + r − r²/2 + r³/3 … The first three terms are summed exactly,
+// with r² from a short part of r.
 inline Pair logarithm(double x, double x_low = 0) {
   constexpr std::uint64_t first = 0x3fe6800000000000;  // 360/512
   constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
@@ -112,9 +110,8 @@ inline Pair logarithm(double x, double x_low = 0) {
   return {square.high, (linear.low + square.low) + low};
 }
 
-// 2^k (high + low), high in [0.99, 2), error at most 2^-67; |x| < 2^16, |x_low| small compared with |x|.
-//
-// x = (128 k + j) ln 2/128 + r: e^x = 2^k 2^(j/128) (1 + r + r²/2 …). The second factor is exact in a short
+// e^x = 2^k (high + low), high in [0.99, 2), error at most 2^-67; |x| < 2^16, |x_low| small compared with
+// |x|. x = (128 k + j) ln 2/128 + r: e^x = 2^k 2^(j/128) (1 + r + r²/2 …), the second factor exact in a short
 // part, times a short part of r.
 struct Power {
   double high, low;
@@ -143,8 +140,8 @@ inline double times_power_of_two(double x, std::int64_t k) {
 
 constexpr double power_error = 0x1p-66;
 
-// An angle x = (256 q + j) π/512 + high + low, |high| < π/1023. False if the parts would be too short: near
-// multiples of π/2, or for huge x.
+// x = (256 q + j) π/512 + high + low, |high| < π/1023. False near multiples of π/2, where the parts would be
+// too short, and for huge x.
 struct Angle {
   double high, low;
   unsigned quarter, j;
@@ -182,7 +179,7 @@ inline Unrounded turned(const Pair& s, const Pair& c, double sign, const Angle& 
   return {main.high, main.low + low, main.high * 0x1p-66};
 }
 
-// sin(jπ/512 + b) and cos(jπ/512 + b), without the quarter.
+// sin and cos of jπ/512 + b.
 inline Unrounded sine_of(const Angle& b) {
   if (b.j == 0) {
     const double z = b.high, z2 = z * z;
@@ -193,7 +190,7 @@ inline Unrounded sine_of(const Angle& b) {
 }
 inline Unrounded cosine_of(const Angle& b) { return turned(sine_table[256 - b.j], sine_table[b.j], -1, b); }
 
-// sin (or cos, one quarter on) of the reduced angle; false if undecided.
+// sin or, one quarter on, cos of the angle; false if undecided.
 inline bool sine_in_quarter(const Angle& angle, unsigned quarter, double& result) {
   const bool settled = decided(quarter % 2 == 0 ? sine_of(angle) : cosine_of(angle), result);
   if (quarter >= 2) result = -result;
@@ -211,7 +208,7 @@ inline Pair root_of(const Pair& square) {
   return {root, ((square.high - back.high) - back.low + square.low) / (2 * root)};
 }
 
-// log x times `scale`, for log2 and log10.
+// scale·log x.
 inline double scaled_logarithm(double x, const Pair& scale, bool& settled) {
   const Pair ln = logarithm(x);
   const Pair p = pairs::product(ln.high, scale.high);

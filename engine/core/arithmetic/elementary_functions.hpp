@@ -2,12 +2,12 @@
 // Correctly rounded elementary functions (nearest, ties to even): the same bits with every processor,
 // compiler and C library. C libraries select fused multiply-add by processor and differ in the last bit.
 // Method: Ziv (1991), with tables and short polynomials in pairs of doubles (66 bits or more); MPFR decides
-// about one argument in several thousand. Functions exact by IEEE 754 (sqrt, fma, fmod, remainder, ldexp,
-// floor) are omitted.
+// about one argument in several thousand. Functions exact by IEEE 754 (sqrt, fma, fmod, ldexp, floor) are
+// omitted.
 //
-// Thread-safe; expect the default rounding mode (rounding_mode.hpp). Special values, infinities and signed
-// zeros follow C's Annex F; floating-point exceptions are not guaranteed. "Fast" means up to twice the time
-// of the C library, "slow" some microseconds.
+// Thread-safe in the default rounding mode (rounding_mode.hpp). Special values follow C's Annex F;
+// floating-point exceptions are not guaranteed. "Fast": up to twice the time of the C library; "slow": some
+// microseconds.
 #pragma once
 
 namespace asperity::elementary {

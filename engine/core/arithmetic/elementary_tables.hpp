@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables for elementary_functions.cpp, exact to 80 bits or more, computed at compile time in pairs of
-// doubles: powers of 2^(1/128), sines of multiples of π/512, reciprocals and their logarithms. High parts are
+// Tables for elementary_functions.cpp, exact to 80 bits or more, computed at compile time. High parts are
 // short, so that products with a short factor are exact.
 #pragma once
 
@@ -65,8 +64,8 @@ constexpr std::array<Pair, 257> sines() {
 }
 
 // 1/c, a multiple of 2^-9, and log c, a multiple of 2^-42 and the rest, for c near the middle of interval i
-// of a significand in [360/512, 720/512): [360 + i, 361 + i)/512 below 1, i = 0 … 151, and [104 + i, 105 +
-// i)/256 from 1 on, i = 152 … 255. Both intervals next to 1 have c = 1.
+// of a significand in [360/512, 720/512): [360 + i, 361 + i)/512 for i = 0 … 151, below 1, and [104 + i, 105
+// + i)/256 for i = 152 … 255. Both intervals next to 1 have c = 1.
 struct Reciprocal {
   double reciprocal, log_high, log_low;
 };

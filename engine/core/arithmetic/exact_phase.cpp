@@ -33,7 +33,7 @@ class Real {
   mpfr_t value_;
 };
 
-// Frees MPFR's per-thread cache of π at thread exit.
+// Frees MPFR's π at thread exit.
 struct CacheGuard {
   ~CacheGuard() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
 };
@@ -103,7 +103,7 @@ void check(double gamma, double span, int cells, int directions, int n_max) {
                 "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
 }
 
-// For fewer turns per grid step, the grain of 64-bit fractions would show in the heights.
+// For fewer turns per grid step, the grain of the fractions would show in the heights.
 constexpr double smallest_step = 0x1p-32;
 
 mpfr_prec_t precision(double gamma, double span, int n_max) {
@@ -116,8 +116,7 @@ mpfr_prec_t precision(double gamma, double span, int n_max) {
 }  // namespace
 
 UnitPhase unit_phase(std::uint64_t turns) {
-  // Within an eighth of a turn of a quarter, the angle is exact to double precision; quarters only swap and
-  // negate.
+  // Near a quarter, the angle is exact to double precision; quarters only swap and negate.
   const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
   const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exact phases of plane waves with geometrically growing wave numbers. Wave (m, n), m = 1 … M, n = 0 … n_max,
 // makes u = γⁿ·(cos(πm/M), sin(πm/M))·span/cells turns per grid step. Doubles lose the phase long before the
-// published n_max = 100. MPFR computes the fraction of u once, in units of 2⁻⁶⁴ turn; the phase at node i is
+// published n_max = 100; MPFR computes the fraction of u in units of 2⁻⁶⁴ turn. The phase at node i is
 // i·increment modulo 2⁶⁴.
 #pragma once
 
@@ -19,7 +19,7 @@ struct UnitPhase {
 // Cosine and sine of `turns`·2⁻⁶⁴ turn, to one unit in the last place; exact at quarter turns.
 UnitPhase unit_phase(std::uint64_t turns);
 
-// Increments of all M·(n_max+1) waves: floor(2⁶⁴·frac(u) + ½) modulo 2⁶⁴.
+// floor(2⁶⁴·frac(u) + ½) modulo 2⁶⁴ for M·(n_max+1) waves.
 struct PhaseIncrements {
   int directions = 0;  // M
   int n_max = 0;
@@ -33,7 +33,7 @@ struct PhaseIncrements {
   }
 };
 
-// Limits: γ^n_max ≤ 2^2048, and these counts.
+// With γ^n_max ≤ 2^2048:
 inline constexpr double max_wave_octaves = 2048;
 inline constexpr int max_wave_order = 4096;                       // n_max
 inline constexpr int max_wave_directions = 65536;                 // M
@@ -42,12 +42,12 @@ inline constexpr std::int64_t max_waves = std::int64_t{1} << 22;  // M·(n_max+1
 // Greatest n_max for γ > 1.
 int greatest_wave_order(double gamma);
 
-// `gamma` and `span` are exact as doubles; `cells` is the number of grid steps in `span`, for x and y.
-// Precision: the bits of u before the point, 64 for the result and 64 guard bits, at least 384. Waves m and
-// M−m have exactly opposite increments in x and equal increments in y; cos and sin of 0, ±½ and ±1 are exact.
-// About 0.3 µs and 16 bytes per wave. Thread-safe; frees MPFR's cache. Throws Error{bad_value} naming
-// `gamma`, `n_max`, `M`, `span` or `cells`: `n_max` if n_max·log2 γ > 2048 or n_max > 4096; `span` if wave
-// n_max makes less than 2⁻³² turn per step.
+// `gamma` and `span` are exact as doubles; `cells` grid steps make one `span`, in x and y. Precision: the
+// bits of u before the point, 64 for the result and 64 guard bits, at least 384. Waves m and M−m have exactly
+// opposite increments in x and equal increments in y; cos and sin of 0, ±½ and ±1 are exact. About 0.3 µs and
+// 16 bytes per wave. Thread-safe; frees MPFR's cache. Throws Error{bad_value} naming `gamma`, `n_max`
+// (n_max·log2 γ > 2048 or n_max > 4096), `M`, `cells` or `span` (wave n_max makes less than 2⁻³² turn per
+// step).
 PhaseIncrements phase_increments(double gamma, double span, int cells, int directions, int n_max);
 
 }  // namespace asperity

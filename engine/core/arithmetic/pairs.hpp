@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pairs of doubles, high + low, about 106 bits: exact sum and product of doubles (Dekker 1971, Knuth,
-// Møller), and constexpr pair arithmetic for tables. Requires rounding to nearest, no overflow, and no
-// contraction of a*b+c.
+// Møller), and constexpr arithmetic for tables. Requires rounding to nearest, no overflow, and no contraction
+// of a*b+c.
 #pragma once
 
 #if defined(__FMA__)
@@ -28,8 +28,8 @@ constexpr Pair sum(double a, double b) {
   return {s, (a - (s - part)) + (b - part)};
 }
 
-// a·b exactly, for products of 2^-960 … 2^990 and factors below 2^990. The error is a double; fused
-// multiply-add computes the same error.
+// a·b exactly, for products of 2^-960 … 2^990 and factors below 2^990. The error is a double, also found by
+// fused multiply-add.
 constexpr Pair product(double a, double b) {
   const double p = a * b;
 #if defined(__FMA__)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of one processor register: width, two-operand shuffles, conversions between doubles, floats and
-// bytes. GCC 12 keeps wider vectors on the stack, which slows inner loops five to ten times.
+// Vectors of one processor register: shuffles and conversions. GCC 12 keeps wider vectors on the stack, which
+// slows inner loops five to ten times.
 //
 // Private to sources compiled for one processor, because width and layout differ between them. Vectors are
 // passed by reference: their calling convention depends on the processor.
@@ -112,7 +112,7 @@ inline __attribute__((always_inline)) void transpose(Vector* x) {
   exchange_blocks<1>(x);
 }
 
-// -- Conversions between unaligned memory and a vector of doubles.
+// -- Conversions to and from unaligned memory.
 
 template <class Doubles>
 inline constexpr int lanes_of = static_cast<int>(sizeof(Doubles) / sizeof(double));
@@ -126,7 +126,6 @@ inline __attribute__((always_inline)) void read(const float* from, Doubles& to) 
   to = __builtin_convertvector(
       *reinterpret_cast<const typename Of<float, lanes_of<Doubles>>::Anywhere*>(from), Doubles);
 }
-// One instruction per step.
 template <class Doubles>
 inline __attribute__((always_inline)) void read(const std::uint8_t* from, Doubles& to) {
   using Words = typename Of<std::uint16_t, lanes_of<Doubles>>::Vector;
@@ -157,7 +156,6 @@ inline __attribute__((always_inline)) void write(const Doubles& from, std::uint8
       __builtin_convertvector(words, Bytes);
 }
 
-// Two vectors of doubles correspond to one vector of floats.
 template <class Doubles, class Floats>
 inline __attribute__((always_inline)) void narrow(const Doubles& low, const Doubles& high, Floats& to) {
   using Half = typename Of<float, lanes_of<Doubles>>::Vector;
@@ -173,7 +171,7 @@ inline __attribute__((always_inline)) void widen(const Floats& from, Doubles& lo
   high = __builtin_convertvector(half, Doubles);
 }
 
-// GCC 12 needs several instructions for these conversions, and reads bytes one by one.
+// GCC 12 needs several instructions, and reads bytes one by one.
 #if defined(__AVX2__)
 inline __attribute__((always_inline)) void read(const float* from, Of<double, 4>::Vector& to) {
   to = reinterpret_cast<Of<double, 4>::Vector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Atomic replacement of a file: written under a temporary name in the same folder, then renamed. Readers see
-// the old or the complete new file; a failed write leaves the old file. By default without waiting for the
-// disk: a power cut may lose the last moments, a kill does not.
+// the old or the complete new file. By default without waiting for the disk: a power cut may lose the last
+// moments, a kill does not.
 //
 // Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER contains host (8 digits), process (up to 10) and
 // 64 random bits, so that processes on several hosts and in containers never share a file. A killed writer
-// leaves its part; the name shows whether the writer may still run.
+// leaves its part, named so that others see whether the writer may still run.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,16 @@
 
 namespace asperity {
 
-// Whether the content reaches the disk before the rename. The name reaches the disk with the folder
-// (core/files/disk.hpp).
+// Whether the content reaches the disk before the rename. The name needs the folder (core/files/disk.hpp).
 enum class Durable { no, yes };
 
-// Wording of errors: for a run (mentions `--out`), or for data files (explains a missing folder or the name
-// of a folder).
+// Wording of errors: `run` mentions `--out`; `data` explains missing folders and names of folders.
 enum class FileWords { run, data };
 
 // Not thread-safe. Objects of one target are independent; the last commit wins.
 class AtomicFile {
  public:
-  // Throws Error{bad_file} for a device or pipe, which the rename would replace by a file.
+  // Throws Error{bad_file} for a device or pipe, which the rename would replace.
   explicit AtomicFile(std::filesystem::path target, FileWords words = FileWords::run);
   // Removes an uncommitted temporary file.
   ~AtomicFile();
@@ -56,11 +54,11 @@ void write_atomically(const std::filesystem::path& target, std::string_view cont
 // Error{bad_file}.
 void part_from_other_names(const std::filesystem::path& file);
 
-// A unique temporary name, at most 255 bytes, with the extension last, because some writers derive the format
-// from it.
+// A unique temporary name, at most 255 bytes. The extension, from which some writers derive the format, is
+// last.
 std::filesystem::path part_beside(const std::filesystem::path& target);
 
-// Call before the process loses access to /proc, which identifies the writer's host.
+// Call before /proc, which identifies the writer's host, is inaccessible.
 void find_own_place();
 
 // Of this or an earlier version.
@@ -69,8 +67,8 @@ bool is_part(const std::filesystem::path& file);
 // The writer ended on this host, or the part is unchanged for a day.
 bool is_abandoned(const std::filesystem::path& part);
 
-// Removes parts from a folder, without following links; recursive if `deep`. `all` requires that no other
-// process writes there. Skips undeletable files. Returns the number removed.
+// Removes parts, without following links; recursive if `deep`. `all` requires that no other process writes
+// there. Skips undeletable files. Returns the number removed.
 enum class Parts { abandoned, all };
 int sweep_parts(const std::filesystem::path& folder, Parts which, bool deep = false);
 

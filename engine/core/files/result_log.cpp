@@ -44,7 +44,7 @@ struct Descriptor {
   }
 };
 
-// Returns fewer bytes at the end of the file.
+// Fewer bytes at the end of the file.
 std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t length) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
   std::string bytes(file.number < 0 ? 0 : length, '\0');
@@ -60,7 +60,7 @@ std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t leng
   return bytes;
 }
 
-// A record at the beginning of a text; none if incomplete.
+// The record at the beginning of a text; none if incomplete.
 struct Record {
   std::string_view digest, name, bytes;
   bool sound() const { return digest == digest_of(name, bytes); }
@@ -146,8 +146,8 @@ std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
   }
 }
 
-// Reads new files and records of other processes. The folder's time changes with new files, except within one
-// clock step; names are therefore read until the time is one second old.
+// The folder's time changes with new files, except within one clock step; names are therefore read until the
+// time is one second old.
 void ResultLog::look() {
   std::error_code missing;
   const fs::file_time_type changed = fs::last_write_time(folder_, missing);
@@ -267,7 +267,7 @@ void ResultLog::wait_for_disk() {
   if (gone && own_ >= 0 && files_[static_cast<std::size_t>(own_)].path == path) leave_file();
 }
 
-// Under a new random name, because other processes may remember their position in a deleted file.
+// Random name, because other processes may remember their position in a deleted file.
 void ResultLog::begin_file() {
   std::error_code problem;
   fs::create_directory(folder_, problem);
@@ -285,7 +285,7 @@ void ResultLog::begin_file() {
   own_ = static_cast<int>(files_.size());
   known_[std::move(name)] = own_;
   files_.push_back({path, 0, false, true});
-  // Syncs the names of the file and of the folder.
+  // Names of the file and of the folder.
   asperity::wait_for_disk(folder_);
   asperity::wait_for_disk(folder_.parent_path());
 }

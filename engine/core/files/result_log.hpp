@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Log of small results in a store: thousands of cases would cost more with a file and a disk wait each than
+// Log of small results in a store: for thousands of cases, a file and a disk wait each would cost more than
 // the presses. Each process appends to its own randomly named log and reads all logs of the folder, which
 // processes may share. A record is length, digest, name and bytes (ByteWriter: for one build), appended in
-// one piece: a kill loses no record; altered records are reported and ignored. Syncs at most once per second
-// while records arrive, and in wait_for_disk().
+// one piece: a kill loses no record; altered records are reported and ignored. Syncs at most once per second,
+// and in wait_for_disk().
 #pragma once
 
 #include <chrono>
@@ -22,8 +22,7 @@
 
 namespace asperity {
 
-// Key and result as bytes. result_from() expects the key to be read, and throws Error{bad_file} for other
-// bytes.
+// result_from() expects the key to be read, and throws Error{bad_file} for other bytes.
 std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields);
 FoundResult result_from(ByteReader& in);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of numbers in text formats: any line ends; blanks, tabs, commas or semicolons as separators; decimal
+// Tables of numbers in text formats: any line ends; separated by blanks, tabs, commas or semicolons; decimal
 // points or commas; comments; missing cells.
 #pragma once
 
@@ -20,7 +20,7 @@ class LineReader {
   explicit LineReader(std::string_view text) : text_(text) {}
   // False at the end. `line` excludes the line end, not blanks.
   bool next(std::string_view& line);
-  // Number of the last line, from 1.
+  // From 1.
   std::size_t number() const { return number_; }
   std::size_t position() const { return position_; }
 
@@ -33,7 +33,7 @@ class LineReader {
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-// For errors: at most 24 bytes, whole UTF-8 characters, '?' for unprintable ones.
+// At most 24 bytes, whole UTF-8 characters, '?' for unprintable ones.
 std::string shown(std::string_view text);
 
 // Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2" three; "1,5" alone is
@@ -60,8 +60,8 @@ struct TextTable {
   Array<double> values;  // row by row; NaN for holes
   int columns = 0, rows = 0;
 };
-// Reads the remaining lines. Text after # is a comment. Drops an empty last column (separators at line ends).
-// Throws Error{bad_file} naming the line of an unreadable or infinite cell or of a row with another length.
+// Reads the remaining lines, without comments after #. Drops an empty last column (separators at line ends).
+// Throws Error{bad_file} naming the line of an unreadable or infinite cell or a row with another length.
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor);
 
 // Warns of a last line without line end: the file may be truncated.

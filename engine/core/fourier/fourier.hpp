@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real 1-D and 2-D Fourier transforms, rows before columns, in batches of lanes (fourier_batch.hpp); the bits
-// depend neither on threads nor on the processor. Unnormalised forwards; the inverse divides by n. Tables are
-// cached per length. Thread-safe. Any length from 1; a prime factor above 31 costs about six times as much.
+// depend neither on threads nor on the processor. The inverse divides by n. Tables are cached per length.
+// Thread-safe. Any length from 1; a prime factor above 31 costs about six times as much.
 #pragma once
 
 #include <complex>
@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-// Half spectrum of a real signal of n values: bins 0 … n/2.
+// Half spectrum of n real values: bins 0 … n/2.
 Array<std::complex<double>> fourier_forward(std::span<const double> signal);
 Array<double> fourier_inverse(std::span<const std::complex<double>> half_spectrum, int n);
 
@@ -28,7 +28,7 @@ class HalfSpectrum {
   std::complex<double> operator()(int a, int b) const { return bins_[index(a, b)]; }
   std::span<std::complex<double>> bins() { return bins_; }
   std::span<const std::complex<double>> bins() const { return bins_; }
-  // Signed wave number of row b, -ny/2 … ny/2.
+  // -ny/2 … ny/2.
   int wave_y(int b) const { return b <= ny_ / 2 ? b : b - ny_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 using BatchDoubles = Lanes<double>::Vector;
 
-// Prefetch distance in rows: the hardware cannot predict addresses so far apart.
+// Prefetch distance: the hardware cannot predict addresses so far apart.
 constexpr int batch_rows_ahead = 12;
 
 template <int lanes>
@@ -50,7 +50,7 @@ AnyLengthFourier<lanes>::AnyLengthFourier(int n) : n_(n), smooth_(convolution_le
   }
 }
 
-// The inverse is the conjugate of the forward transform of the conjugate.
+// Inverse: conjugate of the forward transform of the conjugate.
 template <int lanes>
 template <bool forwards>
 void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) const {
@@ -70,7 +70,7 @@ void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) con
       work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
     }
   } else {
-    // The kernel is even, so its conjugate has the conjugate transform.
+    // The conjugate of the even kernel has the conjugate transform.
     for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
       const double c = response[2 * k], s = -response[2 * k + 1];
       const Complex x = work[k];
@@ -121,7 +121,7 @@ const BatchFourier& BatchFourier::of_length(int n) {
   return *batch;
 }
 
-// Column l holds signal l as real part and signal l + columns as imaginary part.
+// Column l: signal l as real part, signal l + columns as imaginary part.
 void BatchFourier::load_reals(Work& work, const double* const* in, int given, int count) const {
   const auto signal = [&](int r) { return in[std::min(r, count - 1)]; };
   const int whole = given / lanes * lanes;

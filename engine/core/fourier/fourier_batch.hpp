@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fourier transforms of any length for a batch of signals in lanes (fourier_lanes.hpp), with the same bits on
 // every processor. Lengths with a prime factor above 31 use a chirp convolution (Bluestein 1970) of about
-// twice the length, at six times the cost. Two real signals share one complex transform. Unnormalised.
+// twice the length, at six times the cost. Unnormalised.
 #pragma once
 
 #include <complex>
@@ -13,7 +13,6 @@
 
 namespace asperity {
 
-// In-place transforms of length n in each lane.
 template <int lanes>
 class AnyLengthFourier {
  public:
@@ -24,7 +23,6 @@ class AnyLengthFourier {
   int length() const { return n_; }
   // Position of bin k between forward() and inverse().
   int place(int k) const { return smooth_.length() == n_ ? smooth_.place(k) : k; }
-  // Additional values for `work`.
   std::size_t work_length() const {
     return smooth_.length() == n_ ? 0 : static_cast<std::size_t>(smooth_.length());
   }
@@ -48,8 +46,7 @@ extern template class AnyLengthFourier<Lanes<double>::count>;
 
 class BatchFourier {
  public:
-  // Complex signals of a batch. Real signals r and r + columns share a transform, so the number affects the
-  // bits.
+  // Complex signals. Real signals r and r + columns share a transform, so the number affects the bits.
   static constexpr int columns = 8;
   static constexpr int lanes = Lanes<double>::count, parts = columns / lanes;
   static constexpr int rows = 2 * columns;  // real signals
@@ -73,22 +70,21 @@ class BatchFourier {
   int place(int k) const { return fourier_.place(k); }
 
   // Transforms signals r < count: `given` values at in[r], then zeros, to n/2 + 1 bins at out[r]. in[r] and
-  // out[r] may overlap, but not for different r.
+  // out[r] may overlap.
   void real_forward(Work& work, const double* const* in, int given, int count,
                     std::complex<double>* const* out) const;
-  // Writes the first `wanted` values times `scale` to out[r]. Ignores imaginary parts of real bins.
+  // `wanted` values times `scale` to out[r]. Ignores imaginary parts of real bins.
   void real_inverse(Work& work, const std::complex<double>* const* in, int count, int wanted, double scale,
                     double* const* out) const;
 
-  // Steps of the real transforms.
   void load_reals(Work& work, const double* const* in, int given, int count) const;
   void store_reals(const Work& work, int count, int wanted, double scale, double* const* out) const;
-  // Multiplies bins ±b by factors[b], b = 0 … n/2; real signals stay real.
+  // Bins ±b times factors[b], b = 0 … n/2; real signals stay real.
   void multiply_even(Work& work, const double* factors) const;
 
-  // Loads columns c < count with row distance `stride`: `given` rows, then zeros.
+  // Columns c < count with row distance `stride`: `given` rows, then zeros.
   void load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given, int count) const;
-  // The same for bins in natural order.
+  // Bins in natural order.
   void load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int count) const;
   void store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count) const;
   void store_bins(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int count) const;

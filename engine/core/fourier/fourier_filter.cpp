@@ -21,8 +21,8 @@ bool aligned(const void* pointer) { return reinterpret_cast<std::uintptr_t>(poin
 
 int own_bins(int period) { return period % 2 == 0 ? period / 2 : period / 2 + 1; }
 
-// Whole cache lines in an odd number of pairs: rows a power of two apart would compete for few cache sets
-// when a column is gathered.
+// An odd number of pairs of cache lines: rows a power of two apart would compete for few cache sets when a
+// column is gathered.
 int own_stride(int period) {
   const int pairs = (own_bins(period) + 7) / 8;
   return 8 * (pairs % 2 == 0 ? pairs + 1 : pairs);
@@ -135,8 +135,8 @@ void FourierFilter::rows_inverse(std::span<double> out) {
   });
 }
 
-// Two real columns c and d share one transform Z = C + iD in the first lane. For even factors f and g, fC +
-// igD = (f+g)/2 Z(b) + (f−g)/2 conj Z(−b).
+// Columns c and d share a transform Z = C + iD in the first lane. For even factors f and g, fC + igD =
+// (f+g)/2 Z(b) + (f−g)/2 conj Z(−b).
 void FourierFilter::multiply_packed(Scratch& scratch, const Multiplier& multiplier) const {
   multiplier(0, scratch.factors);
   multiplier(period_x_ / 2, scratch.last_factors);

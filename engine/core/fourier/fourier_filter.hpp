@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Applies a real, even Fourier multiplier to a real field in place of the result. After the row transforms,
-// blocks of columns are gathered, transformed, multiplied and transformed back within the cache. Periodic, or
-// zero-padded to a longer period (convolution without wrap-around) without storing zero rows. Any period; the
-// same bits for any number of threads and every processor.
+// Applies a real, even Fourier multiplier to a real field. After the row transforms, blocks of columns are
+// gathered, transformed, multiplied and transformed back within the cache. Periodic, or zero-padded to a
+// longer period (convolution without wrap-around) without storing zero rows. Any period; the same bits for
+// any number of threads and every processor.
 #pragma once
 
 #include <complex>
@@ -18,21 +18,21 @@ namespace asperity {
 
 class FourierFilter {
  public:
-  // Writes the factors of waves (a, b), b = 0 … period_y/2, for one a of 0 … period_x/2. Called concurrently.
+  // The factors of waves (a, b), b = 0 … period_y/2, for one a of 0 … period_x/2. Called concurrently.
   using Multiplier = std::function<void(int a, std::span<double> factors)>;
 
   // 1 <= nx <= period_x, 1 <= ny <= period_y.
   FourierFilter(int nx, int ny, int period_x, int period_y);
   ~FourierFilter();
 
-  // `in` and `out`: nx·ny values row by row, may be the same. Uses threads but is not thread-safe. Counts no
+  // nx·ny values row by row; `in` and `out` may be the same. Uses threads but is not thread-safe. Counts no
   // transforms.
   void apply(std::span<const double> in, std::span<double> out, const Multiplier& multiplier);
 
   int bins_x() const { return period_x_ / 2 + 1; }
   int bins_y() const { return period_y_ / 2 + 1; }
 
-  // Upper bound; only a few columns if the transform fits into `out`.
+  // Upper bound; little if the transform fits into `out`.
   static std::int64_t bytes(int nx, int ny, int period_x, int period_y);
 
  private:
@@ -45,7 +45,7 @@ class FourierFilter {
   std::complex<double>* row(int j) { return spectrum_ + static_cast<std::ptrdiff_t>(j) * stride_; }
 
   int nx_, ny_, period_x_, period_y_;
-  // Per row. The first and, for an even period, the last bin are real and share a place.
+  // Per row; the real first and (even period) last bins share a place.
   int bins_;
   int stride_;                                // between rows of the spectrum
   std::complex<double>* spectrum_ = nullptr;  // in `out` or in own_
@@ -54,7 +54,7 @@ class FourierFilter {
   ScratchPool<Scratch> scratch_;
 };
 
-// Smallest even length >= `least` (1 for 1) with prime factors 2, 3, 5 and 7 only.
+// Smallest even length >= `least` (1 for 1) with prime factors 2, 3, 5 and 7.
 int good_fourier_length(int least);
 
 }  // namespace asperity

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FourierFilter for an even period_x and periods without a prime factor above 31, several times as fast: each
-// vector lane transforms one row, then one column. Rows come from a source and go to a sink, so that work
-// before and after needs no pass over memory. Real is the precision of transforms and multiplier; fields are
-// double. The same bits for any number of threads.
+// vector lane transforms one row, then one column. Rows come from a source and go to a sink, which saves
+// passes over memory. Real is the precision of transforms and multiplier. The same bits for any number of
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class FourierLaneFilter {
  public:
   // As FourierFilter::Multiplier.
   using Multiplier = std::function<void(int a, std::span<double> factors)>;
-  // Returns the nx values of row j, in `scratch` or elsewhere.
+  // Returns row j, in `scratch` or elsewhere.
   using Source = std::function<const double*(int j, double* scratch)>;
   using Sink = std::function<void(int j, const double* row)>;
 
@@ -30,9 +30,9 @@ class FourierLaneFilter {
   FourierLaneFilter(int nx, int ny, int period_x, int period_y, const Multiplier& multiplier);
   ~FourierLaneFilter();
 
-  // Source and sink are called concurrently, once per row, in any order; all source calls come first.
-  // `scale`, a power of two, brings values near 1 for single precision. A non-empty `out` of nx·ny values
-  // receives the rows before the sink, which may then be empty. Uses threads but is not thread-safe.
+  // Source and sink are called concurrently, once per row, in any order, all source calls first. `scale`, a
+  // power of two, brings values near 1 for single precision. A non-empty `out` of nx·ny values receives the
+  // rows before the sink, which may then be empty. Uses threads but is not thread-safe.
   void apply(const Source& source, const Sink& sink, std::span<double> out = {}, double scale = 1);
 
   void apply(std::span<const double> in, std::span<double> out, double scale = 1);

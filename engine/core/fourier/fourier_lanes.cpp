@@ -52,8 +52,7 @@ UnitTurn unit_turn(std::int64_t k, std::int64_t n) {
 
 namespace {
 
-// In-place transforms of small radix; the forward kernel is e^{−2πi pq/radix}. Vectors are passed by
-// reference only.
+// In-place transforms; the forward kernel is e^{−2πi pq/radix}. Vectors only by reference.
 template <bool forwards, class Complex>
 inline __attribute__((always_inline)) void butterfly2(Complex& a, Complex& b) {
   const Complex d = {a.re - b.re, a.im - b.im};
@@ -92,7 +91,7 @@ inline __attribute__((always_inline)) void butterfly8(Complex* x) {
     x[5] = {-r.im, r.re};
     x[7] = {-(q.im + q.re) * half, (q.re - q.im) * half};
   }
-  // Bins of the even half in x[0], x[2], x[4], x[6]; the multiplied odd half in x[1], x[3], x[5], x[7].
+  // Even half in x[0], x[2], x[4], x[6]; multiplied odd half in x[1], x[3], x[5], x[7].
   Complex y[8];
   for (int k = 0; k < 4; ++k) {
     const Complex &e = x[2 * k], &o = x[2 * k + 1];

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Complex in-place Fourier transforms, one signal per vector lane. The forward transform (decimation in
-// frequency) leaves bins in the order of place(); the inverse (decimation in time) expects this order, so
-// filters never sort. Lengths without a prime factor above 31. Unnormalised.
+// frequency) leaves bins in the order of place(), which the inverse (decimation in time) expects, so filters
+// never sort. Lengths without a prime factor above 31. Unnormalised.
 //
-// The operations of a lane do not depend on the vector width, so the bits are the same on every processor.
-// FFTW selects operations by processor; it transforms contacts spread over ranks, and is the reference in
-// tests and benches.
+// The operations of a lane do not depend on the vector width, so the bits are the same on every processor,
+// unlike FFTW's. FFTW transforms contacts spread over ranks, and is the reference in tests and benches.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@
 
 namespace asperity {
 
-// One value of `count` signals, in two registers; plain numbers for one lane.
+// One value of `count` signals; plain numbers for one lane.
 template <class Real, int lanes = register_vectors::register_lanes<Real>>
 struct Lanes {
   static constexpr int count = lanes;
@@ -33,10 +32,10 @@ struct Lanes<Real, 1> {
   };
 };
 
-// Smallest length >= `least` with the cheap prime factors 2, 3, 5 and 7 only.
+// Smallest length >= `least` with prime factors 2, 3, 5 and 7, the cheapest.
 int smooth_length(int least);
 
-// cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
+// cos and sin of 2π k/n, 0 <= k < n, from the first octant: equal angles have equal bits.
 struct UnitTurn {
   double cosine, sine;
 };
@@ -55,7 +54,7 @@ class LaneFourier {
   // Position of bin k between forward() and inverse().
   int place(int k) const { return places_[static_cast<std::size_t>(k)]; }
 
-  // Transforms n values. Thread-safe.
+  // Thread-safe.
   void forward(Complex* values) const;
   void inverse(Complex* values) const;
 
@@ -71,7 +70,7 @@ class LaneFourier {
 
   int n_;
   std::vector<Stage> stages_;
-  // Of the size of a row: not counted.
+  // Not counted: as large as a row.
   std::vector<Real> factors_;  // by stage: e^{−2πi kq/(radix·part)} as pairs, q = 1 … radix − 1 per k
   std::vector<int> places_;
 };

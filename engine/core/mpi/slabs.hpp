@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of asperity-mpi.so for fields in slabs of rows over processes: gather, row exchange, FFTW's
-// in-place MPI transforms. Except `shape`, all functions are collective, in the same order, from one thread
-// each.
+// Interface of asperity-mpi.so for fields in slabs of rows over processes, with FFTW's in-place MPI
+// transforms. Except `shape`, all functions are collective, in the same order, from one thread each.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,7 @@
 
 extern "C" {
 
-// Slabs of a real transform of ny rows of nx values: rows before, waves after it.
+// For a real transform of ny rows of nx values: rows before, waves after.
 struct AsperitySlabShape {
   int first_row, rows;    // rows of this process
   int first_wave, waves;  // waves along x, of 0 … nx/2, with all ny waves along y
@@ -19,7 +18,7 @@ struct AsperitySlabShape {
 struct AsperitySlabs {
   // `all` receives `bytes` of each process in order.
   void (*gather)(const void* own, std::uint64_t bytes, void* all);
-  // Counts of doubles per process, in order.
+  // Counts of doubles per process.
   void (*exchange)(const double* out, const int* out_counts, double* in, const int* in_counts);
   AsperitySlabShape (*shape)(int nx, int ny);
   // `buffer`: 64-byte aligned. Null without a plan. FFTW_ESTIMATE, so that no timing selects the plan.
