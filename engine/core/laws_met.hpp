@@ -13,7 +13,7 @@
 namespace asperity {
 
 enum class Law : int {
-  last_digits,       // every run
+  last_digits,       // elementary functions and transforms: every run
   overlap,           // bodies without complete overlap
   plastic_shares,    // two different bodies that both yield
   tilt_weight,       // tilt stage: weight with more pressure than the probes

@@ -69,8 +69,8 @@ class BatchFourier {
   int bins() const { return length() / 2 + 1; }
   int place(int k) const { return fourier_.place(k); }
 
-  // Transforms signals r < count: `given` values at in[r], then zeros, to n/2 + 1 bins at out[r]. in[r] and
-  // out[r] may overlap.
+  // Transforms signals r < count: `given` values at in[r], then zeros, to n/2 + 1 bins at out[r]. in[r] may
+  // overlap out[r] of the same r only.
   void real_forward(Work& work, const double* const* in, int given, int count,
                     std::complex<double>* const* out) const;
   // `wanted` values times `scale` to out[r]. Ignores imaginary parts of real bins.
