@@ -83,7 +83,7 @@ class Loop {
   double helper_transforms_ = 0;
 };
 
-// The gap between loops of one transform, less than a wake-up.
+// About the gap between the loops of one transform; shorter than a wake-up.
 constexpr int turns_before_sleep = 2000;
 
 void pause() {

@@ -14,7 +14,7 @@ namespace asperity {
 // processor levels of the numeric library.
 std::string build_identity();
 
-// Of the loaded numeric code: vector bytes (16, 32 or 64) and processor level ("x86-64-v3"; "" on other
+// The loaded numeric code: vector bytes (16, 32 or 64) and processor level ("x86-64-v3"; "" on other
 // architectures).
 int vector_bytes();
 std::string_view vector_level();

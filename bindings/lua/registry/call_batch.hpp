@@ -28,7 +28,7 @@ struct BatchedAnswer {
 class CallBatch {
  public:
   virtual ~CallBatch() = default;
-  // One answer per list of arguments, in order; those after the first failure may be empty. The calling
+  // One answer per list of arguments, in order; answers after the first failure may be empty. The calling
   // thread reports finished calls to `done`. Throws Error if an argument cannot be copied, and after a stop
   // once every call has ended.
   virtual std::vector<BatchedAnswer> answers(const std::vector<Values>& arguments,

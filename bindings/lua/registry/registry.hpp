@@ -102,7 +102,7 @@ struct Class {
   // Adds the cost to the ledger by effect, for results of heavy calls and of iterators' turns. May be null.
   void (*enter)(const void* self, Ledger& ledger) = nullptr;
   void (*closing)(void* self) = nullptr;  // called before :close() and <close>
-  // In a dry run; may be null.
+  // Facts about a result in a dry run; may be null.
   std::shared_ptr<const KnownBody> (*known)(const Call& call, const Function& function) = nullptr;
   std::vector<std::string> names() const;
 };
@@ -191,7 +191,7 @@ void enter_into_ledger(const Session& session, const Values& results);
 void push_function(lua_State* L, const Function& function);
 // "lab.surface.sine", "surface:scaled".
 const std::string& qualified_name(const Function& function);
-// By the upvalue of its closures; null if none.
+// The name of the function whose closures have this upvalue; null if none.
 const std::string* name_of_entry(const void* pointer);
 // Creates the metatable on first use.
 void push_metatable(lua_State* L, const Class& type);
@@ -204,8 +204,8 @@ const Module* module_at(lua_State* L, int index);
 void push_proxy(lua_State* L, const Module& module);
 
 // pairs and next in the same order in every process (fixed_order.cpp): numbers, strings by bytes, booleans,
-// other keys in Lua's order, which a dry run notes. A loop visits the keys of its beginning, less removed
-// ones. Both are C functions without upvalues.
+// other keys in Lua's order, which a dry run notes. A loop visits the keys present at its
+// beginning and not removed since. Both are C functions without upvalues.
 int ordered_pairs(lua_State* L);
 int ordered_next(lua_State* L);
 // The iterator function for the table at an index. Raises.

@@ -97,7 +97,7 @@ class Session {
   int depth = 0;                      // enclosing ensembles
   bool is_case = false;               // a case of an ensemble: cannot record
   std::shared_ptr<RunDirectory> run;  // may be null
-  // Of `asperity explain`, a dry run that makes surfaces and plans contacts; otherwise null.
+  // For `asperity explain`, a dry run that makes surfaces and plans contacts; otherwise null.
   std::shared_ptr<Explanation> explanation;
   // Paths that the script may have written in skipped calls.
   std::set<std::string, std::less<>> paths_left_out;

@@ -18,18 +18,23 @@ const Class& class_of<asperity::Table>();
 
 const Module& table_module();
 
+// Methods of tables and notebooks that select and join rows.
 std::vector<Function> table_methods();
 
-// Statistics of columns (table_statistics.cpp, table_fit.cpp, table_chart.cpp), and their record types.
+// All statistics of columns, and their record types.
 std::vector<Function> table_analysis_methods();
 std::vector<const RecordInfo*> table_analysis_results();
 
+// table_statistics.cpp
 Function mean_method();
 Function histogram_method();
+// table_fit.cpp
 Function fit_method();
+// table_chart.cpp
 Function chart_method();
 const RecordInfo& histogram_type();
 
+// Nothing unless the value is a fit.
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 }  // namespace asperity::lua

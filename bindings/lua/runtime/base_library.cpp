@@ -41,7 +41,7 @@ FunctionPaths read_function_paths() {
         if (function == nullptr || !key.is_text()) return;
         const auto [path, is_new] =
             paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
-        // Of aliases (math.atan2 is math.atan), the alphabetically first.
+        // Alias names (math.atan2 is math.atan): the alphabetically first is used.
         if (!is_new && path->second.library == library && key.text() < path->second.key)
           path->second.key = key.text();
       });

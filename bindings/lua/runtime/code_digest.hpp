@@ -8,7 +8,7 @@
 
 namespace asperity::lua {
 
-// Of a lua_dump dump; `counted` includes line numbers. An unreadable dump is digested unchanged.
+// Takes a dump of lua_dump; `counted` includes line numbers. An unreadable dump is digested unchanged.
 enum class CodeLines { left_out, counted };
 std::string code_digest(std::string_view dump, CodeLines lines = CodeLines::left_out);
 

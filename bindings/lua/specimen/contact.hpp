@@ -25,7 +25,8 @@ struct PressKeys {
   std::vector<double> preload;
 };
 const Block<PressKeys>& press_block();
-// Of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws like the call.
+// The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws like
+// the call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
 // For a press by an iterator; equal to the line of c:press.
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,

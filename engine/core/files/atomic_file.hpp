@@ -61,7 +61,7 @@ std::filesystem::path part_beside(const std::filesystem::path& target);
 // Call before /proc, which identifies the writer's host, is inaccessible.
 void find_own_place();
 
-// Of this or an earlier version.
+// Also recognises names of earlier versions.
 bool is_part(const std::filesystem::path& file);
 
 // The writer ended on this host, or the part is unchanged for a day.

@@ -25,7 +25,7 @@ struct ResultFacts {
   bool however_cheap = false;  // store even if recomputation is faster
   bool one_of_many = false;    // small; many share a file and a disk wait
   double least_seconds = 0;    // not stored below this cost
-  // Of the calling thread, if known: on a busy machine, a cheap result may take long.
+  // Time of the calling thread, if known: on a busy machine, a cheap result may take long.
   double processor_seconds = std::numeric_limits<double>::infinity();
 };
 

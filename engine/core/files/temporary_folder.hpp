@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A temporary folder, removed with its content by the destructor. Its name contains the writer
-// (atomic_file.hpp); each new folder removes those of killed writers from the same parent.
+// (atomic_file.hpp); each new folder removes folders of killed writers from the same parent.
 #pragma once
 
 #include <filesystem>
