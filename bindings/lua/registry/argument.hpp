@@ -24,7 +24,7 @@ class Argument {
   bool is_text() const { return lua_type(L, index_) == LUA_TSTRING; }
   bool is_table() const { return lua_istable(L, index_); }
   bool is_function() const { return lua_isfunction(L, index_); }
-  bool is_unknown() const;  // of a dry run
+  bool is_unknown() const;  // a placeholder
 
   bool boolean() const { return lua_toboolean(L, index_) != 0; }
   double number() const { return lua_tonumber(L, index_); }

@@ -20,7 +20,7 @@ namespace asperity::lua {
 // "script.lua:12: " of the innermost running Lua function, or "".
 std::string where(lua_State* L);
 std::string message_of(lua_State* L, const std::string& name, const Error& error);
-// Returns -1.
+// Pushes the message and returns -1.
 int fail(lua_State* L, const std::string& message);
 // Returns the number of results; -1 with the error on the stack if memory runs out.
 int deliver(lua_State* L, const Values& results);

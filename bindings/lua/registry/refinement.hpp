@@ -23,7 +23,7 @@ struct Refinement {
   std::atomic<std::int64_t> contacts{0};
   std::atomic<double> tightest{std::numeric_limits<double>::infinity()};
 
-  // Return effective values and update the counters.
+  // Return the effective value and update the counters.
   std::int64_t cells(std::int64_t given);
   double tolerance_for(double given);
 };

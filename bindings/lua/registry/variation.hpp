@@ -23,7 +23,7 @@ class Variation {
   // Throws Error{bad_value} without `=` or key.
   void set(const std::string& text);
   bool empty() const { return settings_.empty(); }
-  // Calls made while this returns false keep their values. Thread-safe.
+  // Calls made while this returns false keep their values. Called from any thread.
   std::function<bool()> in_force = [] { return true; };
 
   // If `key` has a new value, pushes it on `L`, which must have room, and returns true. `given`: the script
