@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks of memory that were given back, kept for whoever next asks for as many bytes: one contact after the
-// other asks for the same grids, and a fresh page costs a trap and its zeroing.
-// Holds no more than a fixed number of bytes, the oldest going first. Thread-safe.
+// Cache of released memory blocks: successive contacts need equal grids, and a fresh page costs a trap and
+// zeroing. Limited in bytes; drops the oldest block first. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +11,16 @@ namespace asperity::memory {
 
 class BlockPool {
  public:
-  // Blocks are of std::malloc's family.
   explicit BlockPool(std::size_t most_bytes) : most_bytes_(most_bytes) {}
   ~BlockPool() { drop(); }
   BlockPool(const BlockPool&) = delete;
   BlockPool& operator=(const BlockPool&) = delete;
 
-  // Worth keeping: small ones are kept by std::malloc, and one great one would put out all others.
+  // std::malloc caches small blocks itself; a very large block would displace all others.
   bool takes(std::size_t bytes) const { return bytes >= least_bytes && bytes <= most_bytes_ / 4; }
-  // The block of so many bytes that was given last, or null. What is in it is what its last holder left.
+  // The last stored block of this size, or null. Undefined content.
   void* take(std::size_t bytes);
-  // Takes the block over; false where it is not kept, and the caller still has it.
+  // On false, the block remains the caller's.
   bool give(void* block, std::size_t bytes) noexcept;
   void drop() noexcept;
   std::size_t bytes() const;
@@ -39,7 +37,7 @@ class BlockPool {
 
   const std::size_t most_bytes_;
   mutable std::mutex mutex_;
-  std::deque<Block> blocks_;  // the oldest first
+  std::deque<Block> blocks_;  // oldest first
   std::size_t bytes_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers that many sources name.
+// Shared constants.
 #pragma once
 
 #include <limits>

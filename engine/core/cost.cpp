@@ -18,7 +18,7 @@ thread_local std::int64_t thread_peak = 0;
 }  // namespace
 
 namespace cost {
-// In steps of 2^-24, so that sums and differences are exact: a count does not depend on those before it.
+// Steps of 2^-24 make sums and differences exact.
 void count_transforms(double weighted) {
   constexpr double steps = 1 << 24;
   thread_transforms += std::round(weighted * steps) / steps;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a call cost: wall seconds, Fourier transforms and peak bytes. The counters belong to the
-// calling thread; parallel_for carries what its helpers count back to the thread that called it.
-// Seconds are reported, never used: no number of a result depends on a clock.
+// Cost of a call: wall seconds, Fourier transforms, peak bytes. Counters belong to the calling thread;
+// parallel_for adds its helpers' counts to its caller. Results never depend on a clock.
 #pragma once
 
 #include <chrono>
@@ -11,27 +10,25 @@ namespace asperity {
 
 struct Cost {
   double seconds = 0;
-  double transforms = 0;   // real 2-D transforms one way, weighted n² log n against the finest grid
-  std::int64_t bytes = 0;  // peak of counted memory above what was held when the call began
+  double transforms = 0;   // one-way real 2-D transforms, weighted n² log n relative to the finest grid
+  std::int64_t bytes = 0;  // peak of counted memory above the start
 
-  Cost& operator+=(const Cost& other);  // seconds and transforms add, bytes takes the larger
+  Cost& operator+=(const Cost& other);  // bytes becomes the maximum
 };
 
 namespace cost {
-// Add to this thread's counters.
 void count_transforms(double weighted);
 void count_bytes(std::int64_t change) noexcept;
-// This thread's running totals; used by parallel_for.
 double transforms();
-// Of the processor, that this thread has spent; of threads that help it, nothing.
+// Excludes helper threads.
 double processor_seconds();
 }  // namespace cost
 
-// While it lives, this thread ends what it does by throwing Spent once it has counted more transforms
-// than so many. Unlike a clock it stops at the same place on every machine. The inner of two holds.
+// Throws Spent on this thread beyond `most` transforms, at the same place on every machine. The inner of two
+// limits applies.
 class TransformLimit {
  public:
-  struct Spent {};  // no Error: nobody but whoever set the limit is to catch it
+  struct Spent {};  // only the code that set the limit may catch it
   explicit TransformLimit(double most);
   ~TransformLimit();
   TransformLimit(const TransformLimit&) = delete;
@@ -41,7 +38,7 @@ class TransformLimit {
   double outer_;
 };
 
-// Measures from construction to stop(). Scopes nest; an inner peak shows in the outer one too.
+// Scopes nest; an inner peak also counts for the outer scope.
 class CostScope {
  public:
   CostScope();

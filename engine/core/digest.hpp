@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A 128-bit digest of content (XXH3), as 32 hexadecimal digits. It tells whether two values are the
-// same numbers; it is not a signature.
+// 128-bit digest of content (XXH3), 32 hexadecimal digits. Not a cryptographic signature.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ class Digester {
   Digester(Digester&&) noexcept;
   Digester& operator=(Digester&&) noexcept;
 
-  // Each item carries its kind and length, so that no two sequences of items run together.
+  // Items include kind and length, so that sequences are unambiguous.
   Digester& add(std::string_view text);
   Digester& add(const char* text) { return add(std::string_view(text)); }
   Digester& add(double value);

@@ -34,7 +34,7 @@ namespace {
 constexpr std::size_t block = 1024;
 
 double sum_of_block(const double* v, std::size_t n) {
-  // Eight running sums: a fixed order that the compiler can keep in registers.
+  // Eight partial sums in fixed order, in registers.
   double lanes[8] = {};
   std::size_t k = 0;
   for (; k + 8 <= n; k += 8)
@@ -70,7 +70,7 @@ double mean(std::span<const double> values) {
 
 Range range(std::span<const double> values) {
   if (values.empty()) return {};
-  // By lanes: one least and one greatest value would be waited for at every step.
+  // Lanes avoid the latency of a single running minimum and maximum.
   constexpr std::size_t lanes = 16;
   double low[lanes], high[lanes];
   std::fill_n(low, lanes, values.front());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A regular grid of cells and a field of doubles on it. Index i runs along x, j along y, both from
-// 0; node (i, j) stands at (i·hx, j·hy) with hx = size_x / nx. A field is stored row by row: one row
-// is one y, so value (i, j) is at j·nx + i.
+// A regular grid and a field of doubles. Node (i, j), i along x, j along y, both from 0, is at (i·hx, j·hy),
+// hx = size_x / nx. Value (i, j) has the index j·nx + i.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +22,18 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-// The greatest number of cells a side.
 inline constexpr int max_cells = 65536;
 
-// A grid whose numbers make sense. Throws Error{bad_value} naming `cells` or `size` otherwise:
-// 1 <= nx, ny <= max_cells; sizes finite and so far above zero that cells have a width.
+// Throws Error{bad_value} naming `cells` or `size` unless 1 <= nx, ny <= max_cells and sizes are finite with
+// a positive cell width.
 Grid make_grid(double nx, double ny, double size_x, double size_y);
 
-// Values on a grid; copying copies the numbers.
 class Field {
  public:
   Field() = default;
-  // Every value starts as `value`.
   Field(int nx, int ny, double value = 0.0)
       : nx_(nx), ny_(ny), values_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), value) {}
-  // Takes over nx·ny values. Throws Error{internal} if they are not as many.
+  // Throws Error{internal} unless there are nx·ny values.
   Field(int nx, int ny, UnsetArray<double>&& values);
 
   int nx() const { return nx_; }
@@ -65,27 +61,24 @@ class Field {
   UnsetArray<double> values_;
 };
 
-// Sum in fixed blocks of 1024 added pairwise: the same bits for any number of threads, and an error
-// that grows with log n.
+// Pairwise sum of fixed blocks of 1024: the same bits for any number of threads; the error grows with log n.
 double block_sum(std::span<const double> values);
-// The median of one value or more, of two in the middle the upper one. O(n); reorders them.
+// The upper of two middle values. Needs at least one value. O(n); reorders.
 double upper_median(std::span<double> values);
 double mean(std::span<const double> values);
 struct Range {
   double min = 0, max = 0;
   double span() const { return max - min; }
 };
-// {0, 0} for no values.
+// {0, 0} without values.
 Range range(std::span<const double> values);
 
-// The same of a field that is missing (NaN) where there is nothing to measure: over the values that are
-// there, and to the bit mean and range where all are.
+// Ignore NaN. Equal to mean and range to the bit if no value is missing.
 std::size_t known_count(std::span<const double> values);
 double known_mean(std::span<const double> values);
 Range known_range(std::span<const double> values);
 
-// The value at node (i, j), by numbers that came from a script and may be anything. Throws Error{bad_value}
-// unless both are whole numbers inside the field.
+// Throws Error{bad_value} unless i and j are integers inside the field.
 double node_value(const Field& field, double i, double j);
 
 }  // namespace asperity

@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What this function was linked into.
+// The object with this code.
 struct Own {
-  fs::path folder;  // empty if it cannot be told
+  fs::path folder;  // empty if unknown
   bool program = true;
 };
 
@@ -32,11 +32,11 @@ Own own_object() {
   std::error_code failure;
   if (::dladdr1(reinterpret_cast<void*>(&own_object), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
   const auto* const loaded = static_cast<const link_map*>(found);
-  // The loader knows a program only by the name it was called by, which may be a word looked up on PATH.
+  // The loader knows a program only by its call name, perhaps a word looked up on PATH.
   const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
   const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
   fs::path folder = fs::canonical(file, failure).parent_path();
-  // A copy for one level of processor is in FOLDER/glibc-hwcaps/LEVEL/, the parts are in FOLDER.
+  // Copies for a processor level are in FOLDER/glibc-hwcaps/LEVEL/, the parts in FOLDER.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
   return {std::move(folder), program};
 }
@@ -56,24 +56,24 @@ std::string load_failure() {
 std::vector<fs::path> part_places(const LoadedPart& part) {
   const std::string file = "asperity-" + std::string(part.name) + ".so";
   std::vector<fs::path> places;
-  // Unknown where there is no /proc.
+  // Unknown without /proc.
   if (const Own own = own_object(); !own.folder.empty()) {
     places.push_back(own.folder / file);
-    // From bin/ and from lib/lua/5.4/ to lib/asperity/.
+    // From bin/ or lib/lua/5.4/ to lib/asperity/.
     places.push_back(
         (own.folder / (own.program ? "../lib/asperity" : "../../asperity") / file).lexically_normal());
     std::error_code failure;
     const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
     if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
   }
-  // A program of somebody else's, linked with the installed library, may lie anywhere.
+  // For other programs linked with the installed library.
   const fs::path installed = fs::path(ASPERITY_PARTS_FOLDER) / file;
   if (std::ranges::find(places, installed) == places.end()) places.push_back(installed);
   return places;
 }
 
 void* part_symbol(const LoadedPart& part, const char* symbol) {
-  // What was found once is not looked for again: a process that has shut itself in no longer sees the files.
+  // Cached, because a confined process no longer sees the files.
   static std::mutex mutex;
   static std::map<std::pair<std::string, std::string>, void*> found;
   const std::lock_guard lock(mutex);
@@ -90,7 +90,7 @@ void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<
       searched.push_back(quoted(place.string()));
       continue;
     }
-    // The loader counts and keeps what it has loaded; the handle is never given back.
+    // The handle is never closed.
     void* const handle = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr)
       throw Error(ErrorCode::bad_file,

@@ -27,14 +27,14 @@ constexpr std::size_t alignment = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr double mebibyte = 1024.0 * 1024.0;
 
-// Enough for the fields of a solve on 1024². Nothing is kept from a sanitizer, which is to see what is used
-// after it was released. Never destroyed: arrays of static lifetime are released after all else.
+// Sized for a solve on 1024². Empty under a sanitizer, which must detect use after release. Never destroyed,
+// because static arrays are released last.
 BlockPool& kept() {
   static BlockPool& blocks = *new BlockPool(sanitized ? 0 : std::size_t{128} << 20);
   return blocks;
 }
 
-// A grid spread over pages of 4 KiB costs a walk of the page table for nearly every row of a column.
+// With 4 KiB pages, column access needs a page-table walk for nearly every row.
 void ask_for_huge_pages([[maybe_unused]] void* pointer, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
   madvise(pointer, bytes / huge_page * huge_page, MADV_HUGEPAGE);

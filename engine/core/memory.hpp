@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counted, aligned memory for grids and tables. Every buffer of the engine that grows with the
-// number of cells comes from here, so that a call can state its peak, a run can be held to a limit
-// before the machine is, and a test can assert that an effect that is off allocated nothing.
-// Thread-safe.
+// Counted, aligned memory for all engine buffers that grow with the number of cells: calls report their peak,
+// runs obey a limit, and tests assert that disabled effects allocate nothing. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -16,26 +14,26 @@ namespace asperity {
 
 namespace memory {
 
-// Bytes now held through this file by the whole process.
+// Counted bytes of the process.
 std::int64_t held();
-// The limit on held() in bytes; 0 means none. Exceeding it throws Error{out_of_memory}.
+// Limit of held() in bytes; 0 means none. Beyond it, acquire() throws Error{out_of_memory}.
 void set_limit(std::int64_t bytes);
 std::int64_t limit();
 
-// Bytes of memory that the machine has; 4 GiB where the system does not say.
+// Physical memory in bytes; 4 GiB if unknown.
 std::int64_t of_machine();
 
-// Whether a request was refused for good since the limit was set, even if the error was caught. Whoever
-// frees something and asks again decides when a refusal is final.
+// Whether a request was finally refused since set_limit, even if the error was caught. Callers that free
+// memory and retry decide whether a refusal is final.
 void note_exceeded() noexcept;
 bool exceeded() noexcept;
 
-// 64-byte aligned. Throws Error{out_of_memory} naming the size asked for and what is held.
+// 64-byte aligned. Throws Error{out_of_memory} with the requested and held sizes.
 void* acquire(std::size_t bytes);
 void release(void* pointer, std::size_t bytes) noexcept;
 
-// For memory that comes from elsewhere (Lua's heap) but falls under the same limit: moves the
-// count by `change` bytes; returns false, changing nothing, if the limit would be exceeded.
+// Counts memory from elsewhere (Lua's heap): adds `change` bytes, or returns false without change beyond the
+// limit.
 bool account(std::int64_t change) noexcept;
 
 }  // namespace memory
@@ -58,11 +56,10 @@ struct Allocator {
   }
 };
 
-// A std::vector whose storage is counted.
 template <class T>
 using Array = std::vector<T, Allocator<T>>;
 
-// The same for what is written before it is read: new values are whatever the memory held.
+// New elements are uninitialised: write before reading.
 template <class T>
 struct UnsetAllocator : Allocator<T> {
   UnsetAllocator() = default;

@@ -47,7 +47,7 @@ std::string kind_of_warning(std::string_view sentence) {
   for (std::size_t k = 0; k < sentence.size(); ++k) {
     const char c = sentence[k];
     if (c == '"' || c == '`') quoted = !quoted;
-    // After = it is of a name, as in `case load = 2000`.
+    // After "=" a digit belongs to a name: `case load = 2000`.
     const bool named = k > 1 && sentence[k - 2] == '=';
     const bool begins = k == 0 || std::string_view(" (-").find(sentence[k - 1]) != std::string_view::npos;
     const bool number = !quoted && begins && !named && c >= '0' && c <= '9';

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of an effect or of a model of elasticity, each told once: name, dimension, range, default and
-// sentence of a member of a plain struct. The engine checks values by these rows; the language reads them,
-// and its help, its reference and its record are made of them. The ranges serve every other option too.
+// Options of effects and elasticity models. A row describes one member of a plain struct; the engine checks
+// values by the rows, and the bindings derive reading, help, reference and record from them.
 #pragma once
 
 #include <any>
@@ -17,23 +16,22 @@
 
 namespace asperity {
 
-// The numbers an option accepts, in the words of its error and of the reference page.
-// NaN never passes; an infinity only where `never` allows it.
+// NaN is never inside; infinity only with `never`.
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
   bool never = false;
-  // math.huge is accepted and means "never".
+  // Accepts math.huge as "never".
   constexpr NumberRange or_never() const {
     NumberRange r = *this;
     r.never = true;
     return r;
   }
   bool contains(double value) const;
-  // "above 0", "from 2 to 3"; "" for any.
+  // "above 0", "from 2 to 3"; "" if unlimited.
   std::string text(Dimension dimension) const;
-  // "a length above 0, e.g. \"250 um\""; `finite`: says so, of a value whose one fault that is.
+  // "a length above 0, e.g. \"250 um\""; `finite` says so if infinity is the only fault.
   std::string wanted(Dimension dimension, bool finite = false) const;
 };
 constexpr NumberRange any() { return {}; }
@@ -50,11 +48,11 @@ struct OptionRow {
   std::string name;
   Dimension dimension{};
   NumberRange range{};
-  std::vector<std::string> words{};  // of a choice, whose number is the place of a word here
+  std::vector<std::string> words{};  // of a choice; its value is an index
   std::string sentence;
-  std::string default_text{};  // where the struct's own default does not say it
+  std::string default_text{};  // if the struct's default is not enough
   bool required = false;
-  // Of the struct that the any holds; none: not given.
+  // On the struct inside `any`; none: not given.
   std::function<void(std::any&, double)> set{};
   std::function<std::optional<double>(const std::any&)> get{};
 
@@ -86,7 +84,6 @@ OptionRow number_row(std::string name, M O::*member, NumberRange range, std::str
   return quantity_row(std::move(name), member, dimension::number, range, std::move(sentence));
 }
 
-// One of a closed set of words.
 template <class O, class M>
 OptionRow choice_row(std::string name, M O::*member, std::vector<std::pair<std::string, M>> words,
                      std::string sentence) {
@@ -103,7 +100,7 @@ OptionRow choice_row(std::string name, M O::*member, std::vector<std::pair<std::
   return row;
 }
 
-// Throws Error{bad_value} that names the first option out of its range, `of` what, and what would be in it.
+// Throws Error{bad_value} for the first option out of range; `of` names the struct.
 void check_options(std::span<const OptionRow> rows, const std::any& options, const std::string& of);
 
 }  // namespace asperity

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The helpers are threads that live as long as the process and sleep between loops: a loop over a
-// small grid lasts less than starting a thread would. One loop at a time has them; a loop that another
-// thread calls meanwhile runs on that thread alone. A loop never waits for a helper that has not yet
-// begun to help. Each thread begins with a share of the blocks that is the same in every loop of as many,
-// since it finds in its cache what it left there; whoever is done takes what is left of the others' shares.
+// Helper threads live as long as the process and sleep between loops, because a loop over a small grid is
+// shorter than a thread start. One loop at a time uses the helpers; a concurrent loop runs alone. A loop
+// never waits for a helper that has not begun. Loops of equal length give each thread the same first share of
+// blocks, still in its cache; a finished thread takes blocks from other shares.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
@@ -25,7 +24,6 @@ namespace {
 std::atomic<int> threads_wanted{0};
 thread_local bool single_threaded = false;
 
-// One call of parallel_for.
 class Loop {
  public:
   Loop(std::int64_t blocks, int threads, const std::function<void(std::int64_t)>& block)
@@ -36,7 +34,7 @@ class Loop {
     }
   }
 
-  // Seat 0 is the caller's.
+  // Seat 0 is the caller.
   void work(int seat) {
     const SingleThreaded nested;
     const double before = cost::transforms();
@@ -48,7 +46,7 @@ class Loop {
     }
   }
 
-  // Once every thread has left work().
+  // Only after every thread has left work().
   void finish() {
     cost::count_transforms(helper_transforms_);
     if (failure_) std::rethrow_exception(failure_);
@@ -59,7 +57,7 @@ class Loop {
     std::atomic<std::int64_t> next{0};
     std::int64_t end = 0;
   };
-  // Blocks below one that failed are still done, so that which failure is told does not depend on chance.
+  // Blocks below a failed block still run, so that the reported failure is deterministic.
   void take(Share& share) {
     while (share.next.load(std::memory_order_relaxed) < share.end) {
       const std::int64_t k = share.next.fetch_add(1);
@@ -85,8 +83,7 @@ class Loop {
   double helper_transforms_ = 0;
 };
 
-// Turns a waiting thread takes before it sleeps: some microseconds, the gap between the loops of
-// one transform, and less than waking a sleeper takes.
+// About the gap between the loops of one transform; shorter than a wake-up.
 constexpr int turns_before_sleep = 2000;
 
 void pause() {
@@ -107,7 +104,7 @@ class Pool {
     for (std::thread& helper : helpers_) helper.join();
   }
 
-  // False, having done nothing, if the helpers are taken.
+  // False without effect if the helpers are in use.
   bool run(Loop& loop, int helpers) {
     const std::unique_lock taken(taken_, std::try_to_lock);
     if (!taken) return false;
@@ -129,7 +126,7 @@ class Pool {
   }
 
  private:
-  // No helper may still hold the loop when its caller goes on, even by an exception.
+  // No helper may use the loop after its caller continues or throws.
   struct Recall {
     Pool& pool;
     ~Recall() { pool.recall(); }
@@ -164,9 +161,9 @@ class Pool {
     }
   }
 
-  std::mutex taken_;  // by the loop that has the helpers
+  std::mutex taken_;  // held by the loop that uses the helpers
   std::vector<std::thread> helpers_;
-  std::mutex mutex_;  // of all below; the atomics are also read without it
+  std::mutex mutex_;  // guards the rest; atomics are also read without it
   std::condition_variable wake_, left_;
   std::atomic<std::int64_t> calls_{0};
   std::atomic<int> helping_{0};
@@ -185,7 +182,7 @@ Pool& pool() {
 int thread_count() {
   if (single_threaded) return 1;
   const int wanted = threads_wanted.load();
-  // Asked for once: the system takes microseconds to tell, and every loop wants to know.
+  // Cached: the system call takes microseconds.
   static const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return wanted > 0 ? wanted : processors;
 }

@@ -32,7 +32,7 @@ struct Search {
   std::string identity;
 };
 
-// Appends the build id, which is among the notes of the object, if the object holds one of the addresses.
+// Appends the build id if the object contains one of the addresses.
 int look_for_build_id(dl_phdr_info* object, std::size_t, void* of) {
   Search& search = *static_cast<Search*>(of);
   const auto covers = [&](const ElfW(Phdr) & part) {
@@ -97,7 +97,7 @@ std::string c_library_version() {
 #endif
 }
 
-// Two ways of rounding differ in one value of some hundreds or thousands.
+// Two roundings differ in about one of a thousand values.
 const std::string& c_library_functions() {
   static const std::string digest = [] {
     constexpr std::uint64_t arguments = 2000;

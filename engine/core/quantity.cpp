@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A unit is kept as numerator / denominator × 10^ten with exact integers wherever the definition
-// allows, and the power of ten is put into the number's own text before it is read. So "250 um" is
-// the double nearest to 250e-6, and "0.1 um" the one nearest to 1e-7: one rounding, never two.
+// A unit is numerator / denominator × 10^ten, exact where possible. The power of ten is inserted into the
+// number's text, so "250 um" is the double nearest to 250e-6, with one rounding.
 #include "engine/core/quantity.hpp"
 
 #include <algorithm>
@@ -26,12 +25,12 @@ struct Unit {
   int ten = 0;
 };
 
-// 1e-13 N: lb = .45359237 kg under 9.80665 m/s²; and 1e-8 m² in a square inch of 25.4 mm a side.
+// lb in 1e-13 N: 0.45359237 kg × 9.80665 m/s². in2 in 1e-8 m²: (25.4 mm)².
 constexpr double lb = 44482216152605, in2 = 64516, lb_kg = 45359237;
-constexpr double vickers = 9806650;  // Pa: HV is counted in kgf/mm²
+constexpr double vickers = 9806650;  // Pa; HV counts kgf/mm²
 
-// A name is a unit whole: the k of kip, the m of mil and the a of atm are no prefixes.
-// Among equally near names the first is proposed, so the common one stands first.
+// The k of kip, m of mil and a of atm are no prefixes. Common units first: of equally near names the first is
+// suggested.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
     {"\u00B5m", dimension::length, 1, 1, -6}, {"\u03BCm", dimension::length, 1, 1, -6},
@@ -74,7 +73,7 @@ constexpr Unit units[] = {
     {"lb", dimension::mass, lb_kg, 1, -8},
 };
 
-// The text in double quotes for a message: at most 40 bytes, one line, whole UTF-8 characters only.
+// For messages: at most 40 bytes, one line, whole UTF-8 characters.
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string result = "\"";
@@ -96,7 +95,6 @@ std::string shown(std::string_view text) {
   return result + (k < text.size() ? "...\"" : "\"");
 }
 
-// `name` without the double quotes of shown().
 std::string shown_name(std::string_view name) {
   const std::string text = shown(name);
   return quoted(text.substr(1, text.size() - 2));
@@ -110,7 +108,6 @@ class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text), rest_(text) {}
 
-  // Sets mantissa and exponent of the number in front.
   void read_number() {
     skip_space();
     const std::string_view start = rest_;
@@ -166,7 +163,7 @@ class Reader {
     quantity.value = read(decimal ? exponent_ + ten_ : exponent_);
     if (!decimal) {
       quantity.value = quantity.value * numerator_ / denominator_;
-      // Powers of ten up to 22 are exact doubles: dividing by one rounds once.
+      // Powers of ten up to 22 are exact doubles, so the division rounds once.
       quantity.value = ten_ < 0 ? quantity.value / elementary::pow(10.0, -ten_)
                                 : quantity.value * elementary::pow(10.0, ten_);
     }
@@ -179,7 +176,6 @@ class Reader {
     return rest_.empty();
   }
 
-  // The same number counted in `unit`; the powers of metre and so on stay those of this text.
   void count_in(const Reader& unit) {
     numerator_ *= unit.denominator_;
     denominator_ *= unit.numerator_;
@@ -194,7 +190,7 @@ class Reader {
   }
 
   void skip_space() {
-    // Blanks, and the no-break and thin spaces that word processors put before a unit.
+    // Word processors put no-break and thin spaces before units.
     while (take(" ") || take("\t") || take("\u00A0") || take("\u202F") || take("\u2009")) {
     }
   }
@@ -206,7 +202,7 @@ class Reader {
     return n;
   }
 
-  // An exponent is an e followed by digits; any other e begins a unit.
+  // An e without digits begins a unit.
   void read_exponent() {
     std::size_t k = 1;
     if (rest_.size() > 1 && (rest_[1] == '+' || rest_[1] == '-')) k = 2;
@@ -222,7 +218,6 @@ class Reader {
     if (negative) exponent_ = -exponent_;
   }
 
-  // Part of a unit's name: letters, %, and whatever is not ASCII and has no meaning of its own.
   std::size_t name_length() const {
     std::size_t n = 0;
     while (n < rest_.size()) {
@@ -251,7 +246,7 @@ class Reader {
     return {};
   }
 
-  // "^2", "**-2", "²", "⁻³", or digits that touch the name ("m2"); 1 if there is none.
+  // "^2", "**-2", "²", "⁻³", or adjacent digits ("m2"); 1 if absent.
   int read_power() {
     constexpr int greatest = 9;
     const bool marked = take("^") || take("**");
@@ -303,14 +298,14 @@ class Reader {
     const auto* const unit =
         std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return u.name == known; });
     if (unit == std::end(units)) refuse_unknown(name);
-    // "640 HV10" names the test load in kgf, as ISO 6507 writes it, and no power.
+    // "640 HV10" (ISO 6507): the digits are the test load in kgf, not a power.
     if (name == "HV" && skip_digits() > 0 && take(".")) skip_digits();
     const int power = name == "1" ? 1 : read_power();
     add(*unit, divide ? -power : power);
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
-    // Scales of hardness in kgf/mm² as HV is, but over other areas of the indenter.
+    // In kgf/mm² like HV, but over other indenter areas.
     if (name == "HK" || name == "HB" || name == "HBW")
       refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
              "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
@@ -361,7 +356,7 @@ Quantity parse_quantity(std::string_view text) {
 }
 
 Quantity parse_unit(std::string_view text) {
-  // "-" is how table headers write "no unit".
+  // Table headers write "-" for no unit.
   if (text == "-") text = "";
   Reader reader(text);
   reader.take_number_one();
@@ -391,7 +386,7 @@ double parse_quantity_in(std::string_view text, std::string_view unit) {
   one.take_number_one();
   one.read_unit();
   const Dimension given = reader.result().dimension, wanted = one.result().dimension;
-  // "10" beside "%" may mean 10 % or ten times everything: no unit is guessed.
+  // "10" in a column "%" may mean 10 % or a factor of ten.
   const bool untold = !has_unit && !unit.empty() && unit != "1";
   if (given != wanted || untold) {
     const std::string in = unit.empty() ? "without a unit" : "in " + std::string(unit);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Physical quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension is the
-// exponents of metre, kilogram, second and radian; angles are kept apart from plain numbers so that
-// a length is never taken for one. What comes out is always SI (m, kg, s, rad, Pa, N, …).
+// Quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds exponents of metre,
+// kilogram, second and radian, so angles differ from plain numbers. Values are SI.
 #pragma once
 
 #include <cstdint>
@@ -36,13 +35,13 @@ inline constexpr Dimension acceleration{1, 0, -2, 0};
 inline constexpr Dimension frequency{0, 0, -1, 0};
 }  // namespace dimension
 
-// What an experimenter calls it ("a length"), and a quantity that would be accepted ("250 um").
+// "a length"; "250 um".
 std::string describe(Dimension dimension);
 std::string example_quantity(Dimension dimension);
-// The SI unit as text: "m", "Pa", "J/m^2"; "" for a plain number.
+// "m", "Pa", "J/m^2"; "" for a plain number.
 std::string si_unit(Dimension dimension);
 
-// The units that values of a dimension are mostly given in, smallest first.
+// Smallest first.
 std::vector<std::string> usual_units(Dimension dimension);
 
 struct Quantity {
@@ -50,35 +49,32 @@ struct Quantity {
   Dimension dimension;
 };
 
-// "<number> [unit]", unit a product such as "MPa/um", "kg m^-3", "um²", "N*m"; a stroke divides by the
-// one unit after it. A missing unit means a plain number. "inf" and "nan" are not numbers here.
-// Decimal units round once: "250 um" is the double nearest to 250e-6.
-// Throws Error{bad_unit} naming the text, the part not understood and the nearest unit.
+// "<number> [unit]": products such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next unit only.
+// No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is the double
+// nearest to 250e-6. Throws Error{bad_unit} with the unreadable part and the nearest unit.
 Quantity parse_quantity(std::string_view text);
 
-// The value of a unit alone ("um" -> 1e-6 m), as in a table header "time [s]".
+// As in a table header "time [s]".
 Quantity parse_unit(std::string_view text);
 
-// The text read as a quantity of one dimension, in SI. Throws Error{bad_unit} that names both
-// dimensions and gives an example that would be accepted.
+// In SI. Throws Error{bad_unit} with both dimensions and an accepted example.
 double parse_quantity_as(std::string_view text, Dimension wanted);
 
-// The text's value counted in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05. Decimal units round
-// once, so ("0.1 um", "um") is 0.1. Throws Error{bad_unit} where the two are of different kinds, and where
-// the unit is not "" and the text has none.
+// The value in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05, with one rounding for decimal units.
+// Throws Error{bad_unit} for different dimensions, and for a text without unit unless `unit` is "".
 double parse_quantity_in(std::string_view text, std::string_view unit);
 
-// A value with the SI prefix that makes it readable: 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
+// 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
 
-// The prefix unit in which the largest of some values reads best; used for axes.
+// The prefixed unit for axes.
 struct DisplayUnit {
   std::string name;   // "um"
   double factor = 1;  // SI value of one unit
 };
 DisplayUnit display_unit(double largest_magnitude, Dimension dimension);
 
-// The dimension of that name ("length", "energy per area"), as describe() gives it without its article.
+// By its name in describe(), without article ("length", "energy per area").
 std::optional<Dimension> dimension_named(std::string_view name);
 std::vector<std::string> dimension_names();
 

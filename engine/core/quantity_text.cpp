@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The writing half of quantities: what a dimension is called, an example of it, its SI unit, and a
-// value with the prefix that makes it readable.
+// Output of quantities.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +16,7 @@ namespace {
 struct Kind {
   Dimension dimension;
   std::string_view name, example, si_unit;
-  std::vector<DisplayUnit> display;  // smallest first; empty: the SI unit as it is
+  std::vector<DisplayUnit> display;  // smallest first; empty: only the SI unit
 };
 
 const std::vector<Kind>& kinds() {
@@ -98,7 +97,7 @@ DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) 
     return si == units.end() ? units.front() : *si;
   }
   DisplayUnit best = units.front();
-  // What prints as 1000 of one unit is 1 of the next.
+  // 1000 of one unit, as printed, becomes 1 of the next.
   const double prints_as_one = 1 - 0.5 * elementary::pow(10.0, -digits);
   for (const DisplayUnit& unit : units)
     if (magnitude >= unit.factor * prints_as_one) best = unit;
@@ -146,7 +145,7 @@ std::vector<std::string> usual_units(Dimension dimension) {
   if (const Kind* kind = find(dimension))
     for (const DisplayUnit& unit : kind->display) names.push_back(unit.name);
   if (names.empty() && !si_unit(dimension).empty()) names.push_back(si_unit(dimension));
-  // Read, but never chosen for printing.
+  // Accepted, but never printed.
   if (dimension == dimension::time) names.insert(names.end(), {"min", "h"});
   if (dimension == dimension::angle) names.push_back("rad");
   return names;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the engine says of a number, list or combination that a call does not take. Most of what a script
-// gives is checked by the ranges of its keys before it comes here; these checks are those of the engine's own
-// callers, and of what only several numbers together can tell.
+// Errors for unacceptable numbers, for C++ callers and conditions on several numbers; keys check most script
+// values earlier.
 #pragma once
 
 #include <cmath>
@@ -17,14 +16,13 @@
 
 namespace asperity {
 
-// A length as sentences tell it.
 inline std::string metres(double length) { return format_quantity(length, dimension::length); }
 
 [[noreturn]] inline void refuse(std::string sentence, std::string hint) {
   throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
 }
 
-// Throws Error{bad_value} "`key` is VALUE UNIT", with what would do as the hint, unless `holds`.
+// Throws Error{bad_value} "`key` is VALUE UNIT" with the hint.
 template <class Number>
 void require(bool holds, std::string_view key, Number value, const char* unit, const char* hint) {
   if (holds) return;
@@ -36,7 +34,7 @@ void require(bool holds, std::string_view key, Number value, const char* unit, c
   refuse(*unit == '\0' ? sentence : sentence + " " + unit, hint);
 }
 
-// The same of a number that is to be finite and above zero where it is given.
+// Refuses a given number unless finite and above zero.
 inline void require_positive(std::string_view key, std::optional<double> value, const char* unit = "",
                              const char* hint = "give a finite value above zero") {
   if (value) require(std::isfinite(*value) && *value > 0, key, *value, unit, hint);

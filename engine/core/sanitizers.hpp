@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether this is built with the address or thread sanitizer, whose bookkeeping takes more room than a limit
-// of the operating system on memory leaves. GCC says so by a macro, Clang by a feature.
+// Whether the address or thread sanitizer is active, whose bookkeeping exceeds operating-system memory
+// limits. GCC defines a macro, Clang a feature.
 #pragma once
 
 namespace asperity {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work spaces lent to the blocks of a parallel loop: as many are made as blocks run at once, and they
-// are kept for the next loop. What a work space holds when it is lent is left from its last use.
+// Reusable work spaces for parallel loops, one per concurrent block, with content from the previous use.
 // Thread-safe.
 #pragma once
 
@@ -14,7 +13,6 @@ namespace asperity {
 template <class Scratch>
 class ScratchPool {
  public:
-  // Gives its work space back when it goes.
   class Loan {
    public:
     Loan(ScratchPool& pool, std::unique_ptr<Scratch> scratch) : pool_(pool), scratch_(std::move(scratch)) {}
@@ -32,7 +30,7 @@ class ScratchPool {
     std::unique_ptr<Scratch> scratch_;
   };
 
-  // `make` returns a unique_ptr<Scratch>; it is called if none is idle.
+  // `make` returns a unique_ptr<Scratch>.
   template <class Make>
   Loan borrow(const Make& make) {
     std::unique_ptr<Scratch> scratch;

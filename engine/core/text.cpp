@@ -55,7 +55,6 @@ std::string safe_file_name(std::string_view text) {
   }
   if (name.size() > longest) {
     name.resize(longest);
-    // Not in the middle of a character.
     while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
     if (!name.empty() && static_cast<unsigned char>(name.back()) >= 0xC0) name.pop_back();
   }
@@ -76,7 +75,7 @@ std::string joined(std::span<const std::string> items, std::string_view last) {
 
 namespace {
 
-// Bytes of the UTF-8 character at the front, 0 if there is none or it would steer a terminal.
+// Bytes of the first UTF-8 character; 0 if invalid or a terminal control.
 std::size_t shown_bytes(std::string_view text) {
   const auto byte = [&](std::size_t k) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
@@ -90,7 +89,7 @@ std::size_t shown_bytes(std::string_view text) {
     if ((byte(k) & 0xC0) != 0x80) return 0;
     point = point << 6 | (byte(k) & 0x3F);
   }
-  // Control characters, more bytes than needed, halves of a pair, beyond the last.
+  // Control characters, overlong forms, surrogates, beyond the last code point.
   if (point < 0xA0 || (bytes == 3 && point < 0x800) || (bytes == 4 && point < 0x10000) || point > 0x10FFFF ||
       (point >= 0xD800 && point < 0xE000))
     return 0;
@@ -133,14 +132,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
-  constexpr std::size_t longest = 64;  // beyond this a name is not a slip of the keyboard
+  constexpr std::size_t longest = 64;  // longer names are no typing errors
   if (name.empty() || name.size() > longest) return {};
   std::string best;
   std::size_t best_distance = 1 + name.size() / 3;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
     std::size_t distance = edit_distance(name, candidate);
-    // "mat" for "material", "short" for "short_wave": a beginning counts as a near miss.
+    // A prefix counts as a near miss: "mat" for "material".
     if (name.size() >= 3 && candidate.size() > name.size() && candidate.starts_with(name))
       distance = std::min<std::size_t>(distance, 1);
     if (distance < best_distance || (distance == best_distance && best.empty())) {

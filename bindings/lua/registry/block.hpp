@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of named options, described once: name, dimension, default, range and a sentence for each
-// key. The block reads a Lua table into a plain C++ struct, reports every problem of the table in
-// one Error (unknown keys with the nearest name, missing ones, wrong types, units and ranges),
-// and tells help(), the editor's types, the reference page and the journal what it knows.
+// A block of named options: name, dimension, default, range and sentence of each key. The block reads a Lua
+// table into a plain C++ struct and reports all problems in one Error: unknown keys with the nearest name,
+// missing keys, wrong types, units and ranges. help(), editor types, reference and journal use the same
+// description. options.hpp has the kinds of options.
 //
 //   Block<CutKeys>{"cut", {number("fraction", &CutKeys::fraction, between(0, 1), "of the height")}};
-//
-// The kinds of options are in options.hpp.
 #pragma once
 
 #include <concepts>
@@ -32,51 +30,47 @@ struct OptionInfo {
   std::string name;
   std::string type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
   Dimension dimension{};
-  std::string default_text;  // as a script would write it; "" if there is none
+  std::string default_text;  // as written in a script; "" if none
   std::string range_text;    // "above 0"; may be empty
   std::string sentence;
   bool required = false;
-  const BlockInfo* inner = nullptr;  // of a table inside the table
+  const BlockInfo* inner = nullptr;  // block of a nested table
 };
 
-// What is known of a block without its struct.
 class BlockInfo {
  public:
   virtual ~BlockInfo() = default;
   virtual const std::string& name() const = 0;
   virtual std::vector<const OptionInfo*> options() const = 0;
-  // Whether what is given is a list of tables, each with one of these keys.
+  // Whether the argument is a list of such tables.
   virtual bool is_list() const { return false; }
-  // Reads and throws away: what a dry run does. Throws like read().
+  // Reads and discards the options, for a dry run. Throws like read().
   virtual void check(const Argument& table, const std::string& caller) const = 0;
 };
 
-// The keys of a call with the values that were in force, as text.
 using Resolved = std::vector<std::pair<std::string, std::string>>;
 
-// A problem is a sentence about one key, without its line.
 using Problems = std::vector<std::string>;
 
-// What is meant by a name that is not among these: what one of the language is called since it was renamed,
-// or the nearest; "" for neither.
+// The new name after a renaming, else the nearest of `names`, else "".
 std::string meant_by(std::string_view name, std::span<const std::string> names);
 
 namespace detail {
-// Reads a number or a quantity; appends a problem and returns nothing if it cannot be had.
+// On failure, these append a problem and return nothing.
 std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
                                     Problems& problems);
 std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
                                          const NumberRange& range, Problems& problems);
-// A number of cells, coarser or finer where a study of accuracy runs the script again (refinement.hpp).
+// Scaled during an accuracy study (refinement.hpp).
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
                                        const NumberRange& range, Problems& problems);
 void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
-// The place of the word among these.
+// Returns the index of the word.
 std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
                                      const std::vector<std::string>& words, Problems& problems);
-// A value as a script would write it: "250 um", 0.02, math.huge.
+// Script text: "250 um", 0.02, math.huge.
 std::string number_text(double value, Dimension dimension);
-// Walks the table: calls read(option index, value) for known keys; reports unknown and missing ones.
+// Calls read(index, value) for known keys; reports unknown and missing keys.
 void read_table(const Argument& table, const std::string& caller,
                 const std::vector<const OptionInfo*>& options,
                 const std::function<void(std::size_t, const Argument&, Problems&)>& read,
@@ -99,16 +93,14 @@ std::optional<double> shown(const std::optional<T>& v) {
 }
 }  // namespace detail
 
-// One key of a block that fills a struct O.
 template <class O>
 struct Option {
   OptionInfo info;
   std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
-  // The value as a script would write it, "" for none; may be null. Gives defaults and the record.
+  // Script text of the value, "" for none; may be null. For defaults and the record.
   std::function<std::string(const O&)> show;
 
   Option() = default;
-  // An option of a base struct serves the struct that extends it.
   template <class Base>
   requires(std::derived_from<O, Base> && !std::same_as<O, Base>) Option(Option<Base> base)
       : info(std::move(base.info)), read(std::move(base.read)), show(std::move(base.show)) {}
@@ -117,12 +109,11 @@ struct Option {
     info.required = true;
     return std::move(*this);
   }
-  // How a value reads in the record, for options made with custom().
   Option shown_by(std::function<std::string(const O&)> text) && {
     show = std::move(text);
     return std::move(*this);
   }
-  // How the default reads where the struct cannot tell ("size", "roll_off = long_wave").
+  // For a default outside the struct ("size", "roll_off = long_wave").
   Option defaults_to(std::string text) && {
     info.default_text = std::move(text);
     return std::move(*this);
@@ -132,7 +123,7 @@ struct Option {
 template <class O>
 class Block final : public BlockInfo {
  public:
-  // `whole` sees the whole struct after all keys were read without a problem, and may add some.
+  // `whole` checks the struct if all keys were read without a problem.
   using Check = void (*)(O&, Problems&);
 
   Block(std::string name, std::vector<Option<O>> options, Check whole = nullptr)
@@ -151,8 +142,8 @@ class Block final : public BlockInfo {
     return infos;
   }
 
-  // Throws Error with all problems of the table. No argument at all reads as an empty table.
-  // `resolved`, if given, receives every key with the value in force, as text.
+  // Throws one Error with all problems. Nil reads as an empty table. `resolved` receives all effective
+  // values.
   O read(const Argument& table, const std::string& caller, Resolved* resolved = nullptr) const {
     O result{};
     bool placeholders = false;
@@ -160,7 +151,6 @@ class Block final : public BlockInfo {
         table, caller, options(),
         [&](std::size_t k, const Argument& value, Problems& problems) {
           if (value.is_unknown()) {
-            // A native placeholder still has a class to check.
             placeholders = true;
             if (value.as_any_object() == nullptr) return;
           }
@@ -176,7 +166,6 @@ class Block final : public BlockInfo {
     return result;
   }
 
-  // Every key with the value that it has there.
   Resolved resolved(const O& values) const {
     Resolved all;
     for (const Option<O>& option : options_)

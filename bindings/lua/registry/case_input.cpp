@@ -40,7 +40,7 @@ void note_inputs_of_case(const Session& session, const std::vector<CaseInput>& i
   for (const CaseInput& input : inputs) {
     if (session.notes != nullptr) session.notes->inputs.push_back(input);
     if (session.notes != nullptr || session.run == nullptr || input.digest.empty()) continue;
-    // The case may have run in another process, or earlier: its file is copied now.
+    // The case may have run elsewhere or earlier: copy its file now.
     const LoadedFile* copy = input.loaded ? recorded_copy(session.loaded, input.file) : nullptr;
     if (copy != nullptr)
       session.run->note_loaded(input.file, copy->text);

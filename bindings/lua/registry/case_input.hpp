@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case of an ensemble depends on beside its arguments: the files it looked at, the knobs it asked for,
-// and whether it drew random numbers. The stored result of a case is used again only where all of these are
-// as they were.
+// Inputs of an ensemble's case besides its arguments: files, knobs and random numbers. A stored result
+// requires equal inputs.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,8 @@
 
 namespace asperity::lua {
 
-// A file that a case looked at; no digest where there was none. One that `require` found in the folder of the
-// script is known by its name there: another run looks in the folder of its own script.
+// A file that a case read or looked for; no digest if missing. Files found by `require` in the script's
+// folder are named relative to it, because runs may have different folders.
 struct CaseInput {
   std::string file;
   std::int64_t bytes = 0;
@@ -24,19 +23,19 @@ struct CaseInput {
   bool loaded = false;             // by `require`, `dofile` or `loadfile`
 };
 CaseInput input_of_case(const std::string& file);
-// Of a file as it is now; empty where there is none.
+// Empty if the file is missing.
 std::string present_digest(const std::string& file);
-// The recorded copy of a loaded file, for replay and resume; null without one.
+// For replay and resume; null if none.
 const LoadedFile* recorded_copy(const std::shared_ptr<const LoadedFiles>& loaded, const std::string& file);
 
 class Session;
-// Adds the files of a case to the inputs of the run, or of the outer case.
+// To the run, or to the outer case.
 void note_inputs_of_case(const Session& session, const std::vector<CaseInput>& inputs);
 
 struct CaseNotes {
   std::vector<CaseInput> inputs;
   std::vector<RunKnob> knobs;
-  bool drew = false;  // random numbers, which its seed decides
+  bool drew = false;  // random numbers, which depend on the seed
 };
 
 }  // namespace asperity::lua

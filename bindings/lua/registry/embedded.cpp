@@ -12,11 +12,9 @@ namespace asperity::lua {
 
 namespace {
 
-// What texts were compiled to, line numbers and names included. Ensembles make a state a case, and compiling
-// took most of that.
+// Compiled texts with line numbers and names; compilation dominated the creation of states.
 class CompiledTexts {
  public:
-  // Null until it was added.
   std::shared_ptr<const std::string> find(const void* text) {
     const std::lock_guard lock(mutex_);
     const auto at = codes_.find(text);
@@ -46,7 +44,7 @@ int append_bytes_of_code(lua_State*, const void* bytes, std::size_t size, void* 
   }
 }
 
-// Loads the code if it is known. No destructor stands on the stack where Lua may raise.
+// -1 if not cached. No destructor may be pending where Lua can raise.
 int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
   const std::shared_ptr<const std::string> code = compiled_texts().find(text.data());
   return code == nullptr ? -1 : luaL_loadbufferx(L, code->data(), code->size(), chunk, "b");
@@ -57,11 +55,10 @@ void keep_compiled(lua_State* L, std::string_view text) {
     std::string code;
     if (lua_dump(L, append_bytes_of_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
   } catch (const std::bad_alloc&) {
-    // it is compiled again
   }
 }
 
-// package.preload's loader: upvalue 1 is the index of the script.
+// Loader for package.preload; upvalue 1 is the index of the script.
 int load_embedded(lua_State* L) {
   const EmbeddedScript& script =
       embedded_scripts()[static_cast<std::size_t>(lua_tointeger(L, lua_upvalueindex(1)))];
@@ -93,7 +90,7 @@ void preload_embedded_scripts(lua_State* L) {
   lua_Integer k = 0;
   for (const EmbeddedScript& script : embedded_scripts()) {
     if (script.name == "sandbox") {
-      ++k;  // runs once, before the script
+      ++k;  // the sandbox runs once, before the script
       continue;
     }
     lua_pushinteger(L, k++);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pairs and next in one order, the same in every process. Lua's own order depends on a hash of strings whose
-// seed (luai_makeseed) is drawn from the clock and from addresses when a state is made. It is compiled in, no
-// call of Lua 5.4 sets it, and Debian's build leaves it so. Therefore a loop sorts the keys when it begins.
+// pairs and next in the same order in every process. Lua's order depends on a string hash with a seed
+// (luai_makeseed) from clock and addresses, which no call of Lua 5.4 sets. A loop therefore sorts the keys
+// when it begins.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -19,17 +19,16 @@ namespace {
 
 enum class Kind : std::uint32_t { number, text, boolean, other };
 
-// A key as it is compared. `head` decides between most keys of a kind: the bits of a number in ascending
-// order, the first eight bytes of a string, the address of a table.
+// `head` is compared first: bits of a number, eight bytes of a string, address of a table.
 struct Key {
   Kind kind = Kind::other;
-  std::uint32_t place = 0;  // in the list of the keys, from 1
+  std::uint32_t place = 0;  // index in the list of keys, from 1
   std::uint64_t head = 0;
-  std::int64_t rest = 0;       // an integer itself, the length of a string
-  const char* text = nullptr;  // alive as long as the list
+  std::int64_t rest = 0;       // integer, or length of a string
+  const char* text = nullptr;  // valid as long as the list
 };
 
-// The sorted keys of a table at the beginning of a loop, in a userdata whose user value is their list.
+// Sorted keys of a loop, a userdata whose user value is their list.
 struct alignas(Key) Walk {
   std::uint32_t count, next;
   Key* keys() { return reinterpret_cast<Key*>(this + 1); }
@@ -69,7 +68,6 @@ Key key_at(lua_State* L, int index, std::uint32_t place) {
   return key;
 }
 
-// In a dry run, a note at the line of the loop.
 void note_other_keys(lua_State* L) noexcept {
   const Session* session = Session::find(L);
   if (session == nullptr || session->mistakes == nullptr) return;
@@ -78,7 +76,7 @@ void note_other_keys(lua_State* L) noexcept {
                           "in another order in every run; use numbers or strings as keys");
 }
 
-// Pushes the walk over the table at an absolute index, and the list of its keys. Raises.
+// Pushes the walk over a table and the list of its keys. Raises.
 Walk* push_walk(lua_State* L, int table) {
   luaL_checkstack(L, 8, nullptr);
   std::size_t count = 0;
@@ -86,7 +84,7 @@ Walk* push_walk(lua_State* L, int table) {
   auto* walk = new (lua_newuserdatauv(L, sizeof(Walk) + count * sizeof(Key), 1)) Walk{0, 0};
   const int at = lua_gettop(L), list = at + 1;
   lua_createtable(L, static_cast<int>(count), 0);
-  // A collection may have changed a table with weak keys by now. From here on nothing is allocated.
+  // A collection may have changed a weak table. Nothing is allocated from here on.
   std::uint32_t found = 0, others = 0;
   for (lua_pushnil(L); found < count && lua_next(L, table) != 0;) {
     lua_pop(L, 1);
@@ -105,7 +103,7 @@ Walk* push_walk(lua_State* L, int table) {
   return walk;
 }
 
-// Pushes the next key still in the table, and its value; nil at the end.
+// The next key still in the table and its value; nil at the end.
 int push_next(lua_State* L, int table, Walk& walk, int list) {
   for (; walk.next < walk.count; lua_pop(L, 2)) {
     lua_rawgeti(L, list, walk.keys()[walk.next++].place);
@@ -122,10 +120,10 @@ int step_of_loop(lua_State* L) {
   return push_next(L, lua_upvalueindex(1), walk, lua_upvalueindex(3));
 }
 
-// The first key, without sorting: next(t) mostly asks whether a table is empty.
+// No sorting: next(t) mostly tests for an empty table.
 int push_first(lua_State* L) {
   Key first;
-  lua_pushnil(L);  // at 3: the first key so far
+  lua_pushnil(L);  // index 3: the smallest key so far
   for (lua_pushnil(L); lua_next(L, 1) != 0;) {
     lua_pop(L, 1);
     const Key key = key_at(L, -1, 0);
@@ -157,7 +155,7 @@ int ordered_pairs(lua_State* L) {
   if (lua_istable(L, 1))
     push_ordered_loop(L, 1);
   else
-    lua_pushcfunction(L, ordered_next);  // raises in the loop, as ever
+    lua_pushcfunction(L, ordered_next);  // raises in the loop
   lua_pushvalue(L, 1);
   lua_pushnil(L);
   return 3;
@@ -167,7 +165,7 @@ int ordered_next(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   lua_settop(L, 2);
   if (lua_isnil(L, 2)) return push_first(L);
-  // The walk under way over each table, so that a step need not sort.
+  // Active walks by table, so that a step does not sort again.
   if (luaL_getsubtable(L, LUA_REGISTRYINDEX, "asperity.walks") == 0) {
     lua_createtable(L, 0, 1);
     lua_pushliteral(L, "k");

@@ -9,7 +9,7 @@ std::string where(lua_State* L) {
   lua_Debug frame;
   for (int level = 0; level < 16 && lua_getstack(L, level, &frame) != 0; ++level) {
     lua_getinfo(L, "Sl", &frame);
-    // What the sandbox put in the place of Lua's own functions is no line of the script.
+    // Functions replaced by the sandbox have no line in the script.
     if (frame.currentline > 0 && std::string_view(frame.source) != "=sandbox")
       return std::string(frame.short_src) + ":" + std::to_string(frame.currentline) + ": ";
   }
@@ -27,7 +27,7 @@ int fail(lua_State* L, const std::string& message) {
     lua_pushlstring(state, message.data(), message.size());
     return 1;
   };
-  protect(L, 0, 1, action);  // on failure Lua's own memory error is there instead
+  protect(L, 0, 1, action);  // if protect fails, the stack holds Lua's memory error
   return -1;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The middle of the three frames of a call: it runs a body, which is ordinary C++, catches what the
-// body throws and leaves either its results or an error message on the Lua stack. The outer frame,
-// which owns nothing with a destructor, then returns or raises. Never `catch (...)` here: under the C++
-// build of Lua that would swallow Lua's own unwinding.
+// The middle frame of a call: runs a C++ body, catches its exception and leaves results or a message on the
+// Lua stack. The outer frame, without destructors, then returns or raises. Never `catch (...)`: in the C++
+// build of Lua it would swallow Lua's own unwinding.
 #pragma once
 
 #include <exception>
@@ -18,17 +17,15 @@
 
 namespace asperity::lua {
 
-// "script.lua:12: " of the innermost Lua function that is running, or "".
+// "script.lua:12: " of the innermost running Lua function, or "".
 std::string where(lua_State* L);
-// The message of an error: where, which function, sentence and hint.
 std::string message_of(lua_State* L, const std::string& name, const Error& error);
-// Pushes an error message and returns -1, which tells the outer frame to raise it.
+// Pushes the message and returns -1.
 int fail(lua_State* L, const std::string& message);
-// Pushes results and returns their number; -1, with the error pushed, if Lua has no memory.
+// Returns the number of results; -1 with the error on the stack if memory runs out.
 int deliver(lua_State* L, const Values& results);
 
-// Runs a body that returns Values; -1 with the error on the stack if it threw. `name` is put before the
-// message of an error that does not begin with it.
+// -1 with the error on the stack if the body throws. `name` is prefixed to messages that lack it.
 template <class Run>
 int guarded(lua_State* L, const std::string& name, Run run) {
   const RoundToNearest whatever_the_host_does;
@@ -44,8 +41,7 @@ int guarded(lua_State* L, const std::string& name, Run run) {
   }
 }
 
-// Runs a body, and once more if it found no memory, after Lua has given back what the script can no longer
-// reach. A body that fails must leave everything as it was.
+// Repeats the body after a garbage collection if memory ran out. A failed body must change nothing.
 template <class Run>
 auto with_collection(lua_State* L, Run run) {
   try {
@@ -57,7 +53,7 @@ auto with_collection(lua_State* L, Run run) {
   try {
     return run();
   } catch (const Error& error) {
-    // Nothing is left to give back: the run met its limit, whatever the script makes of the error.
+    // The limit is reached, even if the script catches the error.
     if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
     throw;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `lab` in Lua: every module is an empty table whose metatable finds what the module has, so that an
-// unknown name is an error with the nearest one and nothing can be changed.
+// `lab` in Lua: each module is an empty, read-only table whose metatable finds members. Unknown names are
+// errors with the nearest name.
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -10,17 +10,16 @@ namespace asperity::lua {
 
 namespace {
 
-const char module_key = 0;  // metatable[module_key] = Module* marks the metatables of modules
+const char module_key = 0;  // metatable[module_key] = Module*
 
-// What a module has under a name: one of these, or none. A module within it hides a constant of the same
-// name, and that a function.
+// At most one is set. A submodule hides a constant of the same name; a constant hides a function.
 struct Member {
   const Module* module = nullptr;
   const Constant* constant = nullptr;
   const Function* function = nullptr;
 };
 
-// The name of a module within another, or "".
+// Last part of the path of a submodule, or "".
 std::string_view name_within(const Module& outer, const Module& inner) {
   const std::string_view path = inner.path;
   const std::size_t dot = path.rfind('.');
@@ -47,8 +46,7 @@ std::vector<std::string> names_of_members(const Module& module) {
   return names;
 }
 
-// Pushes a member, which stays in the module's storage under its name: a state makes what it is asked for,
-// for most scripts use few of several hundred functions. Raises.
+// Caches the member in `storage`: scripts use few of several hundred functions. Raises.
 void make_member(lua_State* L, int storage, const char* name, const Member& member) {
   if (member.module != nullptr) {
     push_proxy(L, *member.module);
@@ -63,7 +61,7 @@ void make_member(lua_State* L, int storage, const char* name, const Member& memb
   lua_setfield(L, storage, name);
 }
 
-// Makes what is not there yet of the members of one kind. Raises.
+// Makes the missing members. Raises.
 template <class Named>
 void make_all(lua_State* L, int storage, const Module& module, const std::vector<Named>& members) {
   for (const Named& named : members) {
@@ -115,15 +113,15 @@ int module_pairs(lua_State* L) {
     const std::string_view name = name_within(module, *inner);
     if (name.empty()) continue;
     push_proxy(L, *inner);
-    lua_setfield(L, storage, name.data());  // the end of the module's path
+    lua_setfield(L, storage, name.data());  // the name is the end of the path, so it is null-terminated
   }
-  push_ordered_loop(L, storage);  // which keeps the storage: handed to the script, it could be written to
+  push_ordered_loop(L, storage);  // the loop hides the storage, which a script could change
   lua_pushvalue(L, 1);
   lua_pushnil(L);
   return 3;
 }
 
-// With [-1] = the metatable being made and [-2] = hidden storage: sets a closure over both.
+// Stack: [-1] = new metatable, [-2] = storage. The closure has module and storage.
 void set_module_method(lua_State* L, const char* name, lua_CFunction function, const Module& module) {
   lua_pushlightuserdata(L, const_cast<Module*>(&module));
   lua_pushvalue(L, -3);
@@ -133,17 +131,16 @@ void set_module_method(lua_State* L, const char* name, lua_CFunction function, c
 
 int module_call(lua_State* L) {
   lua_pushvalue(L, lua_upvalueindex(1));
-  lua_replace(L, 1);  // in place of the module itself
+  lua_replace(L, 1);
   lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
   return lua_gettop(L);
 }
 
-// Pushes the proxy of a module.
 void push_module(lua_State* L, const Module& module) {
   lua_newtable(L);  // storage
-  lua_newtable(L);  // proxy, empty for ever
+  lua_newtable(L);  // proxy, always empty
   lua_pushvalue(L, -2);
-  lua_newtable(L);  // its metatable
+  lua_newtable(L);
   set_module_method(L, "__index", module_index, module);
   set_module_method(L, "__newindex", module_new_index, module);
   set_module_method(L, "__pairs", module_pairs, module);
@@ -158,9 +155,9 @@ void push_module(lua_State* L, const Module& module) {
   lua_setfield(L, -2, "__metatable");
   lua_pushlightuserdata(L, const_cast<Module*>(&module));
   lua_rawsetp(L, -2, &module_key);
-  lua_remove(L, -2);  // the second reference to storage
+  lua_remove(L, -2);  // storage
   lua_setmetatable(L, -2);
-  lua_remove(L, -2);  // and the first
+  lua_remove(L, -2);  // storage
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &module);
 }

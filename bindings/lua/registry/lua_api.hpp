@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua's headers, and the one rule for calling them: a Lua function that may raise an error is called
-// only inside protect(), because an error leaves by longjmp in the C build of Lua (no destructor
-// runs) and by an exception of its own in the C++ build (which nobody else may swallow).
+// Lua's headers. Functions that may raise are called only inside protect(): an error leaves by longjmp in the
+// C build of Lua (no destructor runs) and by Lua's own exception in the C++ build (which no other code may
+// swallow).
 #pragma once
 
 #include <lua.hpp>
@@ -10,9 +10,8 @@
 
 namespace asperity::lua {
 
-// Runs action(L) under lua_pcall, with `arguments` values of the stack as its arguments, and leaves
-// its results. Returns a Lua status; if not LUA_OK the error value is on top of the stack. The
-// action must own nothing with a destructor: it is left by longjmp when Lua raises.
+// Runs action(L) under lua_pcall with the top `arguments` values; leaves the results, or an error value.
+// Returns a Lua status. The action must own no destructor, because Lua may leave by longjmp.
 template <class Action>
 int protect(lua_State* L, int arguments, int results, Action& action) {
   static_assert(!std::is_const_v<Action>);

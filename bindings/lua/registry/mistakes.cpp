@@ -29,7 +29,7 @@ bool noted_as_mistake(lua_State* L) {
   const Argument error(L, -1);
   if (!error.is_text()) return false;
   const std::string message(error.text());
-  // What a function of the script met inside a call is its own affair.
+  // Errors in a script function called from C++ may be consequences of a placeholder.
   if (stopped_at_placeholder(message) || (session->gave_placeholders && met_nothing(message))) return false;
   if (is_caught(L)) {
     session->mistakes->note("a pcall catches this error: " + message);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Native values in Lua: the metatable of a class, through which a script reads fields and calls
-// methods, and by which a native value is known.
+// The metatable of a class: fields, methods and recognition of native values.
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
@@ -13,14 +12,12 @@ namespace asperity::lua {
 
 namespace {
 
-const char native_key = 0;  // metatable[native_key] = true marks the metatables of native values
+const char native_key = 0;  // metatable[native_key] = true marks native values
 
-// Of the metamethod that is called.
 const Class& class_at(lua_State* L) {
   return *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
 }
 
-// The results of a body; raises what it failed with.
 template <class Body>
 int raised(lua_State* L, const std::string& name, const Body& body) {
   const int results = guarded(L, name, body);
@@ -58,10 +55,10 @@ const Function* method_of(const Class& type, std::string_view name) {
   return nullptr;
 }
 
-// A state makes the closure of a method when it is first asked for: scripts use few of those that there are.
+// Closures are made on first use: scripts use few methods.
 int outer_index(lua_State* L) {
   lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
+  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
   lua_pop(L, 1);
   const Class& type = class_at(L);
   if (lua_type(L, 2) == LUA_TSTRING) {
@@ -138,7 +135,6 @@ int guarded_operator(lua_State* L, const Operator& operation) {
   });
 }
 
-// A dry run goes on past a mistake with a placeholder for what would have come out.
 int operator_after_failure(lua_State* L, const Operator& operation) {
   if (!noted_as_mistake(L)) return -1;
   return guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
@@ -151,7 +147,6 @@ int outer_operator(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// A native value has fields to read and methods to call, and nothing to walk over.
 int outer_pairs(lua_State* L) {
   const Class& type = class_at(L);
   static const std::string name = "pairs";
@@ -168,13 +163,13 @@ void drop(Object* object) {
   object->closed = true;
 }
 
-// __gc: drops the native value. Safe to run twice.
+// __gc. Safe to run twice.
 int release(lua_State* L) {
   drop(native_at(L, 1));
   return 0;
 }
 
-// __close: the same, after what the class does before it.
+// __close: runs the class's closing function first.
 int outer_close(lua_State* L) {
   const Class& type = class_at(L);
   return raised(L, type.name, [&]() -> Values {
@@ -221,7 +216,7 @@ void push_metatable(lua_State* L, const Class& type) {
   lua_pushstring(L, type.name.c_str());
   lua_setfield(L, -2, "__metatable");
   lua_pushlightuserdata(L, const_cast<Class*>(&type));
-  lua_newtable(L);  // of methods
+  lua_newtable(L);
   lua_pushcclosure(L, outer_index, 2);
   lua_setfield(L, -2, "__index");
   set_class_method(L, "__newindex", outer_new_index, type);

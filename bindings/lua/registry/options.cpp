@@ -29,7 +29,6 @@ void wrong_type(const Argument& value, const OptionInfo& info, std::string_view 
 }
 
 namespace {
-// A bare number that is SI by the rules and reads like another unit.
 void warn_of_bare_number(const Argument& value, const OptionInfo& info, double number) {
   std::string sentence;
   if (info.dimension == dimension::angle && std::abs(number) > 2 * std::numbers::pi) {
@@ -37,7 +36,7 @@ void warn_of_bare_number(const Argument& value, const OptionInfo& info, double n
                " rad, over a whole turn: a number without a unit is in radians; write \"" +
                format_short(number) + " deg\"";
   } else if (info.dimension == dimension::pressure && (info.name == "young" || info.name == "hardness") &&
-             number > 1 && number < 1000) {  // 1 is what problems without units take
+             number > 1 && number < 1000) {  // 1 occurs in dimensionless problems
     sentence = quoted(info.name) + " is " + format_short(number) +
                " Pa, softer than any solid: a number without a unit is in Pa; write \"" +
                format_short(number) + " GPa\"";
@@ -92,7 +91,7 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
     number = value.integer();
     found = format_short(value.number(), 10);
   } else if (value.is_text()) {
-    // As for any other number: "64" is 64, and "64 um" a length where a number is wanted.
+    // A text follows the rules of numbers: "64" is 64; "64 um" is a length and is refused.
     std::optional<Quantity> quantity;
     try {
       quantity = parse_quantity(value.text());
@@ -171,7 +170,7 @@ void read_table(const Argument& table, const std::string& caller,
     return all;
   };
   std::vector<bool> seen(options.size(), false);
-  // Lua gives the keys in no fixed order; the values are read in the order of the block.
+  // Lua's key order varies; values are read in the order of the block.
   if (table.is_table()) {
     table.each([&](const Argument& key, const Argument&) {
       if (!key.is_text()) {
@@ -207,7 +206,7 @@ void read_table(const Argument& table, const std::string& caller,
       continue;
     }
     if (!seen[k]) continue;
-    // A raw look-up of a known key without allocating: walk the table again.
+    // A walk instead of a look-up, which would allocate the key.
     table.each([&](const Argument& key, const Argument& value) {
       if (key.is_text() && key.text() == name) read(k, value, problems);
     });

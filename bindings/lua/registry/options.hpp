@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kinds of options that a block (block.hpp) is made of: quantities and numbers with a range, whole
-// numbers, flags, texts, words of a closed set, native values, tables inside the table, and the grid's
-// `cells` and pairs of lengths. Each reads one key into one member of a plain struct.
+// Kinds of options for a block (block.hpp). Each kind reads one key into one member of a plain struct.
 #pragma once
 
 #include <cmath>
@@ -18,7 +16,7 @@
 
 namespace asperity::lua {
 
-// A quantity of one dimension, or a plain number for dimension::number. Member: double or optional<double>.
+// A quantity, or a plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
 Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRange range,
                    std::string sentence) {
@@ -78,7 +76,7 @@ Option<O> flag(std::string name, bool O::*member, std::string sentence) {
   return option;
 }
 
-// A string. Member: std::string or optional<std::string>.
+// Member: std::string or optional<std::string>.
 template <class O, class M>
 Option<O> text(std::string name, M O::*member, std::string sentence) {
   Option<O> option;
@@ -92,7 +90,6 @@ Option<O> text(std::string name, M O::*member, std::string sentence) {
   return option;
 }
 
-// One of a closed set of words.
 template <class O, class M>
 Option<O> choice(std::string name, M O::*member,
                  std::vector<std::pair<std::string, std::type_identity_t<M>>> words, std::string sentence) {
@@ -117,7 +114,7 @@ Option<O> choice(std::string name, M O::*member,
   return option;
 }
 
-// How a native value reads in the record: by its digest, or its name.
+// Text of a native value in the record: digest or name.
 template <class T>
 std::string digest_text(const T& value) {
   if constexpr (requires { value.digest(); })
@@ -128,7 +125,7 @@ std::string digest_text(const T& value) {
     return "";
 }
 
-// A native value. Member: T, std::optional<T> or std::shared_ptr<const T>.
+// Member: T, std::optional<T> or std::shared_ptr<const T>.
 template <class T, class O, class M>
 Option<O> native(std::string name, M O::*member, std::string type, std::string wanted, std::string sentence) {
   Option<O> option;
@@ -141,7 +138,7 @@ Option<O> native(std::string name, M O::*member, std::string type, std::string w
       problems.push_back(quoted(info.name) + " was closed");
       return;
     }
-    if (object->pointer == nullptr) return;  // a placeholder of a dry run
+    if (object->pointer == nullptr) return;  // of a dry run
     if constexpr (requires(const M& m) { m.get(); })
       options.*member = std::static_pointer_cast<T>(object->pointer);
     else
@@ -159,7 +156,7 @@ Option<O> native(std::string name, M O::*member, std::string type, std::string w
   return option;
 }
 
-// Anything else: `read` appends to the problems itself, beginning with quoted(info.name).
+// Any option: `read` appends problems that begin with quoted(info.name).
 template <class O, class Read>
 Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
   Option<O> option;
@@ -168,7 +165,7 @@ Option<O> custom(std::string name, std::string type, std::string sentence, Read 
   return option;
 }
 
-// A table of named keys inside another, read by its own block; its problems join the outer ones.
+// A nested table with its own block; its problems join the outer list.
 template <class O, class Inner, class M>
 Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, std::string sentence) {
   Option<O> option;
@@ -186,7 +183,6 @@ Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, st
   return option;
 }
 
-// `cells`: a number or {nx, ny}.
 template <class O>
 Option<O> cells_option(int O::*nx, int O::*ny) {
   auto option =
@@ -212,7 +208,7 @@ Option<O> cells_option(int O::*nx, int O::*ny) {
   return option;
 }
 
-// A length, or {along x, along y}; members double or optional<double>.
+// A length, or {along x, along y}. Members: double or optional<double>.
 template <class O, class M>
 Option<O> pair_option(std::string name, M O::*x, M O::*y, Dimension dimension, NumberRange range,
                       std::string sentence) {

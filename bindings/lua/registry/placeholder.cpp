@@ -12,15 +12,15 @@ namespace asperity::lua {
 namespace {
 
 const char unknown_metatable_key = 0;
-const char unknown_made_key = 0;  // whether a script was given any
+const char unknown_made_key = 0;  // whether the script received a placeholder
 
 int again(lua_State* L) {
   push_unknown(L);
   return 1;
 }
 
-// A loop calls what it goes by with its state, here nil, and with what the turn before gave. How often a loop
-// goes round that hangs on an unknown result is not known: once.
+// A loop calls its iterator with the state, here nil, and the previous values. A loop over an unknown result
+// runs once.
 int called(lua_State* L) {
   return lua_gettop(L) == 3 && lua_isnil(L, 2) && Argument(L, 3).is_unknown() ? 0 : again(L);
 }
@@ -34,21 +34,19 @@ int to_string(lua_State* L) {
 
 int ignored(lua_State*) { return 0; }
 
-// Whether any argument is a placeholder.
 bool any_unknown(lua_State* L) {
   for (int k = 1; k <= lua_gettop(L); ++k)
     if (Argument(L, k).is_unknown()) return true;
   return false;
 }
 
-// Goes on in the original in upvalue 1, one of Lua's own functions without upvalues (never one wrapped
-// already), on the same frame: what it raises keeps the script's line.
+// Calls the original, upvalue 1, on the same frame, so that errors keep the script's line. The original is a
+// library function without upvalues, never a wrapper.
 int call_original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
-// The original unless an argument is a placeholder, which it returns instead.
 int pass_unknown(lua_State* L) { return any_unknown(L) ? again(L) : call_original(L); }
 
-// table.concat also meets placeholders inside its list.
+// table.concat also finds placeholders inside its list.
 int concat_unknown(lua_State* L) {
   if (any_unknown(L)) return again(L);
   if (lua_istable(L, 1)) {
@@ -62,14 +60,13 @@ int concat_unknown(lua_State* L) {
   return call_original(L);
 }
 
-// type() and math.type(): a script asks them to choose its path.
+// type() and math.type(): scripts branch on the result.
 int refuse_unknown(lua_State* L) {
   const bool of_known_class = native_at(L, 1) != nullptr || record_at(L, 1) != nullptr;
   return Argument(L, 1).is_unknown() && !of_known_class ? luaL_error(L, "%s", cannot_follow)
                                                         : call_original(L);
 }
 
-// A loop over a placeholder runs its body once.
 int unknown_once(lua_State* L) {
   if (lua_toboolean(L, lua_upvalueindex(1)) != 0) return lua_pushnil(L), 1;
   lua_pushboolean(L, 1);
@@ -79,7 +76,7 @@ int unknown_once(lua_State* L) {
   return 2;
 }
 
-// What is asserted of placeholders is known in a run alone: comparing one by == is false without a word.
+// == with a placeholder is silently false, so an assertion may fail wrongly.
 int assert_known(lua_State* L) {
   if (lua_gettop(L) == 0 || lua_toboolean(L, 1)) return call_original(L);
   const bool any = lua_rawgetp(L, LUA_REGISTRYINDEX, &unknown_made_key) != LUA_TNIL;
@@ -108,7 +105,7 @@ void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wra
   }
 }
 
-// Of the values of one turn: "State", or "ProtocolEvent and State?".
+// From "State", or "ProtocolEvent and State?".
 std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::string& types) {
   if (*done) return std::nullopt;
   *done = true;
@@ -122,7 +119,7 @@ std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::str
   return values;
 }
 
-// Of a field of a record, or of a list: another list in it may have any length.
+// For a field or an element. A nested list has an unknown length.
 Value placeholder_inside(const std::string& type) {
   return type.ends_with("[]") ? Value(Unknown{}) : placeholder_of(type);
 }
@@ -210,7 +207,7 @@ bool met_nothing(const std::string& message) {
 }
 
 namespace {
-// The digits of ":12:"; empty at the end where there are none.
+// The digits of ":12:"; empty at the end if absent.
 std::string_view line_number(std::string_view message) {
   for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
     const std::size_t end = message.find_first_not_of("0123456789", at + 1);
@@ -249,7 +246,6 @@ void open_dry_run_library(lua_State* L) {
   wrap(L, "math", "type", refuse_unknown);
   for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
   wrap(L, "_G", "assert", assert_known);
-  // The script's own output belongs to a run.
   wrap(L, "_G", "print", ignored);
   wrap(L, "io", "write", again);
   lua_getglobal(L, "io");
@@ -258,7 +254,7 @@ void open_dry_run_library(lua_State* L) {
     lua_setfield(L, -2, name);
   }
   lua_pop(L, 1);
-  lua_pushnil(L);  // these two are no results
+  lua_pushnil(L);  // stdout and stderr are no results
   lua_rawsetp(L, LUA_REGISTRYINDEX, &unknown_made_key);
 }
 

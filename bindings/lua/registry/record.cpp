@@ -22,7 +22,6 @@ const char iterator_key = 0;
 using RecordPointer = std::shared_ptr<Record>;
 using IteratorPointer = std::shared_ptr<Iterator>;
 
-// The block of a userdata whose metatable is the one registered under `key`; null otherwise.
 void* block_at(lua_State* L, int index, const void* key) {
   if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
   lua_rawgetp(L, LUA_REGISTRYINDEX, key);
@@ -38,7 +37,6 @@ Record* record_of(lua_State* L) {
 
 void push_text(lua_State* L, const std::string& text) { lua_pushlstring(L, text.data(), text.size()); }
 
-// The error for a field that is not there.
 int missing_field(lua_State* L) {
   static const std::string nothing;
   return guarded(L, nothing, [&]() -> Values {
@@ -97,7 +95,7 @@ int record_to_string(lua_State* L) {
   return describe_record(L) < 0 ? lua_error(L) : 1;
 }
 
-// next(record, key): fields in their order.
+// next(record, key), in the order of the fields.
 int record_next(lua_State* L) {
   const Record* record = record_of(L);
   if (record == nullptr) return luaL_error(L, "this is not a result");
@@ -122,7 +120,7 @@ int record_pairs(lua_State* L) {
 }
 
 int record_release(lua_State* L) {
-  // Emptied rather than destroyed: a second call finds an empty pointer.
+  // Reset, not destroyed: a second call finds an empty pointer.
   if (auto* block = static_cast<RecordPointer*>(block_at(L, 1, &record_key))) block->reset();
   return 0;
 }
@@ -135,14 +133,14 @@ int next_of(lua_State* L) {
     const std::shared_ptr<Iterator> iterator = *block;
     Call call(L, iterator->name, true);
     LedgerScope scope = call.session().ledger_scope(iterator->name, false);
-    // The turn must not have advanced when it fails for lack of memory.
+    // `next` must not advance if memory runs out, because it is called again.
     std::optional<Values> results = with_collection(L, [&] { return iterator->next(call); });
     if (results) {
       scope.keep();
       enter_into_ledger(call.session(), *results);
       return *std::move(results);
     }
-    scope.forget();  // the turn that ends it is none
+    scope.forget();  // the end is not a turn
     block->reset();
     return {Value()};
   });

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The types of results: what a record is called, and of each field its name, its unit, a sentence and where
-// its value comes from, told once beside the binding. The entries fill the record, so that no field can
-// differ from its description, and they drive help, completion, the editor's types, the reference page and
-// the placeholders of a dry run.
+// Types of results: name, unit, sentence and source of each field. The same entries fill the record and drive
+// help, completion, editor types, reference and placeholders.
 #pragma once
 
 #include <concepts>
@@ -20,12 +18,11 @@
 
 namespace asperity::lua {
 
-// What is known of a record without its values.
 struct RecordInfo {
-  std::string name{};   // "ArealRoughness": in the types of what gives it
-  std::string title{};  // "roughness": what print() and errors call it
+  std::string name{};   // "ArealRoughness": in declared types
+  std::string title{};  // "roughness": in print() and errors
   std::string sentence{};
-  std::vector<Getter> fields{};  // without bodies
+  std::vector<Getter> fields{};
 };
 
 template <class T>
@@ -38,7 +35,7 @@ inline constexpr bool is_optional = false;
 template <class V>
 inline constexpr bool is_optional<std::optional<V>> = true;
 
-// The type of a field that holds a V: "number", "integer[]", "string?".
+// "number", "integer[]", "string?"
 template <class V>
 std::string type_of_held() {
   if constexpr (is_optional<V>)
@@ -81,13 +78,12 @@ T class_of_member(V T::*);
 
 }  // namespace detail
 
-// What a class tells of its values where these tell it themselves: their description or digest, and whether
-// two of them have one digest.
+// For a Class whose values provide description and digest.
 template <auto read, class T = decltype(detail::class_of_member(read))>
 std::string text_of(const void* self) {
   return std::invoke(read, *static_cast<const T*>(self));
 }
-// Their text without the end of its last line.
+// Text without its last line break.
 template <class T>
 std::string lines_of(const void* self) {
   std::string text = static_cast<const T*>(self)->text();
@@ -99,23 +95,22 @@ bool have_one_digest(const void* a, const void* b) {
   return static_cast<const T*>(a)->digest() == static_cast<const T*>(b)->digest();
 }
 
-// A field of a native value of type T: `read` is a member of T or a member function without arguments.
+// A field of a native value. `read` is a member of T or a member function without arguments.
 template <auto read, class T = decltype(detail::class_of_member(read))>
 Getter getter(std::string name, std::string type, std::string sentence, Dimension dimension = {}) {
   return {std::move(name), std::move(type), std::move(sentence), dimension, [](Call& call) -> Values {
             return {detail::value_of_held(std::invoke(read, std::as_const(call.self<T>())))};
           }};
 }
-// As above; `read` is a lambda of a T without captures.
+// As above; `read` is a captureless lambda.
 template <class T, std::invocable<const T&> Read>
 Getter getter(std::string name, std::string type, std::string sentence, Read, Dimension dimension = {}) {
   return {std::move(name), std::move(type), std::move(sentence), dimension,
           [](Call& call) -> Values { return {detail::value_of_held(Read{}(call.self<T>()))}; }};
 }
 
-// A field of a record made from a T. `read` is a member of T, a member function or a function of a T; the
-// type of the field follows from what it gives: numbers, texts, optional ones (nil where there is none) and
-// lists of them.
+// A field of a record made from a T. `read` is a member, a member function or a function of T; its result
+// determines the field's type: numbers, texts, optionals (nil if empty) and lists.
 template <class T>
 class RecordField {
  public:
@@ -128,7 +123,7 @@ class RecordField {
   template <std::invocable<const T&> Read>
   RecordField(std::string name, Read read, std::string sentence)
       : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
-  // One record of another type, or a list of them.
+  // A record or a list of records.
   template <std::invocable<const T&> Read, class U>
   RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
       : info{std::move(name), type.name + (std::same_as<Held<Read>, U> ? "" : "[]"), std::move(sentence), {}},
@@ -140,7 +135,6 @@ class RecordField {
             return made->list(std::invoke(how, of));
           }
         }) {}
-  // Any other value, of a type as the registry writes it.
   template <std::invocable<const T&> Read>
   RecordField(std::string name, std::string type, Read read, std::string sentence)
       : info{std::move(name), std::move(type), std::move(sentence), {}},
@@ -148,21 +142,20 @@ class RecordField {
           return std::invoke(*static_cast<const Read*>(held), of);
         }) {}
 
-  // The record has the field only where the scene names this effect; otherwise asking for the field is an
-  // error that names the effect.
+  // Without the effect, the record lacks the field, and reading it is an error that names the effect.
   RecordField& needs(std::string effect) {
     where_known();
     info.sentence += "; needs " + effect;
     effect_ = std::move(effect);
     return *this;
   }
-  // A record without a value for this field lacks the field, instead of holding nil in it.
+  // A record without a value lacks the field, instead of nil.
   RecordField& where_known() {
     where_known_ = true;
     if (info.type.ends_with('?')) info.type.pop_back();
     return *this;
   }
-  // The unit of the field differs from record to record; its sentence has to say so.
+  // The unit varies between records; the sentence must say so.
   RecordField& in(Dimension (*unit)(const T&)) {
     unit_ = unit;
     return *this;
@@ -188,7 +181,7 @@ class RecordField {
     Read read;
     const RecordType<U>* type;
   };
-  // A std::function would compile several functions for each of a thousand fields.
+  // std::function would instantiate several functions for each of a thousand fields.
   struct Reader {
     using Function = Value (*)(const T&, const void* held);
     template <class H>
@@ -206,7 +199,7 @@ class RecordField {
   Dimension (*unit_)(const T&) = nullptr;
 };
 
-// The records made from a T. Lives as long as the program: records and other types keep its address.
+// Lives as long as the program; records store its address.
 template <class T>
 class RecordType : public RecordInfo {
  public:
@@ -217,7 +210,6 @@ class RecordType : public RecordInfo {
         entries_(std::move(entries)) {
     for (const Field& entry : entries_) fields.push_back(entry.info);
   }
-  // print() shows each record under a title made from its value.
   RecordType& titled(std::string (*title_of)(const T&)) {
     title_of_ = title_of;
     return *this;
@@ -241,15 +233,13 @@ class RecordType : public RecordInfo {
   std::string (*title_of_)(const T&) = nullptr;
 };
 
-// Every type of record that modules and classes list among their results, each once.
+// In the results of modules and classes, each once.
 const std::vector<const RecordInfo*>& record_types();
 const RecordInfo* find_record_type(std::string_view name);
-// The types of records that the name of a type holds: "iterator<ProtocolEvent and State?>", "table<string,
-// Cost>".
+// "iterator<ProtocolEvent and State?>", "table<string, Cost>".
 std::vector<const RecordInfo*> record_types_in(std::string_view type);
 
-// Checks that a record, or the first record of a list, is of the type that `giver` declares. Throws
-// Error{internal} where it is of another type or of none.
+// Throws Error{internal} unless the record, or the first record of a list, has the declared type.
 void check_declared(std::string_view giver, std::string_view declared, const Value& given);
 
 }  // namespace asperity::lua

@@ -51,7 +51,6 @@ std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::str
 
 namespace {
 
-// A function as it is reached from a script.
 struct NamedFunction {
   const Function* function = nullptr;
   const Class* owner = nullptr;
@@ -102,13 +101,12 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
-// Whether a dry run plans contacts with the result of the function: a body or a protocol.
+// Whether planning needs the result, a body or a protocol.
 bool is_planned_with(const Function& function) {
   const Class* made = find_class(function.returns);
   return made != nullptr && (made->known != nullptr || made->name == "Protocol");
 }
 
-// The path that a call was given; empty where it takes none or that is not known.
 std::string_view path_given(const Call& call, const Function& function) {
   for (std::size_t k = 0; k < function.parameters.size(); ++k)
     if (function.parameters[k].name == "path") {
@@ -118,7 +116,6 @@ std::string_view path_given(const Call& call, const Function& function) {
   return {};
 }
 
-// A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
   if (const auto& told = call.session().on_call_left_out; told && function.heavy) told(call, function);
   if (function.options != nullptr) {
@@ -138,7 +135,6 @@ Values dry_call(const Call& call, const Function& function) {
   return results;
 }
 
-// That records among the results are those that the function is described to give.
 void check_results(const Function& function, const Values& results) {
   const auto may_hold_records = [](const Value& value) {
     return std::holds_alternative<std::shared_ptr<Record>>(value.data) ||
@@ -161,14 +157,13 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
                   entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
                       entry.owner->article_name,
                   "write a colon: x:" + function.name + "(...)");
-    if (self->closed && function.name == "close") return {};  // twice does no harm
+    if (self->closed && function.name == "close") return {};  // a second close is harmless
     if (self->closed)
       throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  // `explain` needs bodies and protocols of a contact, except those in files written by the script; `check`
-  // needs none.
+  // `explain` needs bodies and protocols, except from files written by the script. `check` needs none.
   const bool left_out =
       function.unknown_when_dry ||
       (function.heavy && (call.session().explanation == nullptr || !is_planned_with(function) ||
@@ -176,7 +171,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
-  if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
+  if (function.returns.starts_with("iterator")) scope.forget();  // its turns are entered instead
   if (function.heavy) ++call.session().heavy_calls;
   const Session::Running running(call.session(), L);
   Values results = function.body(call);
@@ -191,17 +186,17 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
 
 int guarded_function(lua_State* L, const NamedFunction& entry) {
   return guarded(L, entry.name, [&]() -> Values {
-    return with_collection(L, [&] { return call_function(L, entry); });  // a failed call changes nothing
+    return with_collection(
+        L, [&] { return call_function(L, entry); });  // valid because a failed call changes nothing
   });
 }
 
-// A dry run goes on past a mistake with placeholders for the results.
 int after_failure(lua_State* L, const NamedFunction& entry) {
   if (!noted_as_mistake(L)) return -1;
   return guarded(L, entry.name, [&] { return placeholders_of(*entry.function); });
 }
 
-// The outer frame of every function: nothing here has a destructor.
+// Outer frame of every function: no destructors.
 int outer_function(lua_State* L) {
   const NamedFunction& entry = *static_cast<const NamedFunction*>(lua_touserdata(L, lua_upvalueindex(1)));
   int results = guarded_function(L, entry);

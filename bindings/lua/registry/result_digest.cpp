@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> costs = {"cost", "seconds", "bytes"};
 
 struct Adder : ValueVisitor {
   Digester digester{};
-  // Numbers, or native values with digests, were among what was added.
+  // A number or a native value with a digest was added.
   bool anything = false;
 
   using ValueVisitor::enter;
@@ -47,7 +47,7 @@ struct Adder : ValueVisitor {
     } else if constexpr (std::is_same_v<T, Value::Rows>) {
       digester.add(held->nx()).add(held->values());
       anything = true;
-    }  // iterators, functions and nothing have no content
+    }  // iterators, functions and nil have no content
   }
 };
 

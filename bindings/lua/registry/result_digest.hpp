@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The digest of what a heavy call returned, for the journal: native values by their own digests, records,
-// lists and tables by all the numbers, truths and texts in them. Costs are left out, for equal calls take
-// different times.
+// Digest of the results of a heavy call, for the journal: native values by their digests; records, lists and
+// tables by all numbers, booleans and texts. Costs are excluded, because equal calls take different times.
 #pragma once
 
 #include <string>
@@ -10,9 +9,8 @@
 
 namespace asperity::lua {
 
-// That of a native value; "" where it has none.
 std::string digest_of(const Object& object);
-// "" where there is nothing that could be compared: no value, or texts alone (the place of a file).
+// "" for no value, or for texts only (paths of files).
 std::string digest_of(const Values& results);
 
 }  // namespace asperity::lua

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block whose options the engine tells (core/options.hpp): read, reported and documented as every other
-// block, into the struct of whoever told them.
+// A block for options described by the engine (core/options.hpp).
 #pragma once
 
 #include <any>
@@ -13,19 +12,17 @@
 
 namespace asperity::lua {
 
-// What is known of an option by its row, and how one is read into the struct that `options` holds.
 OptionInfo row_info(const OptionRow& row, const std::any& defaults);
 void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
               Problems& problems);
 
 class RowBlock final : public BlockInfo {
  public:
-  // `rows` must outlive the block. `defaults` holds the struct with no option given.
+  // `rows` must outlive the block. `defaults`: the struct without options.
   RowBlock(std::string name, std::span<const OptionRow> rows, std::any defaults);
 
   const std::string& name() const override { return name_; }
   std::vector<const OptionInfo*> options() const override;
-  // As Block::read.
   std::any read(const Argument& table, const std::string& caller) const;
   void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
 

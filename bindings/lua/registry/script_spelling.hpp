@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a script was named on the command line. Nothing that its functions do depends on it: what they find
-// beside the script is known by content.
+// The script's name on the command line. Results must not depend on it.
 #pragma once
 
 #include <string>
@@ -8,8 +7,8 @@
 namespace asperity::lua {
 
 struct ScriptSpelling {
-  std::string path;    // "ens.lua", "/home/me/ens.lua"
-  std::string folder;  // where `require` looks: "."; "" for a state without a script
+  std::string path;
+  std::string folder;  // search folder of `require`: "."; "" without a script
 };
 
 }  // namespace asperity::lua

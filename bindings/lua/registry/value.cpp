@@ -47,7 +47,7 @@ std::string show(const Value& value) {
     std::string operator()(std::monostate) const { return "nil"; }
     std::string operator()(bool v) const { return v ? "true" : "false"; }
     std::string operator()(std::int64_t v) const { return std::to_string(v); }
-    std::string operator()(double v) const { return format_short(v + 0.0); }  // no "-0"
+    std::string operator()(double v) const { return format_short(v + 0.0); }  // avoids "-0"
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(const Object& v) const {
       return v.pointer == nullptr || v.type->describe == nullptr ? v.type->article_name
@@ -100,7 +100,7 @@ struct Pusher {
     new (block) Object{v.type, nullptr, v.closed};
     push_metatable(L, *v.type);
     lua_setmetatable(L, -2);
-    static_cast<Object*>(block)->pointer = v.pointer;  // noexcept; from here __gc owns it
+    static_cast<Object*>(block)->pointer = v.pointer;  // noexcept; __gc owns the value from here on
     static_cast<Object*>(block)->known = v.known;
     if (v.type->native_bytes != nullptr && v.pointer != nullptr)
       Session::of(L).nudge_collector(L, v.type->native_bytes(v.pointer.get()));

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a binding returns: ordinary C++ values that are turned into Lua ones after its body has
-// finished, in one protected step. Lists and maps become plain tables; records become read-only
-// values that print themselves and complain about unknown fields; objects are native values.
+// Results of a binding: C++ values, converted to Lua in one protected step after the body.
 #pragma once
 
 #include <concepts>
@@ -25,38 +23,37 @@ class Call;
 class Value;
 using Values = std::vector<Value>;
 
-// The native class of T: its name, fields and methods. Specialised beside each binding.
 template <class T>
 const Class& class_of();
 
 struct KnownBody;
 struct RecordInfo;
 
-// A native value. A null pointer is the placeholder of a dry run, unless the value was closed.
+// Null pointer: a placeholder of a dry run, or a closed value.
 struct Object {
   const Class* type = nullptr;
   std::shared_ptr<void> pointer;
   bool closed = false;
-  std::shared_ptr<const KnownBody> known = nullptr;  // of the placeholder of a surface, where something is
+  std::shared_ptr<const KnownBody> known = nullptr;  // known facts about a placeholder
   bool is_placeholder() const { return pointer == nullptr && !closed; }
 };
 
-// A read-only result with named fields in order. print() shows them, `unit` beside the value.
+// A read-only result with ordered fields. print() shows units.
 struct Record {
   struct Entry;
   std::string name;  // "roughness"
   std::vector<Entry> entries;
-  // Fields that are there only with an effect that the scene did not name: field and effect.
+  // Absent fields and the effects that would provide them.
   std::vector<std::pair<std::string, std::string>> missing_effects{};
-  const RecordInfo* type = nullptr;  // that describes its fields; null of one that was carried over as bytes
-  bool placeholder = false;          // of a dry run, which knows the fields and not their values
+  const RecordInfo* type = nullptr;  // null if restored from bytes
+  bool placeholder = false;          // fields without values
   Record& add(std::string field, Value value, Dimension dimension = {});
-  // A field that an effect brings: added if it has a value, and otherwise an error that names the effect.
+  // Without a value, reading the field is an error that names the effect.
   Record& add_if(std::string effect, std::string field, Value value, Dimension dimension = {});
   const Value* find(std::string_view field) const;
 };
 
-// A plain Lua table 1..n, which may carry named fields besides; and one with text keys in order.
+// List: a Lua table 1..n with optional named fields. Map: text keys in order.
 struct List {
   Values items;
   std::vector<std::pair<std::string, Value>> named;
@@ -67,21 +64,20 @@ struct Map {
   std::vector<std::pair<std::string, Value>> items;
 };
 
-// What a for loop calls: the next values, or nothing at the end.
+// `next` returns one turn's values, or nothing at the end.
 struct Iterator {
   std::function<std::optional<Values>(Call&)> next;
-  std::string name = "iterator";  // of the call that gave it, "contact:sweep", for errors and the ledger
+  std::string name = "iterator";  // the creating call, "contact:sweep"
 };
 
-// A value that a dry run cannot know; see placeholder.hpp.
 struct Unknown {};
 
-// What a Lua file of scripts/ returns.
+// From a file of scripts/.
 struct Script {
   const char* name;
 };
 
-// A value kept outside any state, which can be put into one as often as wanted.
+// A value outside any state, for repeated use.
 class StoredValue {
  public:
   virtual ~StoredValue() = default;
@@ -90,7 +86,7 @@ class StoredValue {
 
 class Value {
  public:
-  using Numbers = std::shared_ptr<const Array<double>>;  // a plain table of numbers
+  using Numbers = std::shared_ptr<const Array<double>>;  // a table of numbers
   using Rows = std::shared_ptr<const Field>;             // a table of rows, rows[j+1][i+1]
   using Function = lua_CFunction;
   using Variant =
@@ -123,7 +119,7 @@ class Value {
   }
 
   bool is_nil() const { return std::holds_alternative<std::monostate>(data); }
-  // The number held as integer or double, if it is one.
+  // Integer or double.
   std::optional<double> number() const;
 
   Variant data;
@@ -137,10 +133,8 @@ struct Record::Entry {
 
 inline List::List() = default;
 inline List::List(Values values) : items(std::move(values)) {}
-// A table of texts.
 List text_list(const std::vector<std::string>& items);
 
-// A native value for Lua. T needs a class_of<T>.
 template <class T>
 Value object(T value) {
   return Object{&class_of<T>(), std::make_shared<T>(std::move(value)), false};
@@ -151,11 +145,11 @@ Value object(std::shared_ptr<T> pointer) {
                 std::const_pointer_cast<std::remove_const_t<T>>(std::move(pointer)), false};
 }
 
-// A value as print shows it; a record on one line; the entry of a record with its unit.
+// As print: a record on one line, an entry with its unit.
 std::string show(const Value& value);
 std::string show(const Record::Entry& entry);
 
-// Pushes one value. Raises on lack of memory: call inside protect().
+// Raises on lack of memory: call inside protect().
 void push(lua_State* L, const Value& value);
 
 }  // namespace asperity::lua

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one way through a value that a binding returned: records, lists and maps with all they hold, depth
-// first, each in its own order. What is done on the way (a digest, bytes, a question) is a visitor. These
-// values hold no circles: they are made whole and never changed. Tables of a script may hold some; they are
-// gone through where they are packed (ensemble/transfer.hpp).
+// Depth-first traversal of a binding's result, each container in its own order. Results contain no cycles,
+// because they are immutable; tables of a script may (ensemble/transfer.hpp).
 #pragma once
 
 #include <cstddef>
@@ -15,17 +13,17 @@
 
 namespace asperity::lua {
 
-// What a visitor may hear of; it hides what it wants to know, and has `leaf` for each alternative of Value
-// that holds no other value.
+// Derived visitors hide the functions they need, and provide `leaf` for each Value alternative without
+// contents.
 struct ValueVisitor {
-  void begin(const Value&) {}  // before each value, and after it
+  void begin(const Value&) {}  // before and after each value
   void end() {}
   void enter(const Record&) {}
   void enter(const List&) {}
   void enter(const Map&) {}
   void leave(const Record&) {}
-  void named(std::size_t) {}                       // so many values under names follow, in a list or map
-  bool under(const std::string&) { return true; }  // before a value with a name; false passes it by
+  void named(std::size_t) {}                       // named values that follow, in a list or map
+  bool under(const std::string&) { return true; }  // before a named value; false skips it
   void after(const Record::Entry&) {}
 };
 

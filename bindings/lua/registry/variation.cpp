@@ -11,7 +11,7 @@ namespace asperity::lua {
 
 namespace {
 
-// "press" of "contact:press", "lab.surface.sine" of itself.
+// "press" matches "contact:press"; "lab.surface.sine" matches itself.
 bool is_of(std::string_view caller, std::string_view wanted) {
   if (wanted.empty() || caller == wanted) return true;
   if (!caller.ends_with(wanted)) return false;
@@ -19,7 +19,7 @@ bool is_of(std::string_view caller, std::string_view wanted) {
   return before == '.' || before == ':';
 }
 
-// As a script would write it: a number, true, false, or else a string without its quotes.
+// A number, true, false, otherwise a string without quotes.
 void push_value(lua_State* L, const std::string& text) {
   if (text == "true" || text == "false") return lua_pushboolean(L, text == "true");
   if (lua_stringtonumber(L, text.c_str()) != 0) return;
@@ -88,7 +88,6 @@ void Variation::check_all_met() const {
                   "`--set` is of the key " + quoted(setting.key) +
                       ", which only a knob gives, and a replay takes knobs as recorded",
                   "run its script with --knob NAME=VALUE");
-    // The keys of the calls that are meant, or of all where there is none.
     std::vector<std::string> meant, all;
     for (const auto& [key, callers] : keys_) {
       all.push_back(key);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How `asperity replay --set key=value` runs a recorded script with another number in it without changing its
-// text: where a call gives the key, the value is replaced while the call's options are read, so that it is
-// checked like any other and stands in the new run's record. `press.pressure=...` is about calls of that name
-// alone, and gives them the key where the script leaves it out.
+// Changed values for `asperity replay --set key=value`. The value replaces the key while a call's options are
+// read; it is checked and recorded like any other. `press.pressure=...` applies only to calls of this name,
+// and also sets an omitted key.
 #pragma once
 
 #include <functional>
@@ -18,24 +17,22 @@
 
 namespace asperity::lua {
 
-// Shared by the states of a run and of its ensembles' cases. Thread-safe after it was filled.
+// Shared by a run and its cases. Thread-safe after the last set().
 class Variation {
  public:
-  // "pressure=200 MPa" or "press.pressure=200 MPa". Throws Error{bad_value} for a text without `=` or key.
+  // Throws Error{bad_value} without `=` or key.
   void set(const std::string& text);
   bool empty() const { return settings_.empty(); }
-  // Calls made while this says no are left as they are; asked from any thread.
+  // Calls made while this returns false keep their values. Called from any thread.
   std::function<bool()> in_force = [] { return true; };
 
-  // Called where the options of a call are read: whether `key` is to be set anew, given by the script or not;
-  // the new value is then on the stack of `L`, which must have room for it. Not the keys of a knob, whose
-  // value is the recorded one. Raises no Lua error.
+  // If `key` has a new value, pushes it on `L`, which must have room, and returns true. `given`: the script
+  // gives the key. Knobs keep their recorded values. Raises no Lua error.
   bool replaces(lua_State* L, std::string_view caller, std::string_view key, bool given);
-  // Called where a value that was set anew is none that the key takes: what happened then is no difference
-  // between two runs.
+  // For a new value that the call refused.
   void note_refused(std::string_view caller, std::string_view key, const std::string& problem);
-  // Throws Error{bad_value} for a value that a call refused, Error{unknown_name} for a setting that no call
-  // met, naming the nearest key that one gave.
+  // Throws Error{bad_value} for a refused value, and Error{unknown_name} with the nearest key for a setting
+  // without matching call.
   void check_all_met() const;
   // "pressure = 200 MPa and seed = 7"
   std::string text() const;
@@ -47,14 +44,12 @@ class Variation {
     bool met = false;
   };
   std::vector<Setting> settings_;
-  std::string refused_;       // the first value that a call refused, and why; empty: none
-  mutable std::mutex mutex_;  // of what was met
-  std::map<std::string, std::set<std::string>, std::less<>>
-      keys_;  // that were given, and the calls that gave them
+  std::string refused_;  // first refused value and the reason; empty if none
+  mutable std::mutex mutex_;
+  std::map<std::string, std::set<std::string>, std::less<>> keys_;  // keys in the script, and their calls
   std::set<std::string, std::less<>> keys_of_knobs_;
 };
 
-// That of the state's session; null where there is none.
 Variation* variation_of(lua_State* L);
 
 }  // namespace asperity::lua

@@ -21,8 +21,6 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- the keys
-
 void read_u(const Argument& value, const OptionInfo& info, CalibrationKeys& keys, Problems& problems) {
   if (value.is_number())
     keys.u_number = value.number();
@@ -43,11 +41,9 @@ Option<CalibrationKeys> in_options(Option<CalibrationOptions> inner) {
   return option;
 }
 
-// --- the rows
-
 std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
 
-// "`load` is 5 N" for each column with the same number or word in all rows, beside the y.
+// "`load` is 5 N" for each column, except y, with one value in all rows.
 std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
   std::vector<std::string> found;
   constexpr std::size_t most = 4;
@@ -77,8 +73,6 @@ std::string specimen_column_hint(const CalibrationKeys& keys, const Rows& used) 
   }
   return "";
 }
-
-// --- the records
 
 struct ToldParameter {
   CalibratedParameter of;
@@ -145,8 +139,6 @@ const RecordType<CalibratedSpecimen>& calibrated_specimen_type() {
         "known, else in the unit of y"}}};
   return type;
 }
-
-// --- the fields
 
 template <auto read>
 Values of_calibration(Call& call) {
@@ -226,8 +218,6 @@ template <auto read>
 Getter field(const char* name, const char* type, const char* sentence) {
   return {name, type, sentence, {}, of_calibration<read>};
 }
-
-// --- the charts
 
 struct CalibrationChartKeys {
   std::optional<std::string> x;
@@ -324,7 +314,7 @@ CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& key
   const std::size_t y = chosen.column(keys.y, "y");
   std::set<std::size_t> told = {y};
   std::optional<double> u = keys.u_number;
-  std::optional<std::size_t> x, weights, u_column, specimen;  // places in `named`, but the specimen
+  std::optional<std::size_t> x, weights, u_column, specimen;  // places in `named`, except `specimen`
   const auto name = [&](const char* key, const std::string& column) {
     named.emplace_back(key, column);
     told.insert(chosen.column(column, key));

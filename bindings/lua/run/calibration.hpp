@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The common part of t:fit and lab.calibrate: keys, reading of rows, and a calibration as a native value with
-// its fields and charts.
+// Common part of t:fit and lab.calibrate: keys, selection of rows, native class.
 #pragma once
 
 #include <memory>
@@ -34,16 +33,16 @@ Option<CalibrationKeys> profile_option();
 
 struct CalibrationInput {
   CalibrationRows rows;
-  Table used;                        // the table of these rows
-  std::vector<std::size_t> numbers;  // of these rows after `where`, from 1
+  Table used;                        // the selected rows
+  std::vector<std::size_t> numbers;  // row numbers after `where`, from 1
   std::size_t left_out = 0;
 };
 
-// The rows with a number in each named column, a specimen where one is named, and a weight above 0. Throws as
-// number_columns() does, Error{bad_value} besides where no row matches `where` and for a weight below 0.
+// Selects rows with a number in each named column, a named specimen, and a weight above 0. Throws like
+// number_columns(), and Error{bad_value} for a negative weight or if no row matches `where`.
 CalibrationInput calibration_input(const Table& table, const CalibrationKeys& keys);
 
-// A calibration with its rows; shows the warnings, and warns of a column of specimens without a key.
+// Warns of a column of specimens without a key.
 CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, CalibrationInput input,
                                      Calibration found);
 

@@ -17,11 +17,11 @@ namespace {
 
 struct KnobKeys {
   RunKnob knob;
-  // The key that told what kind of quantity it is, and how; empty while only plain numbers were met.
+  // The key that fixed the dimension, and its text; empty after plain numbers only.
   std::string told_by, told;
 };
 
-// A bound or the value: of whatever kind the first one with a unit is.
+// A bound or the value; the first quantity with a unit fixes the dimension.
 Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::string sentence) {
   return custom<KnobKeys>(
              std::move(name), "number|string", std::move(sentence),
@@ -103,7 +103,7 @@ Values make_knob(Call& call) {
   return {value};
 }
 
-// A dry run may not know what a bound or the value hangs on.
+// In a dry run, bounds or value may be unknown.
 void look_at_knob(const Call& call) {
   if (!call.argument(1).is_table()) return;
   with_key(call.argument(1), "name", [&](const Argument& name) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.knob: a number that whoever runs the script may set otherwise; lab.knob.set moves it where a person is
-// there to see it move.
+// lab.knob: a number of the script that the user may change. lab.knob.set moves a knob interactively.
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
@@ -9,7 +8,7 @@ namespace asperity::lua {
 
 const Module& knob_module();
 
-// Puts the knobs of the run into its manifest; nothing where there are none, and in a case.
+// No effect without knobs or in a case.
 void note_knobs(const Session& session);
 
 }  // namespace asperity::lua

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.ledger: what was computed. Every call of the registry, every field read and every turn of an iterator
-// is entered by the frames that make it.
+// lab.ledger: the costs of all calls, field reads and turns of iterators. The calling frames enter the costs.
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"

@@ -47,16 +47,14 @@ Values open_notebook(Call& call) {
   return {object(book)};
 }
 
-// --- rows
-
-// Columns of the rows written in a dry run; null in a run.
+// Null in a run.
 std::set<std::string>* columns_seen(const Call& call) {
   Mistakes* const mistakes = call.session().mistakes.get();
   const auto* book = call.argument(0).as<Notebook>();
   return mistakes == nullptr || book == nullptr ? nullptr : &mistakes->columns[book->name()];
 }
 
-// A name outside the text of the script was computed; another turn of its loop may write another name.
+// A name absent from the script's text is computed and may change in the next turn of a loop.
 void note_columns(const Call& call) {
   std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr) return;
@@ -70,7 +68,7 @@ void note_columns(const Call& call) {
     });
 }
 
-// Refuses a column without rows, if all names of columns are known.
+// Refuses an unknown column, if all columns are known.
 void look_at_columns(const Call& call) {
   const std::set<std::string>* const columns = columns_seen(call);
   if (columns == nullptr || columns->empty() || columns->contains("")) return;
@@ -109,7 +107,7 @@ Values units(Call& call) {
   if (!table.is_table())
     throw Error(ErrorCode::bad_value, "book:units was given " + table.describe(),
                 "write book:units{ Ra=\"m\", p=\"Pa\" }");
-  std::map<std::string, std::string> declared;  // in the order of the names, as for a row
+  std::map<std::string, std::string> declared;  // sorted by name, like a row
   table.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text() || !value.is_text())
       throw Error(ErrorCode::bad_value, "book:units met " + key.describe() + " = " + value.describe(),
@@ -121,9 +119,7 @@ Values units(Call& call) {
   return {};
 }
 
-// --- filters, expectations, charts
-
-// A plain number, in the column's unit, or a quantity of any dimension, which the column's unit must share.
+// A plain number in the column's unit, or a quantity of the column's dimension.
 Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Expectation::*member,
                               const char* sentence) {
   return custom<Expectation>(
@@ -170,7 +166,7 @@ Values expect(Call& call) {
   return {call.self<Notebook>().expect(expectation).passed};
 }
 
-// The mean of every column of numbers that differ, with its standard error.
+// Means and standard errors of the non-constant numeric columns.
 std::string describe_notebook(const void* self) {
   constexpr std::size_t most_means = 12;
   const auto& book = *static_cast<const Notebook*>(self);
@@ -184,7 +180,7 @@ std::string describe_notebook(const void* self) {
       if (const Cell& cell = table.cell(r, c); is_number(cell) && std::isfinite(*number_in(cell)))
         values.push_back(*number_in(cell));
     if (values.size() < 2 || std::ranges::minmax(values).min == std::ranges::minmax(values).max) continue;
-    // A seed, or the number of a row, has no mean.
+    // Seeds and row numbers have no mean.
     if (table.columns()[c].name == "seed" ||
         std::ranges::adjacent_find(values, [](double a, double b) { return b != a + 1; }) == values.end())
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.notebook: rows of free columns, expectations about them, and charts of them.
+// lab.notebook: rows with free columns, expectations and charts.
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
@@ -12,7 +12,6 @@ template <>
 const Class& class_of<Notebook>();
 
 Function notebook_function();
-// The keys of book:chart.
 const Block<NotebookChart>& notebook_chart_block();
 
 }  // namespace asperity::lua

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.table: tables of measured or computed numbers, read from files, made of rows or taken from notebooks.
-// An immutable value whose methods return new ones. Methods that notebooks have too are in table_methods();
-// they take their table by table_of_self (table_values.hpp).
+// lab.table: tables from files, rows or notebooks. Tables are immutable; methods return new tables. Methods
+// shared with notebooks are in table_methods() and read their table by table_of_self (table_values.hpp).
 #pragma once
 
 #include <optional>
@@ -19,22 +18,23 @@ const Class& class_of<asperity::Table>();
 
 const Module& table_module();
 
-// Methods of tables and of notebooks: those that choose and join rows.
+// Methods of tables and notebooks that select and join rows.
 std::vector<Function> table_methods();
 
-// What tables and notebooks say of their columns: means with intervals, fits, histograms and charts
-// (table_statistics.cpp, table_fit.cpp, table_chart.cpp), and the types of the records that they give.
+// All statistics of columns, and their record types.
 std::vector<Function> table_analysis_methods();
 std::vector<const RecordInfo*> table_analysis_results();
 
-// The methods one by one.
+// table_statistics.cpp
 Function mean_method();
 Function histogram_method();
+// table_fit.cpp
 Function fit_method();
+// table_chart.cpp
 Function chart_method();
 const RecordInfo& histogram_type();
 
-// The curve of a fit; nothing for any other value.
+// Nothing unless the value is a fit.
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 
 }  // namespace asperity::lua

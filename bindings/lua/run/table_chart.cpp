@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:chart and book:chart: the keys of a chart and of the panel below it. Functions of the script stay on the
-// stack while the chart is drawn.
+// t:chart and book:chart: keys of a chart and of the panel below it. Script functions stay on the stack
+// during drawing.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
@@ -16,8 +16,6 @@ namespace asperity::lua {
 namespace {
 
 using C = NotebookChart;
-
-// --- keys
 
 void read_spread(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
   if (value.is_boolean())
@@ -112,7 +110,7 @@ void read_fits(const Argument& value, const OptionInfo& info, C& c, Problems& pr
   for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
 }
 
-// Names now, functions when the chart is drawn.
+// Stores the names; functions are read when the chart is drawn.
 void read_functions(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(
@@ -129,7 +127,6 @@ void read_functions(const Argument& value, const OptionInfo& info, C& c, Problem
   std::ranges::sort(c.functions, {}, &FunctionLine::name);
 }
 
-// Those of every panel.
 std::vector<Option<C>> panel_keys(bool first) {
   auto x = text("x", &C::x, "the column along");
   std::vector<Option<C>> keys;
@@ -174,15 +171,12 @@ const Block<NotebookChart>& below_block() {
   return block;
 }
 
-// --- functions
-
-// One function of the script, and the panel whose line it is.
 struct Wanted {
   bool below;
   FunctionLine* line;
 };
 
-// Puts the functions on the stack one by one, and calls `use` when all are there.
+// Pushes the functions recursively, then calls `use`.
 template <class Use>
 void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::size_t k, Use& use) {
   if (k == wanted.size()) return use();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of a table, and its methods; those that notebooks have too are in table_methods().
+// Fields and methods of a table; methods shared with notebooks are in table_methods().
 #include <limits>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -32,7 +32,7 @@ Values rows_where(Call& call) {
   return {object(rows_of(*table, filter.rows(*table)))};
 }
 
-// Cells of a column one by one: numbers with nan for an empty cell, or texts and booleans with "".
+// Numbers with nan for an empty cell, or texts and booleans with "".
 Values cells_of_column(Call& call) {
   const auto table = table_of_self(call);
   const std::size_t k = table->column(call.text(1, "column"), "column");
@@ -74,7 +74,6 @@ const Block<Join>& join_block() {
   return block;
 }
 
-// The table or notebook that an argument gives.
 Rows table_given(const Call& call, int k, const char* name) {
   const Argument value = call.argument(k);
   if (const auto* table = value.as<Rows>()) return *table;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:fit: a straight line, a power law or a function of the script fitted to two columns. The function is
-// called with x and a table of the parameters by name, one table for all calls; x, y and weights are in the
-// units of their columns.
+// t:fit: a line, a power law or a script function. The function receives x and one table of parameters by
+// name, reused in all calls. x, y and weights are in the units of their columns.
 #include <algorithm>
 #include <map>
 
@@ -19,7 +18,7 @@ namespace {
 
 struct FitKeys : CalibrationKeys {
   std::string model;                    // a word; empty for a function
-  std::map<std::string, double> start;  // in the order of names, for Lua keeps none
+  std::map<std::string, double> start;  // sorted, because Lua keeps no order
   bool function = false;
   std::string name;
 };
@@ -86,8 +85,8 @@ const Block<FitKeys>& fit_block() {
   return block;
 }
 
-// A function of the script as a model. Its table and the names of its parameters lie on the stack until the
-// guard around it takes them away, so that a call takes no memory of its own.
+// Parameter table and names stay on the stack until the surrounding guard removes them, so that a call
+// allocates nothing.
 class ScriptModel {
  public:
   ScriptModel(const Argument& function, const std::vector<CalibrationParameter>& start)
@@ -148,8 +147,6 @@ class ScriptModel {
   lua_State* L_;
   int function_, table_ = 0, count_;
 };
-
-// --- the method
 
 CurveFit fit_of(Call& call, const FitKeys& keys, const CalibrationRows& rows) {
   if (keys.model == "linear") return fit_line(rows, keys.options);

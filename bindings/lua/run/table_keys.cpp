@@ -9,7 +9,7 @@ namespace asperity::lua {
 
 namespace {
 
-// { load="Wert" }: pairs in the order of their names.
+// { load="Wert" }, sorted by key.
 void read_pairs(const Argument& value, const OptionInfo& info,
                 std::vector<std::pair<std::string, std::string>>& pairs, const char* wanted,
                 Problems& problems) {

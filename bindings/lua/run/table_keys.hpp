@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys by which a script says of a table in a file what the file does not: of lab.table.read and of
-// lab.protocol.read alike.
+// Keys that describe a table in a file, for lab.table.read and lab.protocol.read.
 #pragma once
 
 #include <vector>
@@ -10,10 +9,9 @@
 
 namespace asperity::lua {
 
-// For a struct that extends TableForm.
+// For structs that extend TableForm.
 const std::vector<Option<TableForm>>& table_form_keys();
 
-// Lists of texts: names of columns.
 void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::string>& texts,
                 Problems& problems);
 

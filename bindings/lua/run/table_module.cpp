@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.table: how tables come to be.
+// lab.table: constructors of tables.
 #include <optional>
 #include <utility>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:mean and t:histogram: means of a column with their intervals, as a table, and how often its values fall
-// into bins.
+// t:mean (with intervals) and t:histogram.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
@@ -20,8 +19,6 @@ namespace asperity::lua {
 namespace {
 
 using Rows = asperity::Table;
-
-// --- means
 
 struct MeanKeys {
   std::vector<std::string> by;
@@ -68,7 +65,7 @@ std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, c
   return columns;
 }
 
-// One warning of each kind, with its first group and the number of groups.
+// One warning per kind, with its first group and the number of groups.
 void warn_of_groups(Call& call, const std::string& column, const MeanKeys& keys,
                     const std::vector<GroupMean>& groups) {
   struct Told {
@@ -123,8 +120,6 @@ Values mean_of_column(Call& call) {
                format_short(100 * keys.confidence, 4) + " % interval");
   return {object(std::move(means))};
 }
-
-// --- histograms
 
 struct HistogramKeys {
   std::string of;

@@ -36,7 +36,7 @@ void keep_quantity(Entry& entry, const std::string& unit) {
   const auto* text = std::get_if<std::string>(&entry.value);
   if (text == nullptr) return;
   if (!unit.empty()) {
-    if (!begins_a_number(*text)) return;  // "worn" stays text
+    if (!begins_a_number(*text)) return;  // "worn" is text
     try {
       entry.value = parse_quantity_in(*text, unit);
     } catch (const Error& error) {
@@ -51,7 +51,7 @@ void keep_quantity(Entry& entry, const std::string& unit) {
     entry.unit = si_unit(quantity.dimension);
     entry.value = quantity.value;
   } catch (const Error&) {
-    // Text that is no quantity stays text.
+    // Remains text.
   }
 }
 
@@ -111,7 +111,7 @@ std::vector<Entry> entries_of(const Argument& given, bool dry, const std::string
     keep_quantity(entry, entry.unit.empty() ? unit_of(entry.column) : entry.unit);
     row.push_back(std::move(entry));
   });
-  // Lua keeps no order of keys; a new column's place must not depend on chance.
+  // Lua's key order varies between processes; the place of a new column must not.
   std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
   return row;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells, rows and filters between scripts and tables, for notebooks and tables alike.
+// Cells, rows and filters of scripts.
 #pragma once
 
 #include <functional>
@@ -15,25 +15,22 @@
 
 namespace asperity::lua {
 
-// A number, a boolean or a text; nothing for any other value. Lua's integers stay whole.
+// Nothing for other values. Lua integers stay integers.
 std::optional<Cell> cell_of(const Argument& value);
-// What a script gets of a cell: nil for an empty one. Whole numbers stay integers but in a column with a
-// unit, where the square of one may be beyond any integer.
+// Nil for an empty cell. A column with a unit gives floats, because squares may exceed the integer range.
 Value value_of(const Cell& cell, const TableColumn& column);
-// One row under the names of its columns, without its empty cells.
+// Without empty cells.
 Map row_of(const Table& table, std::size_t row);
-// All of them: what rows() gives.
 List rows_of_table(const Table& table);
 
-// A row that a script gives, its columns in the order of their names, for Lua keeps none. "Ra [um]" is the
-// column Ra with the unit um. "3 um" is a number and kept in the unit of its column, which `unit_of` tells of
-// those that are there, in SI where that has none. Cells that a dry run does not know are left out. Throws
-// Error{bad_value} for what is no row, with `example` for a hint, and Error{bad_unit} for a quantity of
-// another kind than the column's.
+// A row, sorted by column name. "Ra [um]" means column Ra with unit um. "3 um" is converted to the unit that
+// `unit_of` returns for the column, or to SI. Cells unknown in a dry run are skipped. Throws Error{bad_value}
+// with the hint `example` if the value is no row, and Error{bad_unit} for another dimension than the
+// column's.
 std::vector<Entry> entries_of(const Argument& row, bool dry, const std::string& example,
                               const std::function<std::string(const std::string& column)>& unit_of);
 
-// { N=1, D={2, 2.5} }: the rows in which these columns hold these values.
+// { N=1, D={2, 2.5} }: rows whose columns have these values.
 void read_filter(const Argument& value, const OptionInfo& info, TableFilter& filter, Problems& problems);
 template <class O>
 Option<O> where_key(TableFilter O::*member) {
@@ -43,7 +40,7 @@ Option<O> where_key(TableFilter O::*member) {
                    });
 }
 
-// The table that a method was called on: a Table, or the rows of a Notebook as they are now.
+// The table, or the notebook's present rows.
 std::shared_ptr<const Table> table_of_self(const Call& call);
 
 }  // namespace asperity::lua

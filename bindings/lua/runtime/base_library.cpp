@@ -41,7 +41,7 @@ FunctionPaths read_function_paths() {
         if (function == nullptr || !key.is_text()) return;
         const auto [path, is_new] =
             paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
-        // Of two names (math.atan2 is math.atan) always the same one, whatever their order in memory.
+        // Alias names (math.atan2 is math.atan): the alphabetically first is used.
         if (!is_new && path->second.library == library && key.text() < path->second.key)
           path->second.key = key.text();
       });
@@ -64,8 +64,8 @@ BaseLibrary::BaseLibrary(lua_State* L) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   paths_.reserve(32);
   paths_.emplace_back(lua_topointer(L, -1), BasePath{"_G", ""});
-  // In one go through what is loaded: every case of an ensemble comes here. Of two paths to one table the
-  // first counts, in the order of the names of libraries.
+  // One pass, because every case of an ensemble comes here. The first library by name wins if two paths share
+  // a table.
   struct Library {
     const void* table = nullptr;
     std::vector<std::pair<const void*, std::string>> parts;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layout is that of ldump.c of Lua 5.4: a header; then functions, each with its prototypes inside it and
-// what only debugging needs at its end.
+// Layout of ldump.c of Lua 5.4: a header, then nested functions, each with debug information at its end.
 #include "bindings/lua/runtime/code_digest.hpp"
 
 #include <cstddef>
@@ -23,14 +22,14 @@ class Code {
   void all() {
     // signature, version, format, check of conversions, sizes of three types, an integer, a number
     constexpr std::size_t header = 4 + 1 + 1 + 6 + 3 + sizeof(lua_Integer) + sizeof(lua_Number);
-    keep(header + 1);  // and the number of upvalues
+    keep(header + 1);  // the number of upvalues
     function(0);
     if (!left_.empty()) throw NotUnderstood{};
   }
 
  private:
   static constexpr std::size_t instruction = 4;
-  static constexpr int deepest = 200;  // functions in functions: Lua's own limit
+  static constexpr int deepest = 200;  // depth of nested functions: Lua's own limit
 
   std::string_view bytes(std::size_t length) {
     if (length > left_.size()) throw NotUnderstood{};
@@ -39,7 +38,7 @@ class Code {
     return result;
   }
   void keep(std::size_t length) { digester_.add(bytes(length)); }
-  // Seven bits a byte, the highest first; the last byte is marked.
+  // Seven bits per byte, highest first; the last byte is marked.
   std::size_t size() {
     std::size_t value = 0;
     for (;;) {
@@ -87,15 +86,15 @@ class Code {
 
   void function(int depth) {
     if (depth > deepest) throw NotUnderstood{};
-    text();  // the file
-    line();  // its first and last line
+    text();  // file
+    line();  // first and last line
     line();
-    keep(3);  // parameters, whether there are more, stack
+    keep(3);  // parameters, varargs, stack size
     const std::size_t instructions = count();
     if (instructions > left_.size() / instruction) throw NotUnderstood{};
     keep(instructions * instruction);
     for (std::size_t left = count(); left > 0; --left) constant();
-    for (std::size_t left = count(); left > 0; --left) keep(3);  // where upvalues come from
+    for (std::size_t left = count(); left > 0; --left) keep(3);  // sources of upvalues
     for (std::size_t left = count(); left > 0; --left) function(depth + 1);
     const std::string_view steps = bytes(size());  // lines of instructions
     if (counted_) digester_.add(steps);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a function of a script does, as a digest: its code as Lua 5.4 dumps it, less the names of files, lines
-// and local variables, so that an edit elsewhere in the script does not change it.
+// Digest of a script function: its Lua 5.4 dump without file names, line numbers and local variables, so that
+// edits elsewhere in the script do not matter.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace asperity::lua {
 
-// Of a dump that lua_dump made; with the numbers of its lines if they are `counted`, never with the names of
-// files. A dump that is not understood to its last byte is digested as it is.
+// Takes a dump of lua_dump; `counted` includes line numbers. An unreadable dump is digested unchanged.
 enum class CodeLines { left_out, counted };
 std::string code_digest(std::string_view dump, CodeLines lines = CodeLines::left_out);
 

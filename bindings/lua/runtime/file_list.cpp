@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 bool has_wildcard(const std::string& text) { return text.find_first_of("*?") != std::string::npos; }
 
-// Whether a name matches a pattern in which * stands for any characters and ? for one. O(name × pattern).
+// * matches any characters, ? one character. O(name × pattern).
 bool matches_pattern(std::string_view name, std::string_view pattern) {
-  // Back to behind the last *, which then stands for one character more.
+  // On a mismatch, the last * takes one more character.
   std::size_t n = 0, p = 0, star = std::string_view::npos, from = 0;
   while (n < name.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -42,7 +42,6 @@ bool matches_pattern(std::string_view name, std::string_view pattern) {
   return p == pattern.size();
 }
 
-// Names of plain files in a folder, or nothing where there is none.
 std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code problem;
@@ -69,7 +68,7 @@ Values list_files(Call& call) {
   std::error_code ignored;
   const fs::path place = folder.empty() ? fs::path(".") : fs::path(folder);
   const Session& session = call.session();
-  // What the run wrote itself is found under the name that it gave.
+  // The run's own files are found under the script's names for them.
   const auto take_written = [&] {
     if (session.run == nullptr) return false;
     bool some = false;

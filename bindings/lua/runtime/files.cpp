@@ -43,7 +43,7 @@ void note_input(const Call& call, const std::string& path) {
   if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(path));
   if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
-  // A file that the run wrote itself has the same name in every run.
+  // The run's own files have the same name in every run.
   const std::string own = session.run->own_name(path);
   if (session.run->note_input(own.empty() ? path : own, bytes, file_digest(path)) && own.empty())
     session.monitor().inform("\"" + plain_text(path) +

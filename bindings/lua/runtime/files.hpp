@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files as scripts name them: read from anywhere and noted among the run's inputs, written under the
-// run directory. And the option keys that every reader shares.
+// Files of scripts: read from anywhere and listed among the run's inputs, written into the run directory.
+// Also option keys shared by readers.
 #pragma once
 
 #include <string>
@@ -17,21 +17,17 @@ class RunDirectory;
 
 namespace asperity::lua {
 
-// Where a file that the script writes goes. Throws Error{not_permitted} for a way out of the run
-// directory, and inside a case of an ensemble.
+// Throws Error{not_permitted} outside the run directory and inside a case of an ensemble.
 std::string writable_path(const Call& call, const std::string& name);
-// The run that the script writes into. Throws Error{not_permitted} inside a case of an ensemble, which `does`
-// not
-// ("draws no charts") and should do something `instead`.
+// Throws Error{not_permitted} inside a case: `does` completes the sentence ("draws no charts"), `instead` is
+// the hint.
 RunDirectory& run_of(const Call& call, const char* does, const char* instead);
-// Where a file that the script reads lies: as named, or else the one the run wrote under that name.
+// The run's file of this name, or the path as given.
 std::string readable_path(const Call& call, const std::string& name);
-// Tells the run of warnings, as drawing returns them.
 void warn_of(const Call& call, const std::vector<std::string>& warnings);
-// Enters a file that is about to be read, with its digest, in the run's manifest.
 void note_input(const Call& call, const std::string& path);
 
-// A length, or the name of a unit alone: "um" is short for "1 um".
+// "um" means "1 um".
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
 template <class O>
 Option<O> length_of_one(std::string name, std::optional<double> O::*member, std::string sentence) {
@@ -51,7 +47,7 @@ Option<O> unit_xy_key(std::optional<double> O::*member) {
                        "length of one number of a position, in x y z points and in profiles of two columns "
                        "that do not say it, e.g. \"mm\"");
 }
-// The formats that are read, as `format` names them: "npy", "x3p" ...
+// "npy", "x3p" ...
 std::string format_names();
 std::string names_of_formats_with_channels();
 template <class O>

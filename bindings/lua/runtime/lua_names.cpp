@@ -14,8 +14,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Whether a function is one of those that the sandbox put in the place of what it took away: they keep
-// what to say in an upvalue called `what`.
+// Refusals of the sandbox have an upvalue `what`.
 bool is_refused(lua_State* L, int index) {
   if (!is_sandbox_function(L, index)) return false;
   bool refused = false;

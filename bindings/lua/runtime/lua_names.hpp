@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a script has of Lua's own: the globals and the functions of its libraries as the sandbox leaves them.
+// Globals and library functions of Lua that the sandbox leaves to a script.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct LuaName {
   bool is_function;
 };
 
-// In the order of the alphabet, by library. Made once, from a state of its own. Thread-safe.
+// Sorted by library, then name. Thread-safe.
 const std::vector<LuaName>& lua_names();
 
 }  // namespace asperity::lua

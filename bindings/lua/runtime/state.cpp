@@ -32,7 +32,7 @@ int open_library(lua_State* L) {
   return 1;
 }
 
-// Reading a pipe waits for its writer, perhaps for ever.
+// Reading a pipe waits for its writer, perhaps forever.
 void refuse_pipe(const std::string& name, const std::string& place) {
   std::error_code none;
   const auto status = std::filesystem::status(place, none);
@@ -41,8 +41,8 @@ void refuse_pipe(const std::string& name, const std::string& place) {
                 "write what it gives into a file first");
 }
 
-// The text of a script file, for `require`, `dofile` and `loadfile`; none if the file cannot be read, because
-// Lua reports this error itself. A case records a module from the folder of the script by its name there.
+// For `require`, `dofile` and `loadfile`; none for an unreadable file, whose error Lua reports. A case
+// records a module of the script's folder by its name there.
 std::optional<std::string> loaded_text(const Session& session, const std::string& name, bool is_module) {
   const std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
   const std::string own = session.run == nullptr ? "" : session.run->own_name(place);
@@ -66,7 +66,7 @@ std::optional<std::string> loaded_text(const Session& session, const std::string
   return text.substr(begin_of_script(text));
 }
 
-// Pushes the text returned by `find`, or nothing; if `find` throws, nil and the message.
+// Pushes the text; nil and the message if `find` throws.
 template <class Find>
 int give_text(lua_State* L, const Find& find) {
   std::optional<std::string> text;
@@ -86,8 +86,7 @@ int give_text(lua_State* L, const Find& find) {
   return protect(L, 0, text ? 1 : 2, action) == LUA_OK ? (text ? 1 : 2) : -1;
 }
 
-// host.script_text(name, is_module) -> text; nothing if Lua's own functions shall open the file; nil and a
-// message for an error
+// host.script_text(name, is_module) -> text, nothing (Lua must open the file), or nil and a message
 int script_text(lua_State* L) {
   const int results = give_text(L, [L](const Session& session, const std::string& name) {
     return loaded_text(session, name, lua_toboolean(L, 2) != 0);
@@ -95,14 +94,14 @@ int script_text(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.was_loaded(name) -> whether the replayed or resumed run loaded a file of this name
+// host.was_loaded(name) -> whether the recorded run loaded this file
 int was_loaded(lua_State* L) {
   lua_pushboolean(
       L, lua_isstring(L, 1) != 0 && recorded_copy(Session::of(L).loaded, lua_tostring(L, 1)) != nullptr);
   return 1;
 }
 
-// host.output_path(name) -> path, or nil and why not
+// host.output_path(name) -> path, or nil and a message
 int output_path(lua_State* L) {
   const int results = give_text(L, [](const Session& session, const std::string& name) {
     if (session.is_case)
@@ -113,7 +112,7 @@ int output_path(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.settled(removed): the script wrote files, or removed the file `removed`, a path from output_path().
+// host.settled(removed): the script wrote files, or removed this output_path()
 int settled(lua_State* L) {
   const auto& run = Session::of(L).run;
   if (run != nullptr && lua_isstring(L, 1) != 0) run->forget_output(lua_tostring(L, 1));
@@ -121,7 +120,7 @@ int settled(lua_State* L) {
   return 0;
 }
 
-// host.input_path(name) -> path, or nil and why not
+// host.input_path(name) -> path, or nil and a message
 int input_path(lua_State* L) {
   const int results = give_text(L, [](const Session& session, const std::string& name) {
     std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
@@ -160,7 +159,7 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
-// host.mistaken(message) -> true and a placeholder in a dry run that continues after mistakes; else false
+// host.mistaken(message) -> true and a placeholder after a noted mistake, else false
 int mistaken(lua_State* L) {
   const bool noted = noted_as_mistake(L);
   lua_pushboolean(L, noted ? 1 : 0);
@@ -169,7 +168,7 @@ int mistaken(lua_State* L) {
   return 2;
 }
 
-// Ends the process. Returns a message if the process must not end, or if the hook ends the script alone.
+// Returns a message if the process must continue.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return "a case of an ensemble cannot end the run";
@@ -189,7 +188,7 @@ const char* exit_body(lua_State* L, int code) {
   std::_Exit(code);
 }
 
-// os.exit([code]): ends the run properly; true and nothing mean success.
+// os.exit([code]): true and nil mean success.
 int exit_run(lua_State* L) {
   int code = 0;
   if (lua_isboolean(L, 1))
@@ -201,18 +200,17 @@ int exit_run(lua_State* L) {
 
 struct Setup {
   Session* session;
-  const char* search_path;  // "" leaves Lua's own
+  const char* search_path;  // "" means Lua's own
 };
 
-// Raises Lua errors; runs under lua_pcall.
+// Runs under lua_pcall.
 int set_up(lua_State* L) {
   const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
   Session& session = *setup.session;
-  // The values made here stay, so a collection meanwhile would find nothing.
+  // A collection would find nothing to free.
   lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
-  // Here, and not in the loadable module, where `pairs` is the host's: the states of the program and of
-  // cases.
+  // Only here: the loadable module leaves the host's `pairs` unchanged.
   lua_register(L, "pairs", ordered_pairs);
   lua_register(L, "next", ordered_next);
   Session::attach(L, session);
@@ -254,7 +252,7 @@ int set_up(lua_State* L) {
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   lua_gc(L, LUA_GCRESTART);
-  // As after a collection, the next one begins once there is twice as much.
+  // The next cycle begins at twice the present size, as after a collection.
   lua_gc(L, LUA_GCSTEP, -lua_gc(L, LUA_GCCOUNT));
   return 0;
 }
@@ -280,7 +278,7 @@ State make_state(Session& session, const std::string& script_folder) {
   State state(lua_newstate(StateHeap::allocate, heap.get()));
   if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
   lua_State* L = state.get();
-  heap.release()->main = L;  // the state's own from here on
+  heap.release()->main = L;  // the state now owns the heap
   const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
   Setup setup{&session, path.c_str()};
   lua_pushcfunction(L, set_up);
@@ -307,7 +305,7 @@ const char* stop_sentence(StopReason reason) {
   return nullptr;
 }
 
-// Whether the hook was called for the traceback handler of a stop. A second stop would prevent the traceback.
+// Whether the hook runs for the traceback handler, which a second stop would prevent.
 bool calls_the_handler(lua_State* L, lua_Debug* frame) {
   if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
   lua_getinfo(L, "f", frame);
@@ -319,7 +317,7 @@ bool calls_the_handler(lua_State* L, lua_Debug* frame) {
 void stop_hook(lua_State* L, lua_Debug* frame) {
   const char* sentence = stop_sentence(stop_flag().reason());
   if (sentence == nullptr || calls_the_handler(L, frame)) return;
-  // The running line, or the line of the caller of a C function.
+  // The running line, or the caller's line.
   lua_Debug running;
   for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
     lua_getinfo(L, "Sl", &running);
@@ -327,7 +325,7 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
     lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
     lua_error(L);
   }
-  // No line runs: the script has ended, perhaps by this very stop. Raising an error would lose its message.
+  // The script has ended, perhaps by this stop. An error here would lose its message.
 }
 }  // namespace
 
@@ -358,7 +356,6 @@ std::string error_text(lua_State* L, int index) {
 }
 
 int traceback_handler(lua_State* L) {
-  // Raising here is allowed: lua_pcall then reports LUA_ERRERR.
   if (lua_type(L, 1) != LUA_TSTRING) {
     luaL_tolstring(L, 1, nullptr);
     if (lua_type(L, 1) != LUA_TUSERDATA) {
@@ -370,7 +367,7 @@ int traceback_handler(lua_State* L) {
     lua_replace(L, 1);
   }
   lua_settop(L, 1);
-  // A stop is not raised again during its traceback.
+  // No stop during the traceback.
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
   lua_sethook(L, nullptr, 0, 0);

@@ -17,15 +17,14 @@ namespace asperity::lua {
 
 namespace {
 
-// A request of this thread that was refused. Lua collects and asks once more for the same: what follows
-// shows whether the refusal was final.
+// The last refused request of this thread. Lua collects and retries; the next request shows whether the
+// refusal was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
 
-// Where the script was at the last refusal. Lua's own error of memory has no place, and is raised after the
-// stack is gone; a place is written here without asking for memory.
+// The script's place, because Lua raises its memory error after unwinding the stack. No allocation.
 struct RefusalPlace {
   char line[96] = "";     // "script.lua:12: "
-  char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" and so on
+  char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" ...
 };
 thread_local RefusalPlace refusal_place;
 
@@ -50,8 +49,8 @@ void note_refusal_place(lua_State* L) {
   }
 }
 
-// Whether a request may be for a thread's stack, which is no bigger than a million values of 16 bytes and
-// some: while the stack is moved its frames cannot be read.
+// Whether a request may move a thread's stack (at most about a million 16-byte values), whose frames are then
+// unreadable.
 bool may_move_a_stack(const void* block, std::size_t old_size, std::size_t new_size) {
   constexpr std::size_t slot = 16, biggest = 1'100'000 * slot;
   return block != nullptr && old_size % slot == 0 && new_size % slot == 0 && new_size <= biggest;
@@ -64,15 +63,15 @@ void note_refusal(lua_State* main, void* block, std::size_t old_size, std::size_
   if (main != nullptr && !may_move_a_stack(block, old_size, new_size)) note_refusal_place(main);
 }
 
-// A request for more that was granted: if it is another than the one that was refused, that was final.
+// If a granted growth differs from the refused request, the refusal was final.
 void note_grant(void* block, std::size_t new_size) {
   if (!refused) return;
   if (*refused != std::pair(block, new_size)) memory::note_exceeded();
   refused.reset();
 }
 
-// Regions of states that are gone, for those that come; none where a sanitizer is to see every block. Never
-// destroyed: a state may be closed after all else.
+// Regions of closed states; unused under a sanitizer, which must see every block. Never destroyed, because a
+// state may be closed last.
 memory::BlockPool& regions() {
   static memory::BlockPool& pool = *new memory::BlockPool(std::size_t{8} << 20);
   return pool;
@@ -115,7 +114,7 @@ StateHeap::~StateHeap() {
 
 void* StateHeap::allocate(void* heap, void* block, std::size_t old_size, std::size_t new_size) {
   auto& self = *static_cast<StateHeap*>(heap);
-  const std::size_t held = block == nullptr ? 0 : old_size;  // without a block Lua tells what it is for
+  const std::size_t held = block == nullptr ? 0 : old_size;  // without a block, old_size is a type code
   if (new_size > 0) return self.change(block, held, new_size);
   if (self.small_.holds(block)) {
     self.small_.give(block, held);
@@ -131,7 +130,7 @@ StateHeap* StateHeap::of(lua_State* L) {
   return lua_getallocf(L, &heap) == allocate ? static_cast<StateHeap*>(heap) : nullptr;
 }
 
-// Counts a block that becomes another one; `uncounted` bytes of the old one are the region's.
+// `uncounted` bytes of the old block belong to the region.
 bool StateHeap::account(void* block, std::size_t old_size, std::size_t new_size, std::size_t uncounted) {
   const auto more = static_cast<std::int64_t>(new_size) - static_cast<std::int64_t>(old_size - uncounted);
   if (memory::account(more)) return true;
@@ -157,7 +156,7 @@ void* StateHeap::change(void* block, std::size_t old_size, std::size_t new_size)
   if (fresh != nullptr) {
     if (grows) note_grant(block, new_size);
   } else {
-    if (!grows) return block;  // a block may always become smaller
+    if (!grows) return block;  // always possible
     if (!account(block, old_size, new_size, old_size)) return nullptr;
     note_grant(block, new_size);
     fresh = std::malloc(new_size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The version of the program and of what it is built on.
+// Versions of the program and its libraries.
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 namespace asperity::lua {
 
 std::string version_text();  // "0.2.0"
-// Name and version of the program, its compiler, Lua and the libraries it was built with; and the vectors of
-// the numeric code that was loaded, which our own transforms use.
+// Includes compiler, Lua, libraries and the vector instructions of the loaded numeric code.
 std::vector<std::pair<std::string, std::string>> version_facts();
 
 }  // namespace asperity::lua

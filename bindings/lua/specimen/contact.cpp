@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts as values of the language: two specimens on the bench, pressed, turned and read.
+// The class of contacts: two specimens to press, turn and measure.
 #include "bindings/lua/specimen/contact.hpp"
 
 #include "bindings/lua/registry/guard.hpp"
@@ -17,8 +17,6 @@ namespace asperity::lua {
 namespace {
 
 Values make_contact(Call& call) { return {object(SpecimenPair(read_scene(call)))}; }
-
-// --- pressing
 
 constexpr struct {
   const char* key;
@@ -59,7 +57,7 @@ const Block<PressKeys>& press_block() {
     }
     options.push_back(quantity("dwell", &PressKeys::dwell, dimension::time, at_least(0),
                                "how long the load stays; read by creep alone"));
-    // Of the dimension of the quantity it goes with, which stands before it in the block.
+    // The dimension of the controlled quantity, which precedes `preload` in the block.
     auto preload = custom<PressKeys>(
         "preload", "number|string|(number|string)[]",
         "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
@@ -141,8 +139,7 @@ const Block<SweepKeys>& sweep_block() {
   return block;
 }
 
-// Where bodies attract each other, a sweep follows the branch that it is on: each state is drawn from the
-// turns of the loads before it.
+// With adhesion, each state depends on the turning points of the earlier loads.
 Values sweep(Call& call) {
   const SweepKeys keys = call.options(sweep_block());
   auto pair = call.shared_self<SpecimenPair>();
@@ -156,12 +153,12 @@ Values sweep(Call& call) {
                      PressRequest request = requests[k];
                      const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
                      if (k == 0 && by_load && request.value < 0)
-                       visited.push_back(0);  // a pull starts from no load
+                       visited.push_back(0);  // a pull starts from zero load
                      if (pair->plan().attracts()) request.preload = turns_before(visited, request.value);
                      const asperity::State state = pair->press(request, step.session().monitor());
                      record_press(step.session(), pair, request, state);
                      visited.push_back(request.value);
-                     ++k;  // only now: a press that failed for lack of memory is tried once more
+                     ++k;  // last, because a press that runs out of memory is repeated
                      return Values{object(state)};
                    },
                    call.function_name()}};
@@ -184,8 +181,6 @@ std::vector<PressRequest> requests_of(const Call& call, const Function& function
 }
 
 namespace {
-
-// --- the bench
 
 Values release_load(Call& call) {
   call.self<SpecimenPair>().release();
@@ -220,7 +215,6 @@ const Block<ShiftKeys>& shift_block() {
 
 namespace {
 
-// Every placement of a flat is the same contact.
 void warn_of_flat(const Call& call, const char* done) {
   if (call.self<SpecimenPair>().upper_is_flat())
     call.session().monitor().warn(where(call.L) + call.function_name() + ": " + done +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.contact, and contacts as native values of the language.
+// lab.contact, and contacts as native values.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace asperity::lua {
 template <>
 const Class& class_of<SpecimenPair>();
 
-// The tables of c:press, c:place and c:shift, which events of a protocol share.
+// Options of c:press, c:place and c:shift, also in protocol events.
 struct PressKeys {
-  int given = 0;  // ways to say how far; exactly one is
+  int given = 0;  // number of given controls; exactly one is allowed
   PressRequest request;
   std::optional<double> dwell;
   std::vector<double> preload;
 };
 const Block<PressKeys>& press_block();
-// What a call of c:press or c:sweep, which `function` is, asks for; none where a dry run does not know it,
-// and none of other calls. Throws as the call itself does.
+// The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws like
+// the call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
-// Writes the journal's line of a press that an iterator made, as one made by hand stands there.
+// For a press by an iterator; equal to the line of c:press.
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state);
 struct PlaceKeys {
@@ -42,8 +42,7 @@ const Block<ShiftKeys>& shift_block();
 
 Function contact_function();
 
-// contact:shear (shear.cpp) and its result: a contact under load that is pulled sideways by less than makes
-// it slide.
+// contact:shear (shear.cpp): partial slip under a tangential force below sliding.
 Function shear_method();
 template <>
 const Class& class_of<PartialSlip>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options table of lab.contact and how it becomes a Scene. One block of keys for each effect.
+// Options of lab.contact, with one block per effect.
 #include "bindings/lua/specimen/contact_scene.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace asperity::lua {
 
 namespace {
 
-// `elasticity` as a table: its model, and the options of all models, of which it takes its own.
+// `elasticity` as a table: the model and its options.
 class ElasticityBlock final : public BlockInfo {
  public:
   ElasticityBlock() {
@@ -33,7 +33,7 @@ class ElasticityBlock final : public BlockInfo {
     for (const ElasticModel* model : elastic_models())
       for (std::size_t k = 0; k < model->options.size(); ++k) {
         infos_.push_back(row_info(model->options[k], model->defaults));
-        infos_.back().required = false;  // of the other models it is none at all
+        infos_.back().required = false;  // depends on the model
         places_.push_back({model, k});
       }
   }
@@ -74,7 +74,7 @@ class ElasticityBlock final : public BlockInfo {
   const OptionRow& row(std::size_t k) const { return places_[k - 1].model->options[places_[k - 1].row]; }
   void read_option(std::size_t k, const Argument& value, const ElasticModel* model, std::any& options,
                    Problems& problems) const {
-    if (model == nullptr) return;  // that is said
+    if (model == nullptr) return;  // already reported
     if (places_[k - 1].model == model) return read_row(row(k), infos_[k], value, options, problems);
     problems.push_back(quoted(infos_[k].name) + " is of model=\"" + std::string(places_[k - 1].model->name) +
                        "\", and the model is \"" + std::string(model->name) + "\"; leave one of both out");
@@ -82,14 +82,14 @@ class ElasticityBlock final : public BlockInfo {
 
   std::string name_{elasticity_effect};
   std::vector<OptionInfo> infos_;
-  std::vector<Place> places_;  // of each but the first
+  std::vector<Place> places_;  // of all options except `model`
 };
 const ElasticityBlock& elasticity_block() {
   static const ElasticityBlock block;
   return block;
 }
 
-// How a script writes it: "box", or { model="layer", thickness= } where an option must be given.
+// "box", or { model="layer", thickness= } with required options.
 std::string written(const ElasticModel& model, bool all_options) {
   std::string keys;
   for (const OptionRow& row : model.options)
@@ -137,7 +137,6 @@ void read_estimate(const Argument& value, const OptionInfo& info, AccuracyKeys& 
     detail::wrong_type(value, info, "true, false or \"finer\"", problems);
 }
 
-// One name or a list of them.
 void read_effect_names(const Argument& value, const OptionInfo& info, AccuracyKeys& keys,
                        Problems& problems) {
   if (value.is_text()) {
@@ -234,7 +233,6 @@ struct SceneKeys {
   AccuracyKeys accuracy;
 };
 
-// Appends what `act` throws.
 template <class Act>
 void collect(Problems& problems, Act act) {
   try {
@@ -262,7 +260,6 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
   });
 }
 
-// One effect beside the elasticity, with the options that its record tells.
 Option<SceneKeys> effect_option(const Effect& effect) {
   const RowBlock& block = effect_block(effect);
   Option<SceneKeys> option = custom<SceneKeys>(
@@ -275,7 +272,6 @@ Option<SceneKeys> effect_option(const Effect& effect) {
   return option;
 }
 
-// Each effect that can be named, by its name.
 const std::vector<Option<SceneKeys>>& effect_options() {
   using K = SceneKeys;
   static const std::vector<Option<K>> options = [] {
@@ -316,7 +312,7 @@ std::vector<std::string> effects_named(const Argument& value, const std::string&
 
 namespace {
 
-// Every key of the table is an effect by name; those this build does not compute are refused.
+// Effects missing from this build are refused.
 void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
@@ -405,7 +401,7 @@ Scene read_scene(Call& call) {
   Scene scene = scene_of(keys, *keys.lower, *keys.upper);
   if (Refinement* refinement = refinement_of(call.L)) {
     scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
-    if (refinement->tolerance) scene.accuracy.asked.reset();  // it is what was asked for
+    if (refinement->tolerance) scene.accuracy.asked.reset();  // the tolerance replaces a requested accuracy
   }
   return scene;
 }
@@ -428,7 +424,7 @@ void look_at_scene(const Call& call) {
   KnownBody same_size = upper != nullptr ? *upper : KnownBody{};
   same_size.grid = lower->grid;
   Scene scene = scene_of(keys, stand_in(*lower), flat ? *keys.upper : UpperBody(stand_in(same_size)));
-  scene.accuracy.estimate = Accuracy::Estimate::none;  // needs the true cells
+  scene.accuracy.estimate = Accuracy::Estimate::none;  // the estimate needs the true cells
   (void)SpecimenPair(scene);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options table of lab.contact: bodies, boundary, effects and accuracy, read into a Scene.
+// Options of lab.contact as a Scene: bodies, boundary, effects and accuracy.
 #pragma once
 
 #include <string>
@@ -11,16 +11,13 @@
 
 namespace asperity::lua {
 
-// Every problem of the table in one Error.
+// One Error reports all problems.
 Scene read_scene(Call& call);
-// Of a dry run whose bodies are placeholders: throws what read_scene or the contact would for the scene,
-// as far as the bodies are known.
+// In a dry run with placeholder bodies: throws the errors of read_scene and of the contact, as far as known.
 void look_at_scene(const Call& call);
-// The keys of a table of effects, in order; a problem, with this hint, for each that is no text.
+// In order. Keys that are no text become problems with this hint.
 std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems);
-// The keys of an effect's own table.
 const RowBlock& effect_block(const Effect& effect);
-// The keys, for the registry.
 const BlockInfo& scene_keys();
 
 }  // namespace asperity::lua

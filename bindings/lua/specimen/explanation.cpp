@@ -31,7 +31,7 @@ Explanation::Calls& Explanation::calls_of(Planned& planned, const std::string& w
   return *known;
 }
 
-// Of so many values of one control each is tried; any other is taken for the mean of those.
+// Plans at most `most_tried` values per control; further values use the mean.
 Explanation::Expected Explanation::expected(const SpecimenPair& pair, const PressRequest& request,
                                             Calls& calls) {
   constexpr std::size_t most_tried = 12;
@@ -49,7 +49,7 @@ Explanation::Expected Explanation::expected(const SpecimenPair& pair, const Pres
   try {
     const Plan plan = pair.plan_of(request);
     found = {plan.transforms, plan.seconds};
-  } catch (const Error& error) {  // the run will tell, unless the script is ready for it
+  } catch (const Error& error) {  // the run reports the error
     if (error.code() != ErrorCode::bad_value && error.code() != ErrorCode::infeasible) throw;
   }
   calls.tried.emplace(request.value, found);
@@ -161,12 +161,9 @@ Json Explanation::json() const {
   return Json::object({{"contacts", contacts}, {"unplanned", unplanned}});
 }
 
-// --- which contact a call of the language would press, and how often, as far as that is known before it is
-// made
-
 namespace {
 
-// The contact that a call would press, if it is known.
+// The contact that a call would press; null if unknown.
 const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   const auto contact_at = [&](int k) -> const SpecimenPair* {
     const Object* object = Argument(call.L, k).as_any_object();
@@ -177,7 +174,7 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
       return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
     return nullptr;
   };
-  // A function that writes a file presses nothing.
+  // Functions with a `path` write files.
   if (!function.heavy ||
       std::ranges::find(function.parameters, "path", &Parameter::name) != function.parameters.end())
     return nullptr;
@@ -185,7 +182,7 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   return own != nullptr || call.count() < 1 ? own : contact_at(2);
 }
 
-// How often it would press: once, along the list of a sweep, at the events of a protocol, at probe pressures.
+// One press, or the number of values, events or probe pressures.
 std::int64_t presses_of(const Call& call) {
   const Object* self = Argument(call.L, 1).as_any_object();
   if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
@@ -194,7 +191,7 @@ std::int64_t presses_of(const Call& call) {
       return std::holds_alternative<PressRequest>(event.step);
     });
   }
-  // A stage solves at each of its probe pressures; it may raise them, which is not known here.
+  // Without probe pressures raised during the run.
   if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
     const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
     const bool probes = stage->contact->scene().elasticity.model().moves_every_node;
@@ -208,7 +205,6 @@ std::int64_t presses_of(const Call& call) {
   return presses;
 }
 
-// The presses that it would make, each as often as it comes, as far as they are known before it.
 std::vector<Explanation::Asked> known_presses_of(const Call& call, const Function& function) {
   const Object* self = Argument(call.L, 1).as_any_object();
   if (self == nullptr || self->pointer == nullptr) return {};

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a script will compute, found by running it without its solves: surfaces are made, contacts are
-// planned, and each press that the script comes to is noted with its plan. Contacts of the same plan are
-// shown once, and a press of one stands for that press of the others. A loop over a sweep turns once, and an
-// ensemble runs its first case, which stands for all of them. Transforms are those of the very presses where
-// the script says which they are.
+// Plan of a script without its solves: surfaces are made, contacts planned, and each press noted with its
+// plan. Contacts with equal plans are shown once. A loop over a sweep runs once; an ensemble runs its first
+// case for all.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +28,14 @@ class Explanation {
     PressRequest request;
     std::int64_t times = 1;
   };
-  // A call, `what` in its words ("contact:press"), that presses the pair as `named` says; `presses` times
-  // where that is not known and `named` is empty.
+  // For example "contact:press"; if `named` is empty, `presses` unknown presses.
   void note(const SpecimenPair& pair, const std::string& what, std::span<const Asked> named,
             std::int64_t presses = 1);
 
-  // A press of a contact of which nothing is known before it is made, or that lies over ranks.
+  // Without a plan: the contact is unknown before the run, or spread over ranks.
   void note_unplanned(const std::string& what) { unplanned_[what] += times_; }
 
-  // What is noted while it lives is done so many times.
+  // Multiplies the counts noted during its lifetime.
   class Repeating {
    public:
     Repeating(Explanation* explanation, std::int64_t times);
@@ -51,21 +48,21 @@ class Explanation {
     std::int64_t outer_ = 1;
   };
 
-  std::string text() const;  // several lines, each ended
+  std::string text() const;  // lines with line ends
   Json json() const;
 
  private:
   struct Expected {
     double transforms = 0, seconds = 0;
   };
-  // Presses of one plan by one control, or by none that is known.
+  // Presses with one plan and control; `by` is empty if unknown.
   struct Calls {
     std::string what;
     std::optional<PressBy> by;
     std::int64_t times = 0;
-    Expected all;  // of them together
+    Expected all;  // sum over all presses
     std::map<double, Expected> tried{};
-    double least = std::numeric_limits<double>::infinity(), most = 0;  // transforms of one
+    double least = std::numeric_limits<double>::infinity(), most = 0;  // transforms of one press
   };
   struct Planned {
     Plan plan;
@@ -82,7 +79,7 @@ class Explanation {
   std::int64_t times_ = 1;
 };
 
-// Notes a heavy call that a dry run leaves out, with the presses it would make.
+// For heavy calls skipped in a dry run.
 void note_call(Explanation& explanation, const Call& call, const Function& function);
 
 }  // namespace asperity::lua

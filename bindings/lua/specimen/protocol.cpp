@@ -24,9 +24,6 @@ Values make_protocol(Call& call) {
   return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
 }
 
-// --- events
-
-// An event and its place in its protocol.
 struct NumberedEvent {
   const Protocol* protocol = nullptr;
   std::size_t k = 0;
@@ -39,14 +36,14 @@ std::optional<double> pressed_to(const NumberedEvent& e) {
   const auto* press = std::get_if<PressRequest>(&e.step());
   return press != nullptr && press->by == by ? std::optional<double>(press->value) : std::nullopt;
 }
-// A member of the step where it is of a kind; one that is optional itself stays so.
+// Empty for a step of another kind. An optional member stays a plain optional.
 template <class Kind, auto member>
 auto part_of(const NumberedEvent& e) {
   const auto* step = std::get_if<Kind>(&e.step());
   return step != nullptr ? std::optional(step->*member) : std::nullopt;
 }
 
-// Every event has every field, so that a script may ask for any; those that do not apply are nil.
+// Every event has every field; fields of other kinds are nil.
 const RecordType<NumberedEvent>& event_type() {
   using E = NumberedEvent;
   using P = Protocol;
@@ -83,7 +80,7 @@ Values events(Call& call) {
 }
 
 Values on(Call& call) {
-  call.object<SpecimenPair>(1, "contact");  // or an error that says what it is instead
+  call.object<SpecimenPair>(1, "contact");  // throws for another type
   auto pair =
       std::static_pointer_cast<SpecimenPair>(call.argument(1).as_object(class_of<SpecimenPair>())->pointer);
   auto run = std::make_shared<ProtocolRun>(call.self<Protocol>(), std::move(pair));
@@ -102,8 +99,6 @@ Values on(Call& call) {
       },
       call.function_name()}};
 }
-
-// --- the recording
 
 struct LoadedSpan : RecordedSpan {
   Dimension unit{};
@@ -203,8 +198,6 @@ Values chart_protocol(Call& call) {
                          Json::object({{"protocol", call.self<Protocol>().digest()}, {"file", file}}));
   return {path};
 }
-
-// --- others from it
 
 struct RepeatedKeys {
   std::int64_t times = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.protocol, and protocols as native values of the language.
+// lab.protocol, and protocols as native values.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,13 @@ namespace asperity::lua {
 template <>
 const Class& class_of<Protocol>();
 
-// lab.protocol.read (protocol_reading.cpp): from a press log, row by row, or from a recording, whose events
-// are detected.
+// protocol_reading.cpp: from a press log, or from a recording by detection of events.
 Function protocol_read_function();
 
-// The list of events that lab.protocol takes (protocol_events.cpp): one table an event, with one key that
-// says what is done and, under it, what the contact's method of that name takes. Throws Error with every
-// problem of the list, each by the number of its event. Nothing if the list is right as far as it is known
-// but holds placeholders of a dry run.
+// The events of lab.protocol (protocol_events.cpp). An event is a table with one key, a contact method, and
+// its arguments as value. Throws one Error with all problems and event numbers. Nothing if a correct list
+// contains placeholders.
 std::optional<Protocol> read_protocol(const Argument& list, const std::string& caller);
-// The keys, for the registry.
 const BlockInfo& protocol_keys();
 
 }  // namespace asperity::lua

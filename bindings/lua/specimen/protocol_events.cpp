@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of events that lab.protocol takes: one table an event, with one key that says what is done and,
-// under it, what the contact's method of that name takes.
+// Reads the list of events of lab.protocol.
 #include <algorithm>
 
 #include "bindings/lua/registry/registry.hpp"
@@ -40,7 +39,6 @@ std::vector<std::string> event_names() {
   return names;
 }
 
-// Reads one event after another and gathers what is wrong with them.
 class EventReader {
  public:
   std::optional<Protocol> read(const Argument& list, const std::string& caller) {
@@ -116,7 +114,7 @@ class EventReader {
     });
   }
 
-  // The one key of an event's table; "" after a problem.
+  // "" after a problem.
   std::string only_key(const Argument& event) {
     const std::vector<std::string> names = event_names();
     std::vector<std::string> known, unknown;
@@ -139,7 +137,7 @@ class EventReader {
     return known.size() == 1 && unknown.empty() && !unnamed ? known.front() : std::string();
   }
 
-  // A key that names no event: perhaps one that belongs a table deeper.
+  // An unknown key may belong inside the event's own table.
   static std::string stranger(const std::string& name, const std::vector<std::string>& known) {
     for (const OptionInfo& info : infos()) {
       if (info.inner == nullptr) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.protocol.read: a protocol from a press log, row by row, or from a recording, whose events are detected.
+// lab.protocol.read: press logs and recordings.
 #include <cmath>
 
 #include "bindings/lua/registry/registry.hpp"
@@ -34,7 +34,7 @@ struct ReadProtocolKeys : TableForm {
   }
 };
 
-// A load or a pressure, as the recording has it.
+// A load or a pressure, like the recording.
 Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadProtocolKeys::*member,
                                  bool signed_value, std::string sentence) {
   return custom<ReadProtocolKeys>(
@@ -144,7 +144,7 @@ DetectionOptions detection_options(const ReadProtocolKeys& keys, const PressReco
   return options;
 }
 
-// The loads of a whole specimen as mean pressures.
+// Loads on the whole specimen become mean pressures.
 Protocol over_area(const Protocol& protocol, const std::optional<double>& area) {
   if (!area) return protocol;
   std::vector<Protocol::Event> events(protocol.events().begin(), protocol.events().end());

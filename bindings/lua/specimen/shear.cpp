@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact:shear and its result: a contact under load that is pulled sideways by less than makes it slide.
+// contact:shear: partial slip under normal load.
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/registry/record.hpp"
@@ -17,7 +17,7 @@ struct ShearKeys {
   std::shared_ptr<JunctionLaw> law;
 };
 
-// A coefficient, or a law.
+// A coefficient or a friction law.
 void read_friction(const Argument& value, const OptionInfo& info, ShearKeys& keys, Problems& problems) {
   Object* object = value.as_object(class_of<JunctionLaw>());
   if (object == nullptr) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of areal parameters: one row each, with the discretisation in its sentence. A group (heights,
-// slopes, curve, hills, texture) is computed when a script first reads a field of it.
+// Fields of areal parameters: one row each, with the discretisation in the sentence. A group (heights,
+// slopes, curve, hills, texture) is computed on first access.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -34,7 +34,7 @@ Number known(const std::optional<TextureAspect>& texture, Number TextureAspect::
 Number known(const std::optional<TextureDirection>& direction, double TextureDirection::*member) {
   return direction ? Number((*direction).*member) : Number();
 }
-// Where all heights are equal these are no numbers.
+// Undefined for equal heights.
 Number unless_flat(const Parameters& p, Number value) { return p.flat() ? Number() : value; }
 Number of_hills(const Parameters& p, Number value) {
   return p.has_inside() ? unless_flat(p, value) : Number();
@@ -142,8 +142,6 @@ Values areal_number(Call& call) {
   return {Value(row->value(call.self<Parameters>()))};
 }
 
-// --- the calls that make them
-
 const Block<ArealPreparation>& areal_block() {
   using O = ArealPreparation;
   static const Block<O> block{
@@ -191,8 +189,6 @@ Values bearing_of(Call& call) {
   return {object(MaterialRatioCurve(call.self<Surface>().measured_heights().values()))};
 }
 Values autocorrelation_of(Call& call) { return {object(Autocorrelation(call.self<Surface>()))}; }
-
-// --- by scale
 
 struct ScaleDependenceKeys {
   ScaleQuantity of = ScaleQuantity::slope;
@@ -260,7 +256,7 @@ Values scale_dependence_of(Call& call) {
   const int along = keys.along == ScaleAxis::x ? surface.grid().nx : surface.grid().ny;
   if (keys.cells.empty())
     for (int l = 1; l <= std::max(1, along / 4); l *= 2) keys.cells.push_back(l);
-  // Blocks by the same distances, the narrowest first.
+  // For heights, `cells` counts blocks, so the largest count has the narrowest blocks.
   if (keys.of == ScaleQuantity::height)
     std::sort(keys.cells.rbegin(), keys.cells.rend());
   else
@@ -311,8 +307,6 @@ Values reliability_of(Call& call) {
   return {reliability_type()(TipCutOffs{tip_cut_off(surface, ScaleAxis::x, keys.tip, keys.share),
                                         tip_cut_off(surface, ScaleAxis::y, keys.tip, keys.share)})};
 }
-
-// --- the material ratio curve and the autocorrelation as values
 
 Values curve_height(Call& call) { return {call.self<MaterialRatioCurve>().height(call.number(1, "ratio"))}; }
 Values curve_ratio(Call& call) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields over the nodes of a grid as native values of the language: what a state knows of each node, and
-// which points of a surface were measured.
+// Fields over grid nodes as native values: results of a state, masks of measured points.
 #pragma once
 
 #include <memory>
@@ -14,7 +13,6 @@
 
 namespace asperity::lua {
 
-// A field over a tile, with what it is.
 struct NamedField {
   std::string name;
   Grid grid;
@@ -25,7 +23,7 @@ struct NamedField {
 template <>
 const Class& class_of<NamedField>();
 
-// The keys of a picture, shared by surfaces and fields.
+// Picture options of surfaces and fields.
 const Block<PictureOptions>& picture_block();
 
 }  // namespace asperity::lua

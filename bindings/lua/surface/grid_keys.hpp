@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Materials as native values of the language, and the keys that nearly every surface generator takes:
-// `cells`, `size`, `material`.
+// Materials as native values, and the keys shared by surface generators: `cells`, `size`, `material`.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,7 @@ namespace asperity::lua {
 template <>
 const Class& class_of<Material>();
 
-// lab.material, lab.materials and lab.rigid (material.cpp).
+// Defined in material.cpp.
 Function material_function();
 Value materials_list();
 Value rigid_value();

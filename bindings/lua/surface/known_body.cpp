@@ -17,12 +17,12 @@ namespace asperity::lua {
 
 namespace {
 
-// The methods of a surface that keep its cells and size.
+// Methods of a surface that preserve its grid.
 constexpr std::array<std::string_view, 11> keeps_grid = {"scaled", "shifted",  "mirrored", "plus",
                                                          "minus",  "levelled", "filtered", "cut",
                                                          "with",   "masked",   "filled"};
 
-// From `cells` and `size` of a table that holds other keys too.
+// Reads `cells` and `size`; ignores other keys.
 std::optional<Grid> grid_in(const Argument& table) {
   GridKeys keys;
   Problems problems;
@@ -38,7 +38,7 @@ std::optional<Grid> grid_in(const Argument& table) {
   try {
     return keys.make();
   } catch (const Error&) {
-    return {};  // the call itself says what is wrong with it
+    return {};  // the call reports the error
   }
 }
 

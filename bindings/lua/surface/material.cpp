@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.material: a named material, or a table of properties.
+// lab.material: a known name or a table of properties.
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 

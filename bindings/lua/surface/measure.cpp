@@ -190,7 +190,7 @@ void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double
     call.session().monitor().warn(where(call.L) + call.function_name() + ": " + quoted(key) + " is " +
                                   format_quantity(wave, dimension::length) + ", and " + why);
   };
-  // A cut-off given as the length itself, computed another way, is that length.
+  // Tolerance for a cut-off equal to the length up to rounding.
   constexpr double rounding = 1e-9;
   if (filter.long_wave && std::isfinite(*filter.long_wave) && *filter.long_wave > length * (1 + rounding))
     warn("long_wave", *filter.long_wave,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The measuring methods that surfaces and profiles share: roughness, spectrum, fractal dimension,
-// levelling and filtering, each with one option block.
+// Methods shared by surfaces and profiles: roughness, spectrum, fractal dimension, levelling, filtering.
 #pragma once
 
 #include "bindings/lua/registry/options.hpp"
@@ -12,7 +11,7 @@
 
 namespace asperity::lua {
 
-// Profile names (Ra …), and of surfaces also the areal ones (Sa, Sq, Sz, Ssk, Sku, Sdq).
+// Profile names (Ra …); for surfaces also areal names (Sa, Sq, Sz, Ssk, Sku, Sdq).
 const RecordType<Roughness>& roughness_type(bool areal);
 struct MeasuredSpectrum : Spectrum {
   bool areal = false;
@@ -26,11 +25,10 @@ struct LevelKeys {
 const Block<SpectrumOptions>& spectrum_block();
 const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface);
 const Block<GaussianFilter>& filter_block();
-// Warns of a cut-off that lies past every wave that heights of this length and spacing can carry.
+// Warns of a cut-off outside the wavelengths of heights with this length and spacing.
 void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double length, double spacing);
 const Block<LevelKeys>& level_block();
 
-// `fraction` of cut{fraction=}.
 struct CutKeys {
   double fraction = 0;
 };

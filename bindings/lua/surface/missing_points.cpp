@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What surfaces and profiles have for points that were not measured: how many were, which, more of them by a
-// mask, a function or a rule for outliers, and heights in their place.
+// Unmeasured points of surfaces and profiles: count and mask; masking by mask, function or outlier rule;
+// filling.
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,8 +27,6 @@ Value mask_field(const Grid& grid, Field mask) {
       NamedField{"measured", grid, std::make_shared<const Field>(std::move(mask)), dimension::number});
 }
 
-// --- outliers
-
 struct OutlierKeys : OutlierRule {
   enum class Rule { mad } rule = Rule::mad;
 };
@@ -53,7 +51,6 @@ const Block<OutlierKeys>& outliers_block() {
   return block;
 }
 
-// What a rule found, with what it was.
 struct FoundOutliers {
   OutlierRule rule;
   Outliers found;
@@ -104,7 +101,7 @@ Values outliers_of_profile(Call& call) {
   return {found_type(false)({keys, find_outliers(p, keys), {}, static_cast<std::int64_t>(p.measured())})};
 }
 
-// Outliers that a script has taken away are told of, so that none go unseen.
+// Warns, so that removed outliers stay visible.
 void tell_of(const Call& call, const OutlierRule& rule, const Outliers& found, std::size_t measured) {
   if (found.marked == 0) return;
   call.session().monitor().warn(where(call.L) + call.function_name() + ": " + std::to_string(found.marked) +
@@ -115,13 +112,11 @@ void tell_of(const Call& call, const OutlierRule& rule, const Outliers& found, s
                                 " from what is around them, and count as not measured from here on");
 }
 
-// --- masks
-
 struct MaskKeys {
-  bool where = false;  // the function itself is called beside the call
+  bool where = false;  // the caller reads the function
   std::optional<OutlierKeys> outliers;
   std::shared_ptr<const NamedField> mask;
-  std::optional<Array<double>> samples;  // the mask of a profile
+  std::optional<Array<double>> samples;  // mask of a profile
 };
 
 Option<MaskKeys> where_key(const char* wanted, const char* sentence) {
@@ -247,8 +242,6 @@ Values mask_profile(Call& call) {
   });
   return {object(masked(p, mask))};
 }
-
-// --- filling
 
 struct FillKeys {
   enum class By { nothing, interpolate } by = By::nothing;

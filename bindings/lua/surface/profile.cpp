@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profiles: lab.profile and the methods of a profile.
+// lab.profile and the class of profiles.
 #include <numbers>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -32,7 +32,7 @@ Values positions(Call& call) {
   return {profile_numbers(x)};
 }
 
-// x and y of a closed outline about its centre.
+// Coordinates of a closed outline about its centre.
 Values outline(Call& call) {
   const Profile& p = call.self<Profile>();
   if (!p.closed())
@@ -105,7 +105,7 @@ const Block<ReadProfileOptions>& read_profile_block() {
 Values read_profile_file(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadProfileOptions options = call.options(read_profile_block(), 2);
-  // Its size is known before its digest: what does not fit into memory is not read through for nothing.
+  // The size check precedes the digest, so that a file too large for memory is not read.
   const SourceFile file(path, call.session().monitor());
   note_input(call, path);
   return {object(read_profile(file, options, call.session().monitor()))};

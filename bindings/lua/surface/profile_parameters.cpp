@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// p:profile_parameters{...}: the parameters of ISO 21920-2 of a trace, filtered and cut into sections as ISO
-// 21920-3 has it; p:primary_parameters{...}: those of the trace without an L-filter.
+// p:profile_parameters{...}: ISO 21920-2 parameters of a trace, filtered and sectioned by ISO 21920-3.
+// p:primary_parameters{...}: parameters without an L-filter.
 #include <cctype>
 #include <string>
 #include <utility>
@@ -74,7 +74,7 @@ struct MeasuredProfile {
   double section;
 };
 
-// "Rz" of the roughness profile is "Pz" of the primary one, in sentences too.
+// Converts "Rz" of the roughness profile to "Pz", also in sentences.
 std::string named_of(char kind, std::string text) {
   for (std::size_t k = 0; k + 1 < text.size(); ++k) {
     const bool begins = k == 0 || text[k - 1] == ' ' || text[k - 1] == '_';
@@ -84,7 +84,7 @@ std::string named_of(char kind, std::string text) {
   return text;
 }
 
-// What both profiles have, under the letter of the one.
+// Fields of both profiles, with the profile's letter.
 std::vector<RecordField<MeasuredProfile>> fields_of(char kind) {
   using M = MeasuredProfile;
   const auto sectioned = [](SectionedValue ProfileParameters::*member) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// s:registered_to(before): the method of surfaces, and the record that it gives.
+// s:registered_to(before) and its record.
 #include "engine/metrology/registration.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of a surface, and its methods that measure and record; those that make other surfaces and
-// profiles are in surface_operations.cpp.
+// Fields of a surface and the methods that measure and write. surface_operations.cpp has the methods that
+// return surfaces and profiles.
 #include <algorithm>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -24,7 +24,7 @@ Values surface_height(Call& call) {
 
 Values heights(Call& call) {
   const Surface surface = call.self<Surface>();
-  // The field lives in the surface; the pointer shares its ownership.
+  // The pointer to the field shares ownership of the surface.
   auto holder = std::make_shared<const Surface>(surface);
   return {Value::Rows(holder, &holder->measured_heights())};
 }
@@ -51,8 +51,6 @@ Values filtered(Call& call) {
 Values level(Call& call) {
   return {object(levelled(call.self<Surface>(), call.options(level_block()).degree))};
 }
-
-// --- files
 
 Values write_surface(Call& call) {
   const std::string name = call.text(1, "path");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys of surfaces that are made in one process (lab.surface) or in slabs over several (lab.spread).
+// Keys of surfaces made in one process (lab.surface) or in slabs over several (lab.spread).
 #pragma once
 
 #include <vector>
@@ -64,7 +64,7 @@ inline void check_self_affine_keys(SelfAffineKeys& keys, Problems& problems) {
   if (problems.empty()) require_makeable(keys);
 }
 
-// `height` is only checked here: who calls it stands beside the call.
+// `height` is only checked here; the caller reads the function.
 inline std::vector<Option<GridKeys>> from_function_keys() {
   return {cells_key().required(), size_key().required(),
           custom<GridKeys>("height", "function", "function(x, y) returning the height, all in metres",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.surface: the generators, and surfaces from functions, tables and files.
+// lab.surface: generators, and surfaces from functions, tables and files.
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
@@ -22,14 +22,12 @@ Values result(Surface surface, const std::optional<Material>& material) {
   return {object(material ? surface.with_material(*material) : std::move(surface))};
 }
 
-// What a generator makes of keys that extend its options.
+// Result of a generator whose keys extend its options.
 template <auto block, auto generate>
 Values made(Call& call) {
   const auto keys = call.options(block());
   return result(generate(keys, call.session().monitor()), keys.body_material);
 }
-
-// --- weierstrass_mandelbrot
 
 const Block<WeierstrassMandelbrotOptions>& weierstrass_mandelbrot_block() {
   static const Block<WeierstrassMandelbrotOptions> block{
@@ -49,8 +47,6 @@ Values weierstrass_mandelbrot_body(Call& call) {
   }
   return {object(weierstrass_mandelbrot(keys, call.session().monitor()))};
 }
-
-// --- the simple shapes
 
 const Block<SineKeys>& sine_block() {
   static const Block<SineKeys> block{"lab.surface.sine", sine_keys(), check_sine_keys};
@@ -91,8 +87,6 @@ const Block<SelfAffineKeys>& self_affine_block() {
                                            check_self_affine_keys};
   return block;
 }
-
-// --- bead_blasted
 
 const Block<BlastTexture>& texture_block() {
   using O = BlastTexture;
@@ -171,8 +165,6 @@ Values grain_profile_body(Call& call) {
   return {object(grain_profile(call.options(grain_profile_block()), call.session().monitor()))};
 }
 
-// --- from functions and tables
-
 const Block<GridKeys>& from_function_block() {
   static const Block<GridKeys> block{"lab.surface.from_function", from_function_keys()};
   return block;
@@ -186,8 +178,8 @@ Field heights_of(const Callback& height, const Grid& grid, Monitor& monitor) {
   return heights;
 }
 
-// A function of the script, for a recipe. Only native calls from the same state can call the function, which
-// must repeat its height at the same place.
+// A script function in a recipe. Only native calls from the same state may call the function, which must
+// return equal heights at equal places.
 class HeldFunction {
  public:
   HeldFunction(const Argument& function, const Grid& grid, const Field& heights)
@@ -302,8 +294,6 @@ Values from_table_body(Call& call) {
   return result(Surface(grid, std::move(heights)), keys.body_material);
 }
 
-// --- from files
-
 Listing formats_listing() {
   Listing listing{
       "Formats", {"format", "endings", "read", "refused", "checked against", "first line stored"}, {}};
@@ -331,7 +321,7 @@ const Block<ReadOptions>& read_block() {
 Values read_body(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadOptions options = call.options(read_block(), 2);
-  // Its size is known before its digest: what does not fit into memory is not read through for nothing.
+  // The size check precedes the digest, so that a file too large for memory is not read.
   const SourceFile file(path, call.session().monitor());
   note_input(call, path);
   return {object(read_surface(file, options, call.session().monitor()))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The methods of a surface that make other surfaces and profiles of it.
+// Methods and operators that return surfaces and profiles.
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
@@ -66,9 +66,6 @@ Values subtract_surfaces(Call& call) {
   return {object(minus(call.self<Surface>(), call.object<Surface>(1, "other")))};
 }
 
-// --- operators: the two sides are the arguments
-
-// The two surfaces of a sum or a difference.
 Values of_two_surfaces(const Call& call, Surface (*combine)(const Surface&, const Surface&)) {
   const auto* a = call.argument(1).as<Surface>();
   const auto* b = call.argument(2).as<Surface>();
@@ -83,7 +80,7 @@ Values sum_of(Call& call) { return of_two_surfaces(call, plus); }
 Values difference_of(Call& call) { return of_two_surfaces(call, minus); }
 Values negative_of(Call& call) { return {object(times(call.object<Surface>(1, "a"), -1))}; }
 
-// A factor is a plain number: heights times a length would be an area.
+// Factors are plain numbers: a height times a length would be an area.
 Values multiple_of(Call& call) {
   const bool number_first = call.argument(1).is_number();
   const Argument factor = call.argument(number_first ? 1 : 2);
@@ -164,8 +161,6 @@ const Block<WithKeys>& with_block() {
 Values with(Call& call) {
   return {object(call.self<Surface>().with_material(*call.options(with_block()).material))};
 }
-
-// --- lines
 
 struct ProfileKeys {
   std::optional<double> row, column;

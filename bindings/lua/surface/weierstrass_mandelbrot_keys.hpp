@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys of a Weierstrass–Mandelbrot surface, for the generator and for its exact heights. A function given
-// as `phases` is only noted: who calls it stands beside the call.
+// Keys of a Weierstrass–Mandelbrot surface, for generator and exact heights. A `phases` function is only
+// noted; the caller reads it.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace asperity::lua {
 
-// K is WeierstrassMandelbrotOptions or extends it.
+// K: WeierstrassMandelbrotOptions or a derived struct.
 template <class K>
 std::vector<Option<K>> weierstrass_mandelbrot_keys() {
   using O = WeierstrassMandelbrotOptions;

@@ -9,12 +9,12 @@
 namespace asperity {
 
 namespace {
-constexpr int slow_steps = 1;          // that do not halve the bracket, before it is halved
-constexpr double enough_gain = 0.3;    // of what the last step left of the error, that is no slow one
-constexpr int few_short = 2;           // steps that all fall short, before they grow
-constexpr double furthest = 100;       // times the last place, where nothing lies above
-constexpr double off_the_ends = 0.01;  // of the bracket, that a chord through its ends keeps away from them
-constexpr double near_the_end = 0.3;   // of the end there was at first
+constexpr int slow_steps = 1;          // slow steps before the bracket is halved
+constexpr double enough_gain = 0.3;    // error ratio below which a step is not slow
+constexpr int few_short = 2;           // steps in a row below the target before steps grow
+constexpr double furthest = 100;       // largest ratio to the last place
+constexpr double off_the_ends = 0.01;  // fraction of the bracket between a chord step and its ends
+constexpr double near_the_end = 0.3;   // fraction of the initial upper end
 constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
 
@@ -38,7 +38,7 @@ double BracketedSecant::secant() const {
   const auto ratio = [](double x, double y) { return elementary::log(x / y); };
   if (scale_ == Scale::logarithmic && end_.value < unknown && last_.at > near_the_end * end_.at &&
       last_.at < end_.at && last_.value < end_.value) {
-    // By what is lacking of the end, from which a function may go off as any power.
+    // From the deficits to the end, which f may approach as any power.
     const double lacks = end_.at - last_.at, power = [&] {
       if (first || !(before_.at < end_.at && before_.value < end_.value)) return usual_power;
       return ratio(end_.value - last_.value, end_.value - before_.value) / ratio(lacks, end_.at - before_.at);
@@ -53,8 +53,7 @@ double BracketedSecant::secant() const {
     const double by_power = elementary::pow(wanted_ / last_.value, usual_power);
     double factor = by_power;
     if (end_.value < unknown && last_.value < wanted_ && last_.at < end_.at) {
-      // A function that flattens out towards its end goes further than by the usual power, and no further
-      // than along the chord to the end: between the two.
+      // Between the usual power and the chord to the end, for an f that flattens near its end.
       const double chord = ratio(end_.value, last_.value) / ratio(end_.at, last_.at);
       const double by_chord = elementary::exp(ratio(wanted_, last_.value) / chord);
       factor = std::sqrt(by_power * std::max(by_power, by_chord));
@@ -105,7 +104,7 @@ std::optional<double> BracketedSecant::next() {
   double place = secant();
   const auto inside = [&](double x) { return holds(x); };
   if (!std::isfinite(high_.at)) {
-    // A step for each that fell short is one more of those that grow.
+    // Each further short step doubles the growth.
     if (short_of_it_ > few_short && place > last_.at)
       place = last_.at + std::ldexp(place - last_.at, short_of_it_ - few_short);
     if (!inside(place)) place = 2 * std::max(low_.at, last_.at);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each fast function makes its value as high + low, with an error that a bound holds; if high + (low ± bound)
-// round alike, that is the result, else MPFR decides. Arguments are reduced by tables until three or four
-// terms of a series are enough, the first one or two of them exact. MPFR also takes what is rare: huge
-// angles, subnormal results, zeros and infinities.
+// A fast function computes high + low with an error bound. If high + (low ± bound) round alike, this is the
+// result; otherwise MPFR decides. Tables reduce the argument to three or four terms of a series, the first
+// one or two exact. MPFR also handles huge angles, subnormal results, zeros and infinities.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <mpfr.h>
@@ -28,12 +27,12 @@ constexpr auto reciprocal_table = elementary_tables::reciprocals();
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// MPFR keeps π and log 2 per thread; a thread that ends would leave them behind.
+// Frees MPFR's constants at thread exit.
 struct ThreadConstants {
   ~ThreadConstants() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
 };
 
-// A function of MPFR, rounded once, subnormal results too.
+// One rounding, also for subnormal results.
 template <class Function, class... Arguments>
 [[gnu::noinline]] double rounded_slowly(Function function, Arguments... arguments) {
   thread_local const ThreadConstants constants{};
@@ -68,21 +67,20 @@ template <class Function, class... Arguments>
   return mpfr_get_d(result.value, MPFR_RNDN);
 }
 
-// A value not rounded yet: high + low, wrong by `bound` at most.
+// error| <= bound.
 struct Unrounded {
   double high, low, bound;
 };
 
-// Whether both ends of the bound round alike; `result` is one of them.
+// Whether both ends of the bound round to `result`.
 inline bool decided(const Unrounded& value, double& result) {
   result = value.high + (value.low - value.bound);
   return result == value.high + (value.low + value.bound);
 }
 
-// A logarithm: high + low, wrong by 2^-67 of itself at most.
-//
-// x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is exact in two parts: log x = e ln 2 + log c +
-// r − r²/2 + r³/3 … The first three are summed exactly, and r² from a short part of r.
+// log x with a relative error of at most 2^-67. x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is
+// exact in two parts: log x = e ln 2 + log c + r − r²/2 + r³/3 … The first three terms are summed exactly,
+// with r² from a short part of r.
 inline Pair logarithm(double x, double x_low = 0) {
   constexpr std::uint64_t first = 0x3fe6800000000000;  // 360/512
   constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
@@ -112,9 +110,8 @@ inline Pair logarithm(double x, double x_low = 0) {
   return {square.high, (linear.low + square.low) + low};
 }
 
-// 2^k (high + low), high in [0.99, 2), wrong by 2^-67 at most; |x| < 2^16, x_low small beside it.
-//
-// x = (128 k + j) ln 2/128 + r: e^x = 2^k 2^(j/128) (1 + r + r²/2 …), the second factor exact in a short
+// e^x = 2^k (high + low), high in [0.99, 2), error at most 2^-67; |x| < 2^16, |x_low| small compared with
+// |x|. x = (128 k + j) ln 2/128 + r: e^x = 2^k 2^(j/128) (1 + r + r²/2 …), the second factor exact in a short
 // part, times a short part of r.
 struct Power {
   double high, low;
@@ -143,8 +140,8 @@ inline double times_power_of_two(double x, std::int64_t k) {
 
 constexpr double power_error = 0x1p-66;
 
-// An angle x = (256 q + j) π/512 + high + low, |high| < π/1023. False where the parts would be too short:
-// near multiples of π/2, or x is huge.
+// x = (256 q + j) π/512 + high + low, |high| < π/1023. False near multiples of π/2, where the parts would be
+// too short, and for huge x.
 struct Angle {
   double high, low;
   unsigned quarter, j;
@@ -169,7 +166,7 @@ inline bool reduce(double x, Angle& angle) {
   return true;
 }
 
-// s + c b − s b²/2 − c b³/6 … = s cos b + c sin b, s > 2^-8; wrong by 2^-66 of itself at most.
+// s + c b − s b²/2 − c b³/6 … = s cos b + c sin b, s > 2^-8; relative error at most 2^-66.
 inline Unrounded turned(const Pair& s, const Pair& c, double sign, const Angle& b) {
   const double z = b.high, z2 = z * z;
   const double z_short = pairs::to_multiple(z, 0x1p-34);
@@ -182,7 +179,7 @@ inline Unrounded turned(const Pair& s, const Pair& c, double sign, const Angle& 
   return {main.high, main.low + low, main.high * 0x1p-66};
 }
 
-// sin(jπ/512 + b) and cos(jπ/512 + b), as `quarter` has none.
+// sin and cos of jπ/512 + b.
 inline Unrounded sine_of(const Angle& b) {
   if (b.j == 0) {
     const double z = b.high, z2 = z * z;
@@ -193,7 +190,7 @@ inline Unrounded sine_of(const Angle& b) {
 }
 inline Unrounded cosine_of(const Angle& b) { return turned(sine_table[256 - b.j], sine_table[b.j], -1, b); }
 
-// sin (or cos, a quarter on) of the reduced angle; false where undecided.
+// sin or, one quarter on, cos of the angle; false if undecided.
 inline bool sine_in_quarter(const Angle& angle, unsigned quarter, double& result) {
   const bool settled = decided(quarter % 2 == 0 ? sine_of(angle) : cosine_of(angle), result);
   if (quarter >= 2) result = -result;
@@ -204,14 +201,14 @@ inline bool is_normal_positive(double x) {
   return x >= std::numeric_limits<double>::min() && x <= std::numeric_limits<double>::max();
 }
 
-// √(square.high + square.low) as high + low, wrong by 2^-100 of itself.
+// √(square.high + square.low), relative error 2^-100.
 inline Pair root_of(const Pair& square) {
   const double root = std::sqrt(square.high);
   const Pair back = pairs::product(root, root);
   return {root, ((square.high - back.high) - back.low + square.low) / (2 * root)};
 }
 
-// log x, by what log1p, log2 and log10 share.
+// scale·log x.
 inline double scaled_logarithm(double x, const Pair& scale, bool& settled) {
   const Pair ln = logarithm(x);
   const Pair p = pairs::product(ln.high, scale.high);
@@ -358,7 +355,7 @@ double hypot(double x, double y) {
     double long_side = std::abs(x), short_side = std::abs(y);
     if (long_side < short_side) std::swap(long_side, short_side);
     if (short_side <= long_side * 0x1p-28) {
-      // Half a last place is at least 2^-54 of the longer side, the shorter adds 2^-57 of it at most.
+      // Half a last place is at least 2^-54 of the longer side; the shorter adds at most 2^-57.
       if (short_side == 0 || long_side >= 0x1p-900) return long_side;
     } else if (long_side >= 0x1p-960 && long_side <= 0x1p1022) {
       const std::uint64_t exponent = std::bit_cast<std::uint64_t>(long_side) >> 52;

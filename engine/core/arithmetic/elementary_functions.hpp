@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions, correctly rounded: each returns the double nearest to the exact value (ties to even),
-// so that a result is the same bits on every processor, with every compiler and C library. The C library's
-// own are not: they choose by the processor whether to fuse multiply and add, and differ in the last bit.
-// Method: Ziv's (1991), tables and short polynomials in pairs of doubles that carry 66 bits or more, and MPFR
-// for the one argument in some thousands whose rounding these do not decide. What IEEE 754 rounds exactly
-// (sqrt, fma, fmod, remainder, ldexp, floor) is not here.
+// Correctly rounded elementary functions (nearest, ties to even): the same bits with every processor,
+// compiler and C library. C libraries select fused multiply-add by processor and differ in the last bit.
+// Method: Ziv (1991), with tables and short polynomials in pairs of doubles (66 bits or more); MPFR decides
+// about one argument in several thousand. Functions exact by IEEE 754 (sqrt, fma, fmod, ldexp, floor) are
+// omitted.
 //
-// All: thread-safe; the default rounding mode is expected (rounding_mode.hpp); special values, infinities and
-// signed zeros as in C's Annex F; no floating-point exceptions are promised. "Fast": about as fast as the C
-// library's, up to twice its time; "slow": some microseconds.
+// Thread-safe in the default rounding mode (rounding_mode.hpp). Special values follow C's Annex F;
+// floating-point exceptions are not guaranteed. "Fast": up to twice the time of the C library; "slow": some
+// microseconds.
 #pragma once
 
 namespace asperity::elementary {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tables that elementary_functions.cpp interpolates between, to 80 bits or more: powers of 2^(1/128),
-// sines of multiples of π/512, and reciprocals with their logarithms. The compiler computes them, in pairs of
-// doubles. High parts are short, so that their products with a short factor are exact. Included only there.
+// Tables for elementary_functions.cpp, exact to 80 bits or more, computed at compile time. High parts are
+// short, so that products with a short factor are exact.
 #pragma once
 
 #include <array>
@@ -16,7 +15,7 @@ using pairs::Pair;
 inline constexpr Pair ln2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 inline constexpr Pair pi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
-// A value as a multiple of `unit` and the rest.
+// Splits into a multiple of `unit` and the rest.
 constexpr Pair short_high(Pair value, double unit) {
   const double high = pairs::to_multiple(value.high, unit);
   return {high, (value.high - high) + value.low};
@@ -29,7 +28,7 @@ constexpr std::array<Pair, 44> inverses() {
   return table;
 }
 
-// 2^(j/128), j = 0 … 127, multiples of 2^-25 and the rest: Taylor's series of exp(j ln 2/128).
+// 2^(j/128), j = 0 … 127, as multiples of 2^-25 and the rest: Taylor series of exp(j ln 2/128).
 constexpr std::array<Pair, 128> powers_of_two() {
   std::array<Pair, 128> table{};
   const auto inverse = inverses();
@@ -43,7 +42,7 @@ constexpr std::array<Pair, 128> powers_of_two() {
   return table;
 }
 
-// sin(jπ/512), j = 0 … 256, multiples of 2^-26 and the rest: Taylor's series of sine to π/4, beyond of
+// sin(jπ/512), j = 0 … 256, as multiples of 2^-26 and the rest: Taylor series of the sine, beyond π/4 of the
 // cosine.
 constexpr std::array<Pair, 257> sines() {
   std::array<Pair, 257> table{};
@@ -65,8 +64,8 @@ constexpr std::array<Pair, 257> sines() {
 }
 
 // 1/c, a multiple of 2^-9, and log c, a multiple of 2^-42 and the rest, for c near the middle of interval i
-// of a significand in [360/512, 720/512): [360 + i, 361 + i)/512 below 1, i = 0 … 151, and [104 + i, 105 +
-// i)/256 from 1 on, i = 152 … 255. Both intervals beside 1 have c = 1.
+// of a significand in [360/512, 720/512): [360 + i, 361 + i)/512 for i = 0 … 151, below 1, and [104 + i, 105
+// + i)/256 for i = 152 … 255. Both intervals next to 1 have c = 1.
 struct Reciprocal {
   double reciprocal, log_high, log_low;
 };

@@ -21,7 +21,6 @@ namespace asperity {
 
 namespace {
 
-// A number of fixed precision, freed with its scope.
 class Real {
  public:
   explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
@@ -34,7 +33,7 @@ class Real {
   mpfr_t value_;
 };
 
-// MPFR keeps π per thread; a thread that ends would leave it behind.
+// Frees MPFR's π at thread exit.
 struct CacheGuard {
   ~CacheGuard() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
 };
@@ -51,8 +50,8 @@ class Integer {
   mpz_t value_;
 };
 
-// cos(π·part/whole) for 0 ≤ part ≤ whole. Its only rational values (Niven) are taken exactly, and
-// the second quadrant is the mirror image of the first to the last bit.
+// cos(π·part/whole) for 0 ≤ part ≤ whole. Rational values (Niven) are exact; the second quadrant mirrors the
+// first to the last bit.
 void set_cosine(mpfr_ptr result, long part, long whole) {
   if (2 * part > whole) {
     set_cosine(result, whole - part, whole);
@@ -71,12 +70,12 @@ void set_cosine(mpfr_ptr result, long part, long whole) {
   }
 }
 
-// floor(2⁶⁴·turns + ½) modulo 2⁶⁴; `turns` is used up.
+// floor(2⁶⁴·turns + ½) modulo 2⁶⁴; overwrites `turns`.
 std::uint64_t fraction_of_turn(mpfr_ptr turns, mpz_ptr whole) {
   mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
   mpfr_add_d(turns, turns, 0.5, MPFR_RNDN);
   mpfr_get_z(whole, turns, MPFR_RNDD);
-  // GMP hands out the low word of the magnitude, whatever the sign.
+  // GMP returns the low word without the sign.
   static_assert(sizeof(unsigned long) == sizeof(std::uint64_t));
   const std::uint64_t low = mpz_get_ui(whole);
   return mpz_sgn(whole) < 0 ? 0 - low : low;
@@ -104,7 +103,7 @@ void check(double gamma, double span, int cells, int directions, int n_max) {
                 "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
 }
 
-// Turns per grid step under which the 64-bit fractions would show their own grain in the heights.
+// For fewer turns per grid step, the grain of the fractions would show in the heights.
 constexpr double smallest_step = 0x1p-32;
 
 mpfr_prec_t precision(double gamma, double span, int n_max) {
@@ -117,8 +116,7 @@ mpfr_prec_t precision(double gamma, double span, int n_max) {
 }  // namespace
 
 UnitPhase unit_phase(std::uint64_t turns) {
-  // Within an eighth of a turn of the nearest quarter the angle is as exact as a double can be, and
-  // quarters only swap and negate.
+  // Near a quarter, the angle is exact to double precision; quarters only swap and negate.
   const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
   const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);
@@ -139,7 +137,7 @@ int greatest_wave_order(double gamma) {
   const double octaves = elementary::log2(gamma);
   if (!(octaves * max_wave_order > max_wave_octaves)) return max_wave_order;
   int order = static_cast<int>(max_wave_octaves / octaves);
-  // The quotient may round either way across a whole number; the product decides.
+  // The quotient may round across an integer; the product decides.
   while ((order + 1) * octaves <= max_wave_octaves) ++order;
   while (order * octaves > max_wave_octaves) --order;
   return order;
@@ -150,7 +148,7 @@ PhaseIncrements phase_increments(double gamma, double span, int cells, int direc
   const CacheGuard guard;
   const mpfr_prec_t bits = precision(gamma, span, n_max);
 
-  // Direction m's sine is the cosine of |M − 2m| / 2M of a half turn. Only m ≤ M/2 is computed.
+  // The sine of direction m is the cosine of |M − 2m|/2M of a half turn. Only m ≤ M/2 is computed.
   const int half = directions / 2;
   std::vector<std::unique_ptr<Real>> cosines, sines;
   auto add_direction = [&](long m) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of doubles, high + low, that carry about 106 bits: the exact sum and product of two doubles (Dekker
-// 1971, Knuth, Møller), and as much arithmetic of pairs as tables take. constexpr, so that compilers compute
-// tables of it. Rounding to nearest, no overflow, and no contraction of a*b+c.
+// Pairs of doubles, high + low, about 106 bits: exact sum and product of doubles (Dekker 1971, Knuth,
+// Møller), and constexpr arithmetic for tables. Requires rounding to nearest, no overflow, and no contraction
+// of a*b+c.
 #pragma once
 
 #if defined(__FMA__)
@@ -12,10 +12,10 @@
 namespace asperity::pairs {
 
 struct Pair {
-  double high, low;  // |low| is at most half a last place of `high`, unless said otherwise
+  double high, low;  // |low| is at most half a last place of `high`, except as noted
 };
 
-// a + b exactly, where a is 0, |a| >= |b|, or a is a multiple of b's last place.
+// a + b exactly if a is 0, |a| >= |b|, or a is a multiple of b's last place.
 constexpr Pair quick_sum(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
@@ -28,8 +28,8 @@ constexpr Pair sum(double a, double b) {
   return {s, (a - (s - part)) + (b - part)};
 }
 
-// a·b exactly, for products of 2^-960 … 2^990 and factors under 2^990. The error of a product is a double: a
-// fused multiply and add finds the same one, in one step.
+// a·b exactly, for products of 2^-960 … 2^990 and factors below 2^990. The error is a double, also found by
+// fused multiply-add.
 constexpr Pair product(double a, double b) {
   const double p = a * b;
 #if defined(__FMA__)
@@ -63,7 +63,7 @@ constexpr Pair over(Pair a, Pair b) {
   return plus(result, {left.high / b.high, 0});
 }
 
-// The multiple of `unit`, a power of two, that is nearest to x; |x| under 2^51 units.
+// The multiple of `unit`, a power of two, nearest to x; |x| < 2^51 units.
 constexpr double to_multiple(double x, double unit) {
   const double shift = 0x1.8p52 * unit;
   return (x + shift) - shift;

@@ -9,7 +9,7 @@
 namespace asperity {
 
 Stream::Stream(std::uint64_t seed, std::string_view name) : key_(splitmix64(seed, 0)) {
-  // FNV-1a of the name, then one SplitMix64 step to spread it.
+  // FNV-1a hash of the name, then one SplitMix64 step.
   std::uint64_t hash = 0xCBF29CE484222325ULL;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
   key_ = splitmix64(key_ ^ hash, 0);
@@ -17,7 +17,7 @@ Stream::Stream(std::uint64_t seed, std::string_view name) : key_(splitmix64(seed
 
 std::uint64_t Stream::below(std::uint64_t k, std::uint64_t n) const {
   __extension__ using Wide = unsigned __int128;
-  // High half of a 64 × 64 bit product; the bias is below n/2⁶⁴.
+  // High half of the 128-bit product; the bias is below n/2⁶⁴.
   return static_cast<std::uint64_t>((static_cast<Wide>(bits(k)) * n) >> 64);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers by key, not by sequence: draw k of a stream is SplitMix64 of the stream's seed
-// and k, so a mode or a feature keeps its draw on any grid, in any order, on any thread.
-// Source: Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
+// Counter-based random numbers: draw k is SplitMix64 of the stream's seed and k, independent of grid, order
+// and thread. Source: Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
 #pragma once
 
 #include <cstdint>
@@ -9,7 +8,7 @@
 
 namespace asperity {
 
-// Output k (from 0) of SplitMix64 started at `seed`.
+// From k = 0.
 constexpr std::uint64_t splitmix64(std::uint64_t seed, std::uint64_t k) {
   std::uint64_t s = seed + (k + 1) * 0x9E3779B97F4A7C15ULL;
   s = (s ^ (s >> 30)) * 0xBF58476D1CE4E5B9ULL;
@@ -20,7 +19,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t seed, std::uint64_t k) {
 // In [0, 1), 53 bits.
 constexpr double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
-// A named stream of a seed: streams of different names are independent.
+// Streams of different names are independent.
 class Stream {
  public:
   Stream(std::uint64_t seed, std::string_view name);
@@ -28,7 +27,7 @@ class Stream {
   // In [0, 1).
   double uniform(std::uint64_t k) const { return unit_interval(bits(k)); }
   double uniform(std::uint64_t k, double low, double high) const { return low + (high - low) * uniform(k); }
-  // An integer in [0, n); n > 0.
+  // In [0, n); n > 0.
   std::uint64_t below(std::uint64_t k, std::uint64_t n) const;
   // Mean 0, variance 1 (Box–Muller on draws 2k and 2k+1).
   double normal(std::uint64_t k) const;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors that fill one register of the processor the source is compiled for: their width, shuffles between
-// two of them, and conversions between doubles, floats and bytes. GCC 12 keeps a wider vector in memory and
-// works on it through the stack, which makes the inner loops five to ten times slower.
+// Vectors of one processor register: shuffles and conversions. GCC 12 keeps wider vectors on the stack, which
+// slows inner loops five to ten times.
 //
-// Private to sources that are compiled for one processor: the width differs between such sources, and so does
-// every class that contains a vector. Functions take vectors by reference: passing one by value would depend
-// on the processor.
+// Private to sources compiled for one processor, because width and layout differ between them. Vectors are
+// passed by reference: their calling convention depends on the processor.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +29,8 @@ namespace register_vectors {
 template <class Number>
 inline constexpr int register_lanes = register_bytes / static_cast<int>(sizeof(Number));
 
-// `lanes` numbers; `Anywhere` for those in memory that are aligned as one number. Clang drops the alignment
-// of `Anywhere` from references and template arguments, so only pointers to it may be used.
+// `lanes` numbers; `Anywhere` is aligned as one number. Use only pointers to `Anywhere`: Clang drops its
+// alignment from references and template arguments.
 template <class Number, int lanes = register_lanes<Number>>
 struct Of {
   typedef Number Vector __attribute__((vector_size(lanes * sizeof(Number)), may_alias));
@@ -40,8 +38,7 @@ struct Of {
       __attribute__((vector_size(lanes * sizeof(Number)), aligned(alignof(Number)), may_alias));
 };
 
-// -- Shuffles: `Place::of(l)` is the lane of a, or beyond those of a the lane of b, that lane l of the result
-// takes.
+// -- Shuffles: lane l of the result is lane `Place::of(l)` of a, followed by b.
 
 template <class Place, class From, class To, int... l>
 inline __attribute__((always_inline)) void shuffle(const From& a, const From& b, To& to,
@@ -66,7 +63,7 @@ template <int first>
 struct Stretch {
   static constexpr int of(int l) { return first + l; }
 };
-// Two rows of blocks of `step` lanes each: the blocks off the diagonal change rows.
+// Two rows of blocks of `step` lanes: off-diagonal blocks exchange rows.
 template <int lanes, int step>
 struct UpperRow {
   static constexpr int of(int l) { return (l & step) != 0 ? l - step + lanes : l; }
@@ -86,7 +83,7 @@ inline __attribute__((always_inline)) void interleave(const Vector& a, const Vec
   shuffle<Interleaved<lanes, lanes>>(a, b, high);
   low = first;
 }
-// The inverse: a0 a1 … and b0 b1 … from a0 b0 a1 b1 …
+// The inverse of interleave.
 template <class Vector>
 inline __attribute__((always_inline)) void separate(const Vector& low, const Vector& high, Vector& a,
                                                     Vector& b) {
@@ -96,7 +93,7 @@ inline __attribute__((always_inline)) void separate(const Vector& low, const Vec
   a = first;
 }
 
-// Exchanges x[i][l] and x[l][i]: with steps 1, 2, 4 …, one shuffle for each row and step.
+// Transposes x[i][l]: steps 1, 2, 4 …, one shuffle per row and step.
 template <int step, class Vector>
 inline __attribute__((always_inline)) void exchange_blocks(Vector* x) {
   constexpr int lanes = sizeof(Vector) / sizeof((*x)[0]);
@@ -115,7 +112,7 @@ inline __attribute__((always_inline)) void transpose(Vector* x) {
   exchange_blocks<1>(x);
 }
 
-// -- Conversions of as many numbers as the vector of doubles has lanes, anywhere in memory.
+// -- Conversions to and from unaligned memory.
 
 template <class Doubles>
 inline constexpr int lanes_of = static_cast<int>(sizeof(Doubles) / sizeof(double));
@@ -129,7 +126,6 @@ inline __attribute__((always_inline)) void read(const float* from, Doubles& to) 
   to = __builtin_convertvector(
       *reinterpret_cast<const typename Of<float, lanes_of<Doubles>>::Anywhere*>(from), Doubles);
 }
-// In steps that are one instruction each.
 template <class Doubles>
 inline __attribute__((always_inline)) void read(const std::uint8_t* from, Doubles& to) {
   using Words = typename Of<std::uint16_t, lanes_of<Doubles>>::Vector;
@@ -160,7 +156,6 @@ inline __attribute__((always_inline)) void write(const Doubles& from, std::uint8
       __builtin_convertvector(words, Bytes);
 }
 
-// Two vectors of doubles hold as many numbers as one vector of floats.
 template <class Doubles, class Floats>
 inline __attribute__((always_inline)) void narrow(const Doubles& low, const Doubles& high, Floats& to) {
   using Half = typename Of<float, lanes_of<Doubles>>::Vector;
@@ -176,7 +171,7 @@ inline __attribute__((always_inline)) void widen(const Floats& from, Doubles& lo
   high = __builtin_convertvector(half, Doubles);
 }
 
-// GCC 12 needs several instructions for these conversions, and four bytes it takes one by one.
+// GCC 12 needs several instructions, and reads bytes one by one.
 #if defined(__AVX2__)
 inline __attribute__((always_inline)) void read(const float* from, Of<double, 4>::Vector& to) {
   to = reinterpret_cast<Of<double, 4>::Vector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
@@ -188,7 +183,7 @@ inline __attribute__((always_inline)) void read(const std::uint8_t* from, Of<dou
       reinterpret_cast<Of<double, 4>::Vector>(_mm256_cvtepi32_pd(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(four))));
 }
 inline __attribute__((always_inline)) void write(const Of<double, 4>::Vector& from, std::uint8_t* to) {
-  // The lowest byte of each of four integers.
+  // The lowest byte of each integer.
   const __m128i integers = _mm256_cvttpd_epi32(reinterpret_cast<__m256d>(from));
   const __m128i bytes = _mm_shuffle_epi8(integers, _mm_set1_epi32(0x0c080400));
   const std::int32_t four = _mm_cvtsi128_si32(bytes);

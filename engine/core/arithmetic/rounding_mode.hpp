@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rounding mode that results are defined in. A program that loads the module may round upward or towards
-// zero for purposes of its own (interval arithmetic); what the engine computes must not depend on it.
+// Results are defined for rounding to nearest, even if the host of the module uses another mode (interval
+// arithmetic).
 #pragma once
 
 #include <cfenv>
 
 namespace asperity {
 
-// While it lives, this thread, and threads it starts, round to nearest; then as before. A few nanoseconds.
+// For this thread and threads started from it; restores the old mode. A few nanoseconds.
 class RoundToNearest {
  public:
   RoundToNearest() : before_(std::fegetround()) {

@@ -35,7 +35,7 @@ constexpr std::string_view part_ending = ".part";
 constexpr std::size_t place_digits = 8, random_digits = 16;
 constexpr auto longest_silence = std::chrono::hours(24);
 
-// Host and name space of processes, for a number of a process means nothing elsewhere.
+// A process number is unique only on one host and in one PID namespace.
 std::string place_of_this_process() {
   utsname system{};
   const std::string host = ::uname(&system) == 0 ? system.nodename : "";
@@ -69,7 +69,7 @@ struct Writer {
   std::int64_t process = 0;
 };
 
-// "1a2b3c4d-1234-0011223344556677", or "1234-5" as it was before.
+// "1a2b3c4d-1234-0011223344556677", or "1234-5" of earlier versions.
 std::optional<Writer> writer_of(std::string_view token) {
   constexpr std::string_view decimal = "0123456789", hexadecimal = "0123456789abcdef";
   const std::size_t first = token.find('-'), last = token.rfind('-');
@@ -89,7 +89,7 @@ std::optional<Writer> writer_of(std::string_view token) {
   return writer;
 }
 
-// The writer that the name of a part tells; the name must outlive it.
+// The result refers to `name`.
 std::optional<Writer> writer_of_part(std::string_view name) {
   if (!name.starts_with('.')) return {};
   if (!name.ends_with(part_ending)) {
@@ -103,7 +103,6 @@ std::optional<Writer> writer_of_part(std::string_view name) {
   return writer_of(name.substr(dot + 1));
 }
 
-// "\"path\"", as readers and writers of data name files.
 std::string name_of_data(const fs::path& file) { return "\"" + file.string() + "\""; }
 
 }  // namespace

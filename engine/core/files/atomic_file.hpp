@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file replaced atomically: written under a temporary name in the same folder, and renamed when it is
-// whole. A reader sees the old file or the whole new one, never a torn one, and a failed write leaves what
-// was there. Does not wait for the disk unless asked to: a power cut may lose the last moments, a kill does
-// not.
+// Atomic replacement of a file: written under a temporary name in the same folder, then renamed. Readers see
+// the old or the complete new file. By default without waiting for the disk: a power cut may lose the last
+// moments, a kill does not.
 //
-// The temporary names are ".NAME.WRITER.part.EXTENSION", where WRITER is host and process as 8 and up to 10
-// digits and 64 random bits, so that processes of several hosts and containers never write one file. A writer
-// that is killed leaves its part behind; the name says whether it may still be written.
+// Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER contains host (8 digits), process (up to 10) and
+// 64 random bits, so that processes on several hosts and in containers never share a file. A killed writer
+// leaves its part, named so that others see whether the writer may still run.
 #pragma once
 
 #include <filesystem>
@@ -14,30 +13,27 @@
 
 namespace asperity {
 
-// Whether the disk has the content before the name stands for it; the name itself is on the disk once the
-// folder is (core/files/disk.hpp).
+// Whether the content reaches the disk before the rename. The name needs the folder (core/files/disk.hpp).
 enum class Durable { no, yes };
 
-// In whose words a file that cannot be written is refused: those of a run, which names `--out` where that
-// helps, or those of readers and writers of data, which also say where the folder is missing or the name is
-// one of a folder.
+// Wording of errors: `run` mentions `--out`; `data` explains missing folders and names of folders.
 enum class FileWords { run, data };
 
-// Not thread-safe; two objects of one target do not disturb each other, the last commit wins.
+// Not thread-safe. Objects of one target are independent; the last commit wins.
 class AtomicFile {
  public:
-  // Throws Error{bad_file} for a device or a pipe, in whose place the rename would put a file.
+  // Throws Error{bad_file} for a device or pipe, which the rename would replace.
   explicit AtomicFile(std::filesystem::path target, FileWords words = FileWords::run);
-  // Removes the temporary file unless commit() was called.
+  // Removes an uncommitted temporary file.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Where the bytes go before commit(), for writers that open files themselves.
+  // For writers that open the file themselves.
   const std::filesystem::path& temporary() const { return temporary_; }
-  // Appends bytes; the first call makes the file. Throws Error{bad_file} when they cannot be written.
+  // Appends; the first call creates the file. Throws Error{bad_file}.
   void write(std::string_view bytes, unsigned mode = 0666);
-  // Puts the file in its place. Throws Error{bad_file}.
+  // Throws Error{bad_file}.
   void commit(Durable durable = Durable::no);
 
  private:
@@ -50,31 +46,29 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// The whole content at once. Throws Error{bad_file} and leaves an earlier file as it was.
+// On Error{bad_file}, an earlier file stays unchanged.
 void write_atomically(const std::filesystem::path& target, std::string_view content,
                       Durable durable = Durable::no, unsigned mode = 0666);
 
-// A file that has other names (hard links) is copied into its own place, so that what is written to it leaves
-// them as they are. Any other file stays as it is. Throws Error{bad_file} where it cannot be copied.
+// Replaces a file with several hard links by a copy, so that writes leave the other names unchanged. Throws
+// Error{bad_file}.
 void part_from_other_names(const std::filesystem::path& file);
 
-// A name beside `target` that no other writer has, at most 255 bytes long. The extension stays last, because
-// some writers choose their format by it.
+// A unique temporary name, at most 255 bytes. The extension, from which some writers derive the format, is
+// last.
 std::filesystem::path part_beside(const std::filesystem::path& target);
 
-// The name tells where its writer runs. A process that will be shut off from /proc finds that out before.
+// Call before /proc, which identifies the writer's host, is inaccessible.
 void find_own_place();
 
-// Whether a file is a part by its name, of this version or of one before it.
+// Also recognises names of earlier versions.
 bool is_part(const std::filesystem::path& file);
 
-// Whether nobody can be writing this part: its process was of this host and has ended, or nothing has been
-// written to the part for a day.
+// The writer ended on this host, or the part is unchanged for a day.
 bool is_abandoned(const std::filesystem::path& part);
 
-// Removes parts from a folder: those that are abandoned, or, where the caller knows that nobody else writes
-// there, every one. Links are not followed. Folders inside are gone through as well if `deep`. What cannot be
-// read or removed stays. Returns how many were removed.
+// Removes parts, without following links; recursive if `deep`. `all` requires that no other process writes
+// there. Skips undeletable files. Returns the number removed.
 enum class Parts { abandoned, all };
 int sweep_parts(const std::filesystem::path& folder, Parts which, bool deep = false);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values one after the other in a string of bytes, and out of it again bit for bit, for processes of one
-// build on machines of one kind: numbers stand as they lie in memory. A reader believes nothing: it never
-// looks past the end and refuses lengths that cannot be. Not for files that outlive a build.
+// Values in memory representation, bit for bit, between processes of one build and machine type. The reader
+// checks all lengths. Not for files that outlive a build.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +16,7 @@ namespace asperity {
 
 class ByteWriter {
  public:
-  // Of bool, integers and double.
+  // bool, integers and double.
   template <class T>
   void number(T value) {
     static_assert(std::is_arithmetic_v<T>);
@@ -41,7 +40,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}
 
-  // All throw Error{bad_file} where the bytes end too early or cannot be what was written.
+  // All throw Error{bad_file} for truncated or invalid bytes.
   template <class T>
   T number() {
     static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
@@ -54,14 +53,14 @@ class ByteReader {
     if (value > 1) damaged();
     return value == 1;
   }
-  // How many things follow, each of which takes at least `least` bytes.
+  // Number of following items, each at least `least` bytes long.
   std::size_t count(std::size_t least = 1) {
     const auto value = number<std::uint64_t>();
     if (value > left_.size() / least) damaged();
     return static_cast<std::size_t>(value);
   }
   std::string text() { return std::string(next(count())); }
-  // As many numbers as there were written, into `values`, which is given their number first.
+  // Calls make(length) for the container and fills it.
   template <class Make>
   auto numbers(Make make) {
     const std::size_t length = count(sizeof(double));

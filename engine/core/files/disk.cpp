@@ -55,7 +55,7 @@ void append_whole(int descriptor, std::string_view content, const std::filesyste
   const off_t before = ::lseek(descriptor, 0, SEEK_END);
   const int reason = write_all(descriptor, content);
   if (reason == 0) return;
-  // Nothing better can be done if cutting back fails as well; the reason given is the first one.
+  // If the truncation also fails, report the first reason.
   if (before >= 0 && ::ftruncate(descriptor, before) != 0) errno = 0;
   throw_file_error("write", path, reason);
 }
@@ -81,7 +81,7 @@ void wait_for_disk(const std::filesystem::path& file_or_folder) {
   int reason = descriptor < 0 ? errno : 0;
   if (descriptor >= 0 && ::fsync(descriptor) != 0) reason = errno;
   if (descriptor >= 0) ::close(descriptor);
-  // Some file systems over a network have no such call for a folder.
+  // Some network file systems cannot sync a folder.
   if (reason == 0 || reason == EINVAL) return;
   throw Error(ErrorCode::bad_file,
               "cannot bring " + quoted(file_or_folder.string()) +

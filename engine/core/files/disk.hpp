@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing in one piece, waiting for the disk, and what the system's refusals say: one sentence with the
-// file's name and the reason ("no space left on device"). A file that was written and renamed
-// (core/files/atomic_file.hpp) survives a kill at once, a power cut only when the disk has its content, and
-// the folder its name.
+// Complete writes, waiting for the disk, and system errors as sentences. A written and renamed file
+// (core/files/atomic_file.hpp) survives a kill at once, a power cut only after the disk has its content and
+// the folder's names.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +9,20 @@
 
 namespace asperity {
 
-// "cannot write `path`: <reason>", for the error number `reason` of a system call.
+// "cannot write `path`: no space left on device"; `reason` is an errno value.
 [[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path, int reason);
 
-// All of the bytes into an open file, socket or pipe: a call of the system may take fewer than asked. Returns
-// 0 or the error number.
+// To a file, socket or pipe; repeats partial writes. Returns 0 or the error number.
 int write_all(int descriptor, std::string_view bytes);
 
-// Appends to an open file in one piece; what could not be written whole is cut off again, so that
-// the file ends with a whole line. Throws Error{bad_file} naming `path`.
+// Appends all bytes or restores the old length, so that the file ends with a whole line. Throws
+// Error{bad_file} naming `path`.
 void append_whole(int descriptor, std::string_view content, const std::filesystem::path& path);
 
-// Appends in one piece to a file that exists; returns false if it does not, is a link or has another name (a
-// hard link). Throws as append_whole.
+// False if the file is missing, a link, or has several hard links. Throws as append_whole.
 bool append_to_existing(const std::filesystem::path& path, std::string_view content);
 
-// Until the disk has what was written to this file, or the names in this folder. Milliseconds. Throws
-// Error{bad_file} where it cannot be opened or the disk fails.
+// For a file's content or a folder's names; milliseconds. Throws Error{bad_file}.
 void wait_for_disk(const std::filesystem::path& file_or_folder);
 
 }  // namespace asperity

@@ -17,7 +17,6 @@ struct JsonCodec {
   static Library encode(const Json& value) { return std::visit(JsonCodec(), value.value_); }
   static Json decode(const Library& value);
 
-  // One overload for each thing a value may hold.
   Library operator()(std::monostate) const { return nullptr; }
   Library operator()(bool value) const { return value; }
   Library operator()(std::int64_t value) const { return value; }
@@ -115,7 +114,7 @@ std::string Json::text(int indent) const {
 }
 
 Json Json::parse(std::string_view text, std::string_view what) {
-  // Lists in lists use the stack when they are taken apart; no record comes near this.
+  // Destruction of nested lists is recursive, so the depth is limited.
   constexpr int deepest = 256;
   const auto refuse = [&](const std::string& finding) {
     throw Error(ErrorCode::bad_file, std::string(what) + " " + finding, "the file was cut short or damaged");

@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view mark = "ASR1", ending = ".results";
-constexpr std::size_t digits = 32;  // of a digest, and of a name
+constexpr std::size_t digits = 32;  // of digest and name
 constexpr std::size_t head = mark.size() + sizeof(std::uint32_t) + 2 * digits;
 static_assert(head == ResultLog::bytes_beside);
-constexpr std::size_t longest = std::size_t{8} << 20;  // fits into what is read at once
+constexpr std::size_t longest = std::size_t{8} << 20;  // a record must fit into one read
 constexpr auto sync_every = std::chrono::seconds(1);
 
 std::string digest_of(std::string_view name, std::string_view bytes) {
@@ -44,7 +44,7 @@ struct Descriptor {
   }
 };
 
-// As many of `length` bytes as there are.
+// Fewer bytes at the end of the file.
 std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t length) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
   std::string bytes(file.number < 0 ? 0 : length, '\0');
@@ -60,7 +60,7 @@ std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t leng
   return bytes;
 }
 
-// Of a record that begins here: what its bytes are, none where it is not whole yet.
+// The record at the beginning of a text; none if incomplete.
 struct Record {
   std::string_view digest, name, bytes;
   bool sound() const { return digest == digest_of(name, bytes); }
@@ -139,15 +139,15 @@ std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
       const Place place = at->second;
       if (std::optional<std::string> bytes = record_at(place, name))
         return Found{*std::move(bytes), files_[static_cast<std::size_t>(place.file)].path};
-      places_.erase(at);  // its file was taken away, or altered
+      places_.erase(at);  // the file was removed or changed
     }
     if (looked) return {};
     look();
   }
 }
 
-// What others have made or appended since the last look. The folder's time tells of new files, but for those
-// made within the clock's own step of the last look: names are read until the time is a second old.
+// The folder's time changes with new files, except within one clock step; names are therefore read until the
+// time is one second old.
 void ResultLog::look() {
   std::error_code missing;
   const fs::file_time_type changed = fs::last_write_time(folder_, missing);
@@ -199,7 +199,7 @@ void ResultLog::go_through(int number) {
       file.read += static_cast<std::int64_t>(length);
       rest.remove_prefix(length);
     }
-    // A record that is longer than what is read at once, or that its writer has not written yet.
+    // The record exceeds this read, or is unfinished.
     if (rest.size() == text.size() || file.read >= facts.st_size) return;
   }
 }
@@ -263,11 +263,11 @@ void ResultLog::wait_for_disk() {
   next_sync_ = std::chrono::steady_clock::now() + sync_every;
   if (reason != 0) throw_file_error("write", path, reason);
   synced_ = std::max(synced_, written);
-  // Others may take the file away to make room: what comes goes into another one.
+  // Another process may delete the file to free space.
   if (gone && own_ >= 0 && files_[static_cast<std::size_t>(own_)].path == path) leave_file();
 }
 
-// A name that was never there before: others may have gone through a file that is gone.
+// Random name, because other processes may remember their position in a deleted file.
 void ResultLog::begin_file() {
   std::error_code problem;
   fs::create_directory(folder_, problem);
@@ -285,7 +285,7 @@ void ResultLog::begin_file() {
   own_ = static_cast<int>(files_.size());
   known_[std::move(name)] = own_;
   files_.push_back({path, 0, false, true});
-  // Its name, and that of the folder.
+  // Names of the file and of the folder.
   asperity::wait_for_disk(folder_);
   asperity::wait_for_disk(folder_.parent_path());
 }

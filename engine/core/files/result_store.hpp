@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The store of results of heavy calls. A result depends on nothing but the arguments of its call, and is
-// stored under a key made of all of them, so that a run that makes the same call again reads the result
-// instead of computing it. A call finds the store of its run through its monitor; where there is none it
-// computes, and pays nothing. A stored result carries the cost it had when it was computed: every number is
-// the same either way.
+// Store for results of heavy calls. A result depends only on the arguments of its call, which form the key.
+// Calls find the store through their monitor; without a store, they compute at no extra cost. A stored result
+// keeps its original cost, so all numbers are equal either way.
 #pragma once
 
 #include <limits>
@@ -19,23 +17,22 @@
 
 namespace asperity {
 
-// What is kept of a result beside its fields. Names are unique within each list.
+// Names are unique within each list.
 struct ResultFacts {
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
-  bool however_cheap = false;  // to be kept even if it would be quicker computed again
-  bool one_of_many = false;    // small, and one of thousands: they share a file, and a wait for the disk
-  double least_seconds = 0;    // not worth a file if it cost less, whatever the store thinks
-  // What the calling thread itself spent, where that is known: on a machine that others use as well, a cheap
-  // result that took long is still cheap.
+  bool however_cheap = false;  // store even if recomputation is faster
+  bool one_of_many = false;    // small; many share a file and a disk wait
+  double least_seconds = 0;    // not stored below this cost
+  // Time of the calling thread, if known: on a busy machine, a cheap result may take long.
   double processor_seconds = std::numeric_limits<double>::infinity();
 };
 
 struct FoundResult : ResultFacts {
   std::vector<std::pair<std::string, Field>> fields;
 
-  // Throw Error{internal} where there is none of that name.
+  // Throw Error{internal} for unknown names.
   double number(std::string_view name) const;
   const std::string& text(std::string_view name) const;
   Field take(std::string_view name);
@@ -47,9 +44,9 @@ using KeptFields = std::vector<std::pair<std::string, const Field*>>;
 class ResultStore {
  public:
   virtual ~ResultStore() = default;
-  // None where the key is unknown or what was kept under it is damaged.
+  // None for unknown keys and damaged data.
   virtual std::optional<FoundResult> find(const std::string& key) = 0;
-  // `call` tells a reader what made it. Never fails: what cannot be kept is lost, and the store says so.
+  // `call` describes the origin. Never fails; the store reports lost results.
   virtual void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                     const KeptFields& fields) = 0;
 };
@@ -57,10 +54,10 @@ class ResultStore {
 template <class Result>
 struct Costed {
   Result result;
-  Cost cost;  // of computing it, now or then
+  Cost cost;  // of the original computation
 };
 
-// How a kind of result goes into a record and comes out of it again, to the last bit.
+// Conversion to a record and back, exact to the last bit.
 template <class Result>
 struct ResultForm {
   std::string_view call;
@@ -68,8 +65,8 @@ struct ResultForm {
   Result (*read)(FoundResult& found);
 };
 
-// The result under `key()`, or else that of `compute`, which is kept. `key` is asked for only where there is
-// a store. Transforms are counted as of a result computed here.
+// Returns the stored result, or computes and stores it. `key` is called only with a store. Transforms of a
+// stored result count as if computed.
 template <class Result, class Key, class Compute>
 Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key key, Compute compute) {
   ResultStore* store = monitor.results();

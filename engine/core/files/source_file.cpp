@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a file in pieces so that a stop flag is seen and no size field of the file system is
-// trusted for more than a first guess.
+// Reads in pieces, so that a stop takes effect and a wrong size field does no harm.
 #include "engine/core/files/source_file.hpp"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace {
 
 constexpr std::size_t piece = std::size_t{1} << 20;
 
-// Size fields of file systems may be wrong: they are a first guess at how much memory it takes.
+// `expected`, from the file system, may be wrong.
 template <class Bytes, class Advance>
 void read_to_end(std::ifstream& stream, const std::string& path, std::size_t expected, Bytes& bytes,
                  const Advance& advance) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view lead = "asperity-";
 
-// Folders of this user alone; links are not followed.
+// Only folders of this user; does not follow links.
 void sweep(const fs::path& parent) {
   std::error_code problem;
   std::vector<fs::path> left;

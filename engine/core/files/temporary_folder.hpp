@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder for temporary files, removed with its content by the destructor. Its name contains the writer, as
-// in the names of parts (atomic_file.hpp). Each new folder first removes the folders of killed writers from
-// the same parent.
+// A temporary folder, removed with its content by the destructor. Its name contains the writer
+// (atomic_file.hpp); each new folder removes folders of killed writers from the same parent.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +10,7 @@ namespace asperity {
 
 class TemporaryFolder {
  public:
-  // In `parent`, or among the temporary files of the system. Throws Error{bad_file}.
+  // Default `parent`: the system's temporary folder. Throws Error{bad_file}.
   explicit TemporaryFolder(std::string_view purpose, const std::filesystem::path& parent = {});
   ~TemporaryFolder() { remove(); }
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -47,7 +47,7 @@ void append_utf8(std::string& text, std::uint32_t c) {
   }
 }
 
-// Bytes of the character of UTF-8 at the front; 0 where there is none.
+// Length of the first UTF-8 character; 0 if invalid.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char lead = byte(0);
@@ -59,7 +59,7 @@ std::size_t utf8_length(std::string_view text) {
   if (length == 0 || length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k)
     if ((byte(k) & 0xC0) != 0x80) return 0;
-  // Longer than needed, half of a pair, or beyond the last character.
+  // Overlong, surrogate, or beyond the last code point.
   if (length == 3 && ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) >= 0xA0))) return 0;
   if (length == 4 && ((lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) >= 0x90))) return 0;
   return length;

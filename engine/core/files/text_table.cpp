@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One pass over the bytes; no regular expressions, no locale. Numbers go through std::from_chars,
-// which rounds correctly.
+// One pass; no regular expressions, no locale. std::from_chars rounds correctly.
 #include "engine/core/files/text_table.hpp"
 
 #include <algorithm>
@@ -23,7 +22,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-// Every comma of the line stands between two digits, and no run of other characters holds two.
+// Every comma is between digits, at most one per cell.
 bool commas_are_decimal(std::string_view line) {
   bool several_cells = false, comma_in_cell = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -68,7 +67,7 @@ bool LineReader::next(std::string_view& line) {
   line = text_.substr(position_, end - position_);
   position_ = end + 1;
   if (text_[end] == '\r') {
-    // Looked for once a run, or a file of nothing else would take the square of its length.
+    // One search per run of CR keeps the cost linear.
     if (end >= run_end_) run_end_ = std::min(text_.find_first_not_of('\r', end), text_.size());
     if (run_end_ < text_.size() && text_[run_end_] == '\n') position_ = run_end_ + 1;
   }
@@ -101,7 +100,7 @@ Separator separator_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return Separator::semicolon;
   if (line.find(',') != std::string_view::npos && !commas_are_decimal(trimmed(line))) return Separator::comma;
   if (line.find('\t') == std::string_view::npos) return Separator::blank;
-  // Blanks inside a tabbed cell mean that the tabs are only blanks too.
+  // Blanks inside a cell: tabs are blanks too.
   for (const std::string_view cell : cells_of(line, Separator::tab))
     if (trimmed(cell).find(' ') != std::string_view::npos) return Separator::blank;
   return Separator::tab;
@@ -148,7 +147,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
     return {CellKind::number, value};
   }
   if (end == last && failure == std::errc::result_out_of_range) {
-    // Too small is zero to any instrument; too large is not a height.
+    // Underflow is zero for any instrument; overflow is no height.
     const std::string lower = lower_case({first, last});
     const std::size_t exponent = lower.find('e');
     if (exponent != std::string::npos && lower.substr(exponent + 1).starts_with('-'))

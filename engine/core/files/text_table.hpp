@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of numbers as people and instruments write them: lines ended in any way, cells parted by
-// blanks, tabs, commas or semicolons, decimal points or commas, comments, missing cells. Used by
-// every text format. Makes no sense of what the columns mean.
+// Tables of numbers in text formats: any line ends; separated by blanks, tabs, commas or semicolons; decimal
+// points or commas; comments; missing cells.
 #pragma once
 
 #include <cstddef>
@@ -15,31 +14,30 @@
 
 namespace asperity {
 
-// Lines ended by LF, CRLF, CR CRLF (as some stylus profilers write) or CR alone.
+// LF, CRLF, CR CRLF (some stylus profilers) or CR.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : text_(text) {}
-  // False at the end. `line` has no line end; blanks are kept.
+  // False at the end. `line` excludes the line end, not blanks.
   bool next(std::string_view& line);
-  // Number of the line that next() gave last, from 1.
+  // From 1.
   std::size_t number() const { return number_; }
-  // Bytes consumed.
   std::size_t position() const { return position_; }
 
  private:
   std::string_view text_;
   std::size_t position_ = 0;
   std::size_t number_ = 0;
-  std::size_t run_end_ = 0;  // of the last run of CR
+  std::size_t run_end_ = 0;  // end of the last run of CR
 };
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-// At most 24 bytes of a line, whole characters of UTF-8, unprintable ones shown as '?', for errors.
+// At most 24 bytes, whole UTF-8 characters, '?' for unprintable ones.
 std::string shown(std::string_view text);
 
-// How the cells of a line are parted. With any separator but the comma a decimal comma is read as a
-// point. "1,5 2,5" is two cells with decimal commas, "1, 5, 2" three; "1,5" alone is two cells.
+// Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2" three; "1,5" alone is
+// two.
 enum class Separator { blank, tab, comma, semicolon };
 Separator separator_of(std::string_view line);
 std::vector<std::string_view> cells_of(std::string_view line, Separator separator);
@@ -52,22 +50,21 @@ struct TextCell {
 // A hole is an empty cell, nan, bad, na, n/a, null, none, or a run of '-' or '*'.
 TextCell read_cell(std::string_view text, Separator separator);
 
-// True if every cell of the line is a number or a hole and one at least is not empty.
+// Every cell is a number or hole, and at least one is not empty.
 bool is_row_of_numbers(std::string_view line);
 
-// True for a line that a table skips: empty, or a comment (# or %).
+// Empty line or comment (# or %).
 bool is_skipped(std::string_view line);
 
 struct TextTable {
   Array<double> values;  // row by row; NaN for holes
   int columns = 0, rows = 0;
 };
-// Reads the rest of the lines. Text after # is a comment. A last column that is empty in every line
-// is dropped (a separator at the end of each line). Throws Error{bad_file} naming the line for a
-// cell that is no number, an infinite one, or a row of another length.
+// Reads the remaining lines, without comments after #. Drops an empty last column (separators at line ends).
+// Throws Error{bad_file} naming the line of an unreadable or infinite cell or a row with another length.
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor);
 
-// Warns where the last line of a text has no end: a file that was cut within its last number looks the same.
+// Warns of a last line without line end: the file may be truncated.
 void warn_if_cut(const SourceFile& file, Monitor& monitor);
 
 }  // namespace asperity

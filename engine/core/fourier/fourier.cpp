@@ -23,7 +23,7 @@ namespace {
 using Complex = std::complex<double>;
 using SingleFourier = AnyLengthFourier<1>;
 
-// Made once for each length and kept while the process lives.
+// Cached for the life of the process.
 const SingleFourier& single_fourier(int n) {
   static std::mutex mutex;
   static std::map<int, std::unique_ptr<const SingleFourier>> kept;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real Fourier transforms in one and two dimensions: rows first, then columns, in batches of lanes
-// (fourier_batch.hpp), so that the bits depend neither on the number of threads nor on the processor.
-// Unnormalised forwards; inverse divides by n. Tables are made once per length and kept. Thread-safe. Any
-// length from 1; one with a prime factor above 31 takes some six times as long.
+// Real 1-D and 2-D Fourier transforms, rows before columns, in batches of lanes (fourier_batch.hpp); the bits
+// depend neither on threads nor on the processor. The inverse divides by n. Tables are cached per length.
+// Thread-safe. Any length from 1; a prime factor above 31 costs about six times as much.
 #pragma once
 
 #include <complex>
@@ -13,12 +12,12 @@
 
 namespace asperity {
 
-// Half spectrum of a real signal of n values: bins 0 … n/2.
+// Half spectrum of n real values: bins 0 … n/2.
 Array<std::complex<double>> fourier_forward(std::span<const double> signal);
 Array<double> fourier_inverse(std::span<const std::complex<double>> half_spectrum, int n);
 
-// Half spectrum of a real field: ny rows of nx/2+1 bins; bin (a, b) belongs to the wave
-// exp(2πi(a·i/nx + b·j/ny)), b running 0 … ny-1 with the upper half the negative waves.
+// Half spectrum of a real field: ny rows of nx/2+1 bins. Bin (a, b) is the wave exp(2πi(a·i/nx + b·j/ny)), b
+// = 0 … ny-1; the upper half of b is negative waves.
 class HalfSpectrum {
  public:
   HalfSpectrum(int nx, int ny);
@@ -29,7 +28,7 @@ class HalfSpectrum {
   std::complex<double> operator()(int a, int b) const { return bins_[index(a, b)]; }
   std::span<std::complex<double>> bins() { return bins_; }
   std::span<const std::complex<double>> bins() const { return bins_; }
-  // The signed wave number of row b, from -ny/2 … ny/2.
+  // -ny/2 … ny/2.
   int wave_y(int b) const { return b <= ny_ / 2 ? b : b - ny_; }
 
  private:
@@ -40,9 +39,9 @@ class HalfSpectrum {
   Array<std::complex<double>> bins_;
 };
 
-// One transform each, counted with cost::count_transforms(1).
+// Each counts one transform (cost::count_transforms).
 HalfSpectrum fourier_forward(const Field& field);
-// Consumes the spectrum as work space. Imaginary parts of bins that must be real are ignored.
+// Overwrites the spectrum; ignores imaginary parts of real bins.
 Field fourier_inverse(HalfSpectrum spectrum);
 
 }  // namespace asperity

@@ -12,8 +12,7 @@ namespace {
 
 using BatchDoubles = Lanes<double>::Vector;
 
-// Rows ahead of the one being gathered that are asked for: their addresses are too far apart for the
-// processor to foresee.
+// Prefetch distance: the hardware cannot predict addresses so far apart.
 constexpr int batch_rows_ahead = 12;
 
 template <int lanes>
@@ -27,7 +26,7 @@ template <int lanes>
 AnyLengthFourier<lanes>::AnyLengthFourier(int n) : n_(n), smooth_(convolution_length<lanes>(n)) {
   const int length = smooth_.length();
   if (length == n) return;
-  // k² modulo 2n: the exact phase of the chirp.
+  // k² modulo 2n, for the exact phase of the chirp.
   chirp_.resize(2 * static_cast<std::size_t>(n));
   for (std::int64_t k = 0; k < n; ++k) {
     const UnitTurn phase = unit_turn(k * k % (2 * std::int64_t{n}), 2 * std::int64_t{n});
@@ -51,7 +50,7 @@ AnyLengthFourier<lanes>::AnyLengthFourier(int n) : n_(n), smooth_(convolution_le
   }
 }
 
-// The inverse is the forward transform of the conjugate, conjugated.
+// Inverse: conjugate of the forward transform of the conjugate.
 template <int lanes>
 template <bool forwards>
 void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) const {
@@ -71,7 +70,7 @@ void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) con
       work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
     }
   } else {
-    // The kernel is even, so that its conjugate has the conjugate transform.
+    // The conjugate of the even kernel has the conjugate transform.
     for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
       const double c = response[2 * k], s = -response[2 * k + 1];
       const Complex x = work[k];
@@ -122,7 +121,7 @@ const BatchFourier& BatchFourier::of_length(int n) {
   return *batch;
 }
 
-// Column l holds signal l as its real part and signal l + columns as its imaginary one.
+// Column l: signal l as real part, signal l + columns as imaginary part.
 void BatchFourier::load_reals(Work& work, const double* const* in, int given, int count) const {
   const auto signal = [&](int r) { return in[std::min(r, count - 1)]; };
   const int whole = given / lanes * lanes;
@@ -199,7 +198,7 @@ void BatchFourier::real_forward(Work& work, const double* const* in, int given, 
   for (int p = 0; p < parts; ++p) {
     const Lane* const values = part(work, p);
     for (int first = 0; first < bins(); first += lanes) {
-      BatchDoubles square[4][lanes];  // A's real and imaginary, B's real and imaginary part
+      BatchDoubles square[4][lanes];  // real and imaginary parts of A, then of B
       const int here = std::min(lanes, bins() - first);
       for (int c = 0; c < lanes; ++c) {
         const int k = first + std::min(c, here - 1);

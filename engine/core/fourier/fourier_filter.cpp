@@ -21,20 +21,20 @@ bool aligned(const void* pointer) { return reinterpret_cast<std::uintptr_t>(poin
 
 int own_bins(int period) { return period % 2 == 0 ? period / 2 : period / 2 + 1; }
 
-// Whole cache lines, and an odd number of pairs of them: rows a power of two apart would compete for
-// the same few places of the cache when a column is gathered.
+// An odd number of pairs of cache lines: rows a power of two apart would compete for few cache sets when a
+// column is gathered.
 int own_stride(int period) {
   const int pairs = (own_bins(period) + 7) / 8;
   return 8 * (pairs % 2 == 0 ? pairs + 1 : pairs);
 }
 
-// A row of values is 64-byte aligned and holds its own transform.
+// A row of values is 64-byte aligned and has room for its transform.
 bool in_place(int nx, int period_x) { return nx == period_x && nx % 8 == 0; }
 
 }  // namespace
 
 struct FourierFilter::Scratch {
-  using Vector = BatchFourier::Lane;  // its real part alone
+  using Vector = BatchFourier::Lane;  // real part only
   BatchFourier::Work along, across;
   Array<Complex> bins, packed;
   Array<double> factors, last_factors;
@@ -135,8 +135,8 @@ void FourierFilter::rows_inverse(std::span<double> out) {
   });
 }
 
-// Two real columns c and d were transformed as one, Z = C + iD, in the first lane. With even factors f and g,
-// fC + igD = (f+g)/2 Z(b) + (f−g)/2 conj Z(−b).
+// Columns c and d share a transform Z = C + iD in the first lane. For even factors f and g, fC + igD =
+// (f+g)/2 Z(b) + (f−g)/2 conj Z(−b).
 void FourierFilter::multiply_packed(Scratch& scratch, const Multiplier& multiplier) const {
   multiplier(0, scratch.factors);
   multiplier(period_x_ / 2, scratch.last_factors);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A real field through a real, even Fourier multiplier: transform, multiply, transform back, in the
-// place of the result. Rows are transformed first; then blocks of columns are gathered, transformed,
-// multiplied and transformed back while they are in the cache. Either periodic, or padded with zeros
-// to a longer period (a convolution that does not wrap), in which case the rows of zeros are never
-// stored. Any period; the same bits for any number of threads and on every processor.
+// Applies a real, even Fourier multiplier to a real field. After the row transforms, blocks of columns are
+// gathered, transformed, multiplied and transformed back within the cache. Periodic, or zero-padded to a
+// longer period (convolution without wrap-around) without storing zero rows. Any period; the same bits for
+// any number of threads and every processor.
 #pragma once
 
 #include <complex>
@@ -19,22 +18,21 @@ namespace asperity {
 
 class FourierFilter {
  public:
-  // Puts the factors of the waves (a, b), b = 0 … period_y/2, into the span, for one a of
-  // 0 … period_x/2. Called from several threads at once.
+  // The factors of waves (a, b), b = 0 … period_y/2, for one a of 0 … period_x/2. Called concurrently.
   using Multiplier = std::function<void(int a, std::span<double> factors)>;
 
   // 1 <= nx <= period_x, 1 <= ny <= period_y.
   FourierFilter(int nx, int ny, int period_x, int period_y);
   ~FourierFilter();
 
-  // `in` and `out` hold nx·ny values row by row and may be the same. Not thread-safe; uses threads.
-  // Counts no transforms.
+  // nx·ny values row by row; `in` and `out` may be the same. Uses threads but is not thread-safe. Counts no
+  // transforms.
   void apply(std::span<const double> in, std::span<double> out, const Multiplier& multiplier);
 
   int bins_x() const { return period_x_ / 2 + 1; }
   int bins_y() const { return period_y_ / 2 + 1; }
 
-  // What one holds at most: nothing but a few columns where the transform fits into `out`.
+  // Upper bound; little if the transform fits into `out`.
   static std::int64_t bytes(int nx, int ny, int period_x, int period_y);
 
  private:
@@ -47,16 +45,16 @@ class FourierFilter {
   std::complex<double>* row(int j) { return spectrum_ + static_cast<std::ptrdiff_t>(j) * stride_; }
 
   int nx_, ny_, period_x_, period_y_;
-  // Bins of a row. The first and, of an even period, the last bin of a row are real: they share a place.
+  // Per row; the real first and (even period) last bins share a place.
   int bins_;
-  int stride_;                                // from row to row of the spectrum
+  int stride_;                                // between rows of the spectrum
   std::complex<double>* spectrum_ = nullptr;  // in `out` or in own_
   Array<std::complex<double>> own_;
   const BatchFourier &along_, &across_;
   ScratchPool<Scratch> scratch_;
 };
 
-// The least even length >= `least` (1 for 1) whose prime factors are 2, 3, 5 and 7.
+// Smallest even length >= `least` (1 for 1) with prime factors 2, 3, 5 and 7.
 int good_fourier_length(int least);
 
 }  // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A row of n real values is transformed as n/2 complex ones, even places and odd places, and taken apart
-// afterwards: X(k) = E + W^k O. The factors 2 of that are left to the multiplier.
+// A row of n real values is transformed as n/2 complex values (even and odd places), then separated: X(k) = E
+// + W^k O, with the factor 1/2 in the multiplier.
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <algorithm>
@@ -18,8 +18,7 @@ namespace asperity {
 
 namespace {
 
-// Rows of the spectrum are asked for so many ahead: their addresses are too far apart for the processor
-// to foresee.
+// Prefetch distance in rows: the hardware cannot predict addresses so far apart.
 constexpr int lane_rows_ahead = 16;
 
 using Singles = Lanes<float>::Vector;
@@ -45,16 +44,15 @@ inline void write(const Singles& from, double scale, double* to) {
   register_vectors::write(high, to + Lanes<double>::count);
 }
 
-// Whole cache lines and an odd number of pairs of them: rows a power of two apart would compete for the same
-// few places of the cache when a column is gathered.
+// As own_stride in fourier_filter.cpp.
 int odd(int blocks) { return blocks % 2 == 0 ? blocks + 1 : blocks; }
 
 }  // namespace
 
 template <class Real>
 struct FourierLaneFilter<Real>::Scratch {
-  Array<Complex> values;  // of some rows or columns side by side
-  Array<double> rows;     // that a source puts somewhere, or a sink takes
+  Array<Complex> values;  // rows or columns in lanes
+  Array<double> rows;     // buffers for source and sink
   Array<double> factors;
   Scratch(int nx, int half, int period_y)
       : values(static_cast<std::size_t>(std::max(odd(half), period_y) + lanes)),
@@ -135,7 +133,7 @@ void FourierLaneFilter<Real>::apply(const Source& source, const Sink& sink, std:
     throw Error(ErrorCode::internal, "a filter of another grid's values");
   std::optional<SingleThreaded> alone;
   if (static_cast<std::int64_t>(period_x_) * period_y_ <= nodes_worth_sharing) alone.emplace();
-  if constexpr (std::is_same_v<Real, double>) scale = 1;  // has range enough
+  if constexpr (std::is_same_v<Real, double>) scale = 1;  // enough range
   spectrum_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_));
   rows_forward(source, scale);
   columns();
@@ -148,7 +146,7 @@ void FourierLaneFilter<Real>::apply(std::span<const double> in, std::span<double
   apply([&](int j, double*) { return in.data() + static_cast<std::ptrdiff_t>(j) * nx_; }, {}, out, scale);
 }
 
-// Rows first … first + lanes − 1 side by side, two neighbours of a row as one complex value.
+// Rows first … first + lanes − 1 in lanes, two neighbours as one complex value.
 template <class Real>
 void FourierLaneFilter<Real>::load_rows(Scratch& scratch, const Source& source, int first,
                                         double scale) const {
@@ -172,7 +170,7 @@ void FourierLaneFilter<Real>::load_rows(Scratch& scratch, const Source& source, 
   }
 }
 
-// From the bins of pairs to twice those of the row.
+// Converts bins of pairs to twice the bins of the row.
 template <class Real>
 void FourierLaneFilter<Real>::unmix(Complex* values) const {
   Complex& mean = values[along_.place(0)];
@@ -280,8 +278,7 @@ void FourierLaneFilter<Real>::rows_inverse(const Sink& sink, std::span<double> o
   });
 }
 
-// Two real columns c and d were transformed as one, Z = C + iD, in the first lane. With even factors f and g,
-// fC + igD = (f+g)/2 Z(b) + (f−g)/2 conj Z(−b).
+// As FourierFilter::multiply_packed.
 template <class Real>
 void FourierLaneFilter<Real>::multiply_packed(Complex* column) const {
   for (int b = 0; 2 * b <= period_y_; ++b) {
@@ -318,7 +315,7 @@ void FourierLaneFilter<Real>::columns() {
     for (int j = ny_; j < period_y_; ++j) column[j] = {Vector{}, Vector{}};
     across_.forward(column);
     const Factors* const factors = factors_.data() + static_cast<std::size_t>(block) * waves;
-    Array<Real> packed;  // what the first lane comes to where two columns share it
+    Array<Real> packed;  // the shared first lane
     const auto keep = [&](auto&& act) {
       for (int k = 0; k < period_y_; ++k) act(static_cast<std::size_t>(2 * k), column[k]);
     };

@@ -52,8 +52,7 @@ UnitTurn unit_turn(std::int64_t k, std::int64_t n) {
 
 namespace {
 
-// Small transforms of a, in place; forwards the kernel is e^{−2πi pq/radix}. All by reference: vectors are
-// never passed by value.
+// In-place transforms; the forward kernel is e^{−2πi pq/radix}. Vectors only by reference.
 template <bool forwards, class Complex>
 inline __attribute__((always_inline)) void butterfly2(Complex& a, Complex& b) {
   const Complex d = {a.re - b.re, a.im - b.im};
@@ -92,7 +91,7 @@ inline __attribute__((always_inline)) void butterfly8(Complex* x) {
     x[5] = {-r.im, r.re};
     x[7] = {-(q.im + q.re) * half, (q.re - q.im) * half};
   }
-  // Bins of the even half in x[0], x[2], x[4], x[6]; the odd half multiplied, in x[1], x[3], x[5], x[7].
+  // Even half in x[0], x[2], x[4], x[6]; multiplied odd half in x[1], x[3], x[5], x[7].
   Complex y[8];
   for (int k = 0; k < 4; ++k) {
     const Complex &e = x[2 * k], &o = x[2 * k + 1];
@@ -150,7 +149,6 @@ inline __attribute__((always_inline)) void butterfly_odd(const OddFactors<radix,
   for (int k = 0; k < radix; ++k) x[k] = y[k];
 }
 
-// The largest first.
 constexpr int odd_radices[] = {31, 29, 23, 19, 17, 13, 11, 7, 5, 3};
 
 }  // namespace
@@ -173,7 +171,7 @@ LaneFourier<Real, lanes>::LaneFourier(int n) : n_(n), places_(static_cast<std::s
   std::vector<int> radices;
   for (const int factor : odd_radices)
     for (; rest % factor == 0; rest /= factor) radices.push_back(factor);
-  int eights = 0;  // last: the last stage has no factors of its own
+  int eights = 0;  // radix 8 last, because the last stage has no factors
   for (; twos > 4 || twos == 3; twos -= 3) ++eights;
   for (; twos >= 2; twos -= 2) radices.push_back(4);
   if (twos == 1) radices.push_back(2);
@@ -236,7 +234,7 @@ void LaneFourier<Real, lanes>::butterflies(const Stage& stage, Complex* values) 
   }
 }
 
-// A block is finished before the next is begun: it is in the nearest cache.
+// Depth first: a finished block is in the nearest cache.
 template <class Real, int lanes>
 template <bool forwards>
 void LaneFourier<Real, lanes>::run(std::size_t number, Complex* values) const {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complex Fourier transforms of several signals at once, one in each lane of a vector, in place. The forward
-// transform (decimation in frequency) leaves the bins in the order of place(); the inverse (decimation in
-// time) takes them in this order, so that a filter never sorts. Lengths without a prime factor above 31.
-// Unnormalised.
+// Complex in-place Fourier transforms, one signal per vector lane. The forward transform (decimation in
+// frequency) leaves bins in the order of place(), which the inverse (decimation in time) expects, so filters
+// never sort. Lengths without a prime factor above 31. Unnormalised.
 //
-// A lane passes through the same operations at any vector width, so the bits are the same on every processor.
-// FFTW chooses its operations by the processor: its last bits differ. FFTW transforms one contact over the
-// ranks of mpirun, and is the reference that tests and benches compare with.
+// The operations of a lane do not depend on the vector width, so the bits are the same on every processor,
+// unlike FFTW's. FFTW transforms contacts spread over ranks, and is the reference in tests and benches.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +14,7 @@
 
 namespace asperity {
 
-// Real and imaginary parts of one value of `count` signals, a register each. With one lane they are plain
-// numbers.
+// One value of `count` signals; plain numbers for one lane.
 template <class Real, int lanes = register_vectors::register_lanes<Real>>
 struct Lanes {
   static constexpr int count = lanes;
@@ -35,10 +32,10 @@ struct Lanes<Real, 1> {
   };
 };
 
-// The least length >= `least` whose prime factors are 2, 3, 5 and 7: these are the cheapest to transform.
+// Smallest length >= `least` with prime factors 2, 3, 5 and 7, the cheapest.
 int smooth_length(int least);
 
-// cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
+// cos and sin of 2π k/n, 0 <= k < n, from the first octant: equal angles have equal bits.
 struct UnitTurn {
   double cosine, sine;
 };
@@ -54,10 +51,10 @@ class LaneFourier {
   static bool possible(int n);
 
   int length() const { return n_; }
-  // Where forward() leaves bin k and inverse() takes it from.
+  // Position of bin k between forward() and inverse().
   int place(int k) const { return places_[static_cast<std::size_t>(k)]; }
 
-  // n values, in natural order outside and in that of place() between the two. Thread-safe.
+  // Thread-safe.
   void forward(Complex* values) const;
   void inverse(Complex* values) const;
 
@@ -73,8 +70,8 @@ class LaneFourier {
 
   int n_;
   std::vector<Stage> stages_;
-  // Of the size of a row: not counted.
-  std::vector<Real> factors_;  // e^{−2πi kq/n} as pairs, q = 1 … radix − 1 for each k
+  // Not counted: as large as a row.
+  std::vector<Real> factors_;  // by stage: e^{−2πi kq/(radix·part)} as pairs, q = 1 … radix − 1 per k
   std::vector<int> places_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A message is its length and then pieces that MPI's int can count. Sends are kept until they are done, so
-// that two processes that send to each other never wait for each other.
+// A message is its length, then pieces within MPI's int count. Sends are buffered, so that two processes may
+// send to each other without deadlock.
 #include "engine/core/mpi/messages.hpp"
 
 #include <dlfcn.h>
@@ -38,7 +38,7 @@ void forget_what_arrived() {
 }
 
 int open_all(int* rank, int* size, char* reason, std::size_t room) {
-  // The library loads plug-ins, which look for its names among all loaded symbols.
+  // MPI's plug-ins look up their symbols globally.
   ::dlopen("libmpi.so.40", RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD);
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What asperity-mpi.so offers the program: messages of bytes between the processes that mpirun started. Every
-// call is made from one thread. Plain C, so that it crosses the border of a part that is loaded late.
+// Interface of asperity-mpi.so: byte messages between the processes of mpirun, from one thread each. Plain C,
+// for late loading.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,14 @@
 extern "C" {
 
 struct AsperityMpi {
-  // Joins the others. 0, or else why not in `reason`.
+  // Returns 0, or nonzero with a `reason`.
   int (*open)(int* rank, int* size, char* reason, std::size_t room);
-  // Takes a copy and returns at once. Messages of one sender arrive in their order.
+  // Copies the message and returns at once. Messages of one sender arrive in order.
   void (*send)(int to, const char* bytes, std::uint64_t length);
-  // 1 with a message, whose bytes are to be given to free(); 0 where none waits.
+  // 1 with a message, which the caller passes to free(); 0 without.
   int (*receive)(int* from, char** bytes, std::uint64_t* length);
-  // Waits until what was sent has arrived, and leaves. All processes must come here.
+  // Waits for delivery of all sent messages, then leaves. Collective.
   void (*close)();
-  // Ends every process, this one too.
   void (*abort)(int status);
 };
 
