@@ -200,7 +200,9 @@ Tried try_press(const Grid& grid, const Field& heights, const Scene& scene, cons
     tried.ended = false;
     cost::count_transforms((weight - 1) * (cost::transforms() - before));
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::infeasible && error.code() != ErrorCode::bad_value) throw;
+    if (error.code() != ErrorCode::infeasible && error.code() != ErrorCode::bad_value &&
+        error.code() != ErrorCode::not_converged)
+      throw;
     tried.refused = error.sentence();
     cost::count_transforms((weight - 1) * (cost::transforms() - before));
   }

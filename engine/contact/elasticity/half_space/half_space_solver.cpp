@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,7 +14,9 @@
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/planned_yield.hpp"
+#include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -302,6 +305,27 @@ HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem&
   return answer;
 }
 
+// Hardening on long cells converges within some 150 transforms or hardly at all (docs/stability.md).
+constexpr double most_on_long_cells = 400;
+
+bool hardens_on_long_cells(const HalfSpaceProblem& problem) {
+  return problem.yield.hardens() && !problem.best_effort &&
+         keeps_line_loads(problem.grid.hy() / problem.grid.hx());
+}
+
+HalfSpaceAnswer solve_within(double most, const Grid& grid, const std::function<HalfSpaceAnswer()>& solve) {
+  try {
+    const TransformLimit limit(most);
+    return solve();
+  } catch (const TransformLimit::Spent&) {
+    const double aspect = std::max(grid.hx(), grid.hy()) / std::min(grid.hx(), grid.hy());
+    throw Error(ErrorCode::not_converged,
+                "`hardening` on cells " + format_short(aspect, 3) +
+                    " times longer than wide did not converge in " + format_short(most) + " transforms",
+                "give cells nearer to square, or leave `hardening` out");
+  }
+}
+
 }  // namespace
 
 State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
@@ -350,10 +374,13 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
       asked.prescribed = Prescribed::flattening;
       break;
   }
-  Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, start, monitor, [&] {
+  const auto solve = [&] {
     return by == "approach"  ? solve_at_approach(problem, value, monitor)
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
                              : solve_from(start, problem, value, monitor);
+  };
+  Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, start, monitor, [&] {
+    return hardens_on_long_cells(problem) ? solve_within(most_on_long_cells, problem.grid, solve) : solve();
   });
   // The energy sums pressures times lengths.
   const HalfSpaceAnswer& answer = solved.result;
