@@ -17,12 +17,12 @@
 #include <memory>
 #include <thread>
 
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/exit_status.hpp"
-#include "bindings/cli/shared_options.hpp"
 #include "bindings/web/api/api.hpp"
 #include "bindings/web/confined/barrier_report.hpp"
-#include "bindings/web/confined/frames.hpp"
 #include "bindings/web/places.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/core/cost.hpp"
 
 namespace asperity {

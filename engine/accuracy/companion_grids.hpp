@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/contact/plan.hpp"
-#include "engine/contact/press_request.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/press_request.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"

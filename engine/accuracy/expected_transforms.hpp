@@ -15,8 +15,8 @@
 
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/contact/press_request.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/press_request.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

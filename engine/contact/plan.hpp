@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/gap_term.hpp"
 #include "engine/contact/planned_yield.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
+#include "engine/contact/wave_share.hpp"
 
 namespace asperity {
 

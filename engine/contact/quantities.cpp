@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"

@@ -8,7 +8,7 @@
 
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"

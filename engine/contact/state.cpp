@@ -10,9 +10,9 @@
 #include <mutex>
 #include <numbers>
 
-#include "engine/contact/elastic_model.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/contact/state_limits.hpp"
 #include "engine/core/digest.hpp"

@@ -13,8 +13,8 @@
 
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/distribution.hpp"
-#include "engine/contact/effect.hpp"
 #include "engine/contact/outline_area.hpp"
+#include "engine/contact/scene/effect.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/surface/surface.hpp"

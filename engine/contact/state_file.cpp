@@ -7,7 +7,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 #include "engine/surface/io/xdmf.hpp"
 
 namespace asperity {

@@ -15,8 +15,8 @@
 #include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/length_ratio.hpp"
 #include "engine/metrology/line_fit.hpp"
-#include "engine/metrology/parameters/scale_dependence.hpp"
 #include "engine/metrology/profile_statistics.hpp"
+#include "engine/metrology/scale_dependence.hpp"
 #include "engine/metrology/spectral_bands.hpp"
 
 namespace asperity {

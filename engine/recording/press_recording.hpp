@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/statistics/table_form.hpp"

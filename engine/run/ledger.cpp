@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <new>
 
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

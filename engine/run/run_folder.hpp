@@ -20,7 +20,7 @@ inline constexpr std::string_view manifest = "manifest.json";
 inline constexpr std::string_view journal = "journal.jsonl";
 inline constexpr std::string_view store = "store";  // a folder: results of heavy calls (result_files.hpp)
 inline constexpr std::string_view views =
-    ".views";  // a folder: drawings of the page (bindings/web/api/views.hpp)
+    ".views";  // a folder: drawings of the page (bindings/web/confined/views.hpp)
 // Copies of the files loaded by `require`, `dofile` and `loadfile`.
 inline constexpr std::string_view loaded = "script_files";
 // In the manifest during the run.

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 
 namespace asperity {
 

@@ -12,7 +12,7 @@
 
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/friction/partial_slip.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::needs_effect_test {

@@ -10,7 +10,7 @@ import re
 import sys
 
 # Who walks the list of effects.
-WALKERS = {"engine/contact/plan.cpp", "engine/contact/scene.cpp", "engine/contact/quantities.cpp"}
+WALKERS = {"engine/contact/plan.cpp", "engine/contact/scene/scene.cpp", "engine/contact/quantities.cpp"}
 
 
 def main(arguments):

@@ -45,7 +45,7 @@ mistake stale docs/reference.md '0,/^### `lab\.surface\.sine`/s/^### `lab\.surfa
   "its tests" "checks:generated.*Failed"
 mistake race engine/run/ledger.cpp '/^void Ledger::add(std::string_view/,/^}/{/scoped_lock/d}' \
   "its tests, with the thread sanitizer" "data race"
-mistake overread engine/surface/io/binary_cursor.cpp \
+mistake overread engine/surface/io/hdf5_reader/binary_cursor.cpp \
   '/^std::string_view BinaryCursor::take/a\  const volatile char beyond = bytes_.data()[bytes_.size() + 40];\n  static_cast<void>(beyond);' \
   "its tests, with sanitizers" "heap-buffer-overflow"
 mistake example examples/stylus_and_tip.lua 's/short_wave = short_wave/short_waves = short_wave/' \

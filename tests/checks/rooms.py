@@ -3,7 +3,7 @@
 """The include direction: a room of engine/ or bindings/ sees itself and the rooms listed for it, and no other.
 
 Reads the #include lines of every source and header, nothing cleverer. Complains about a room that includes one it does not
-see, about a circle (of rooms in the list, or of headers), about Lua in the engine, and about an include by anything but its
+see, about a circle (of rooms in the list, of folders, or of files), about Lua in the engine, and about an include by anything but its
 path from the project's folder. The graph of the rooms, as they include each other, stands in docs/contributor.md.
 
 usage: rooms.py [FOLDER]          check the project in FOLDER (default: the one this file stands in)
@@ -33,7 +33,7 @@ SEES = {
     "engine/friction": NUMERICS + " engine/contact",
     "engine/specimen": NUMERICS + " engine/contact engine/friction engine/accuracy",
     "engine/recording": MECHANICS + " engine/plot",
-    "engine/run": NUMERICS + " engine/plot engine/contact/effects/list.hpp",
+    "engine/run": NUMERICS + " engine/plot engine/contact/scene/known_effects.hpp",
     "engine/study": ENGINE.removesuffix(" engine/study"),
 } | {f"bindings/lua/{room}": " ".join([ENGINE, *(f"bindings/lua/{below}" for below in LUA_ROOMS[:k])])
      for k, room in enumerate(LUA_ROOMS)} | {
@@ -150,6 +150,12 @@ def main(arguments):
                for path, text in sources.items()}
     if files := circle(headers):
         found.append("files include each other in a circle: " + " -> ".join(files))
+    folders = {}
+    for path, targets in headers.items():
+        here = path.rpartition("/")[0]
+        folders.setdefault(here, set()).update({target.rpartition("/")[0] for target in targets} - {here})
+    if around := circle(folders):
+        found.append("folders include each other in a circle: " + " -> ".join(around))
     if old != drawn(sources):
         found.append("docs/contributor.md: the graph of the rooms is old: tests/checks/rooms.py --draw")
     if not found:

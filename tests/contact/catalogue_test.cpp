@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The effects a scene can name, and how the others are refused.
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 
 #include <algorithm>
 #include <array>

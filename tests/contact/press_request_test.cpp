@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a press refuses whatever the contact.
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 
 #include <cmath>
 #include <limits>

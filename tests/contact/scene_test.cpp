@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a scene refuses before anything is computed, with its texts.
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 #include <limits>
 

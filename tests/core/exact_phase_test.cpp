@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Increments of geometric plane waves against a 420-bit reference and against identities that hold
 // to the last bit, and the limits of the table.
-#include "engine/core/arithmetic/exact_phase.hpp"
+#include "engine/core/exact_phase.hpp"
 
 #include <gtest/gtest.h>
 

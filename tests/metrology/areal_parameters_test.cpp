@@ -17,8 +17,8 @@
 #include "engine/metrology/parameters/autocorrelation.hpp"
 #include "engine/metrology/parameters/hills.hpp"
 #include "engine/metrology/parameters/material_ratio.hpp"
-#include "engine/metrology/parameters/scale_dependence.hpp"
 #include "engine/metrology/parameters/texture_direction.hpp"
+#include "engine/metrology/scale_dependence.hpp"
 
 namespace asperity::areal_parameters_test {
 namespace {

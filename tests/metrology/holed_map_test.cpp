@@ -18,7 +18,7 @@
 #include "engine/metrology/spectrum.hpp"
 #include "engine/metrology/spherical_tip.hpp"
 #include "engine/metrology/stylus.hpp"
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 #include "tests/metrology/test_fields.hpp"
 
 namespace asperity::holed_map_test {

@@ -2,7 +2,7 @@
 // Registration: exact placements found again, the accuracy on worn, noisy, holed and tilted pairs, honest
 // uncertainties, and what it refuses. With ASPERITY_WHOLE=1 the accuracy is taken over as many problems as
 // docs/guide.md reports, and the percentiles are printed.
-#include "engine/metrology/registration.hpp"
+#include "engine/metrology/registration/registration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"

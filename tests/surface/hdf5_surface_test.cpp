@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces in HDF5 files of this program and as others might write them, and the XDMF beside them.
-#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/holes.hpp"
+#include "engine/surface/operations/holes.hpp"
 
 #include <algorithm>
 #include <cmath>

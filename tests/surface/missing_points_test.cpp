@@ -11,7 +11,7 @@
 
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/surface/generators/sine.hpp"
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::missing_points_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
 #include "tests/surface/files.hpp"

@@ -11,12 +11,12 @@
 #include <string>
 #include <thread>
 
-#include "bindings/web/api/answers.hpp"
-#include "bindings/web/api/views.hpp"
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/confined/views.hpp"
+#include "bindings/web/runs/answers.hpp"
 #include "bindings/web/runs/event_log.hpp"
 #include "bindings/web/runs/page_run.hpp"
-#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/sandbox/frames.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 
 namespace asperity::web::page_values_test {
 namespace {

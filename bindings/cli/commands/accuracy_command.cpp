@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/muted.hpp"
-#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"

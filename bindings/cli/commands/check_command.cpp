@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/run_observer.hpp"
-#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"

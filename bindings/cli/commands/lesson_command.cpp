@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "bindings/cli/commands/run_command.hpp"
-#include "bindings/cli/shared_options.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"

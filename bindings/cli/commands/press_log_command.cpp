@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
-#include "bindings/cli/shared_options.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/lua/registry/embedded.hpp"
 
 namespace asperity::cli {

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/line_reader.hpp"
-#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/editor/prompt.hpp"

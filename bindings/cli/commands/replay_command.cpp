@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/cli/commands/shared_options.hpp"
+#include "bindings/cli/commands/stored_results.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/muted.hpp"
-#include "bindings/cli/shared_options.hpp"
-#include "bindings/cli/stored_results.hpp"
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"

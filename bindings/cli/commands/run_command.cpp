@@ -13,12 +13,12 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bindings/cli/commands/shared_options.hpp"
+#include "bindings/cli/commands/stored_results.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/shard.hpp"
-#include "bindings/cli/shared_options.hpp"
-#include "bindings/cli/stored_results.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/unlinked_files.hpp"
 #include "bindings/cli/watchdog.hpp"

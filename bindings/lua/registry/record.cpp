@@ -8,7 +8,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

@@ -11,8 +11,8 @@
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/effects/list.hpp"
 #include "engine/contact/elasticity/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {

@@ -7,7 +7,7 @@
 
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/row_block.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 namespace asperity::lua {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/contact/plan.hpp"
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/files/result_store.hpp"
 #include "engine/core/slabs/team.hpp"

@@ -7,10 +7,10 @@
 #include "bindings/lua/spread/spread.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/effects/list.hpp"
 #include "engine/contact/elasticity/list.hpp"
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/known_effects.hpp"
+#include "engine/contact/scene/press_request.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/quantity.hpp"
 

@@ -12,7 +12,7 @@
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/levelling.hpp"
-#include "engine/metrology/parameters/scale_dependence.hpp"
+#include "engine/metrology/scale_dependence.hpp"
 
 namespace asperity::lua {
 

@@ -14,7 +14,7 @@
 #include "bindings/lua/surface/field_class.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 
 namespace asperity::lua {
 

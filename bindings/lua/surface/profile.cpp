@@ -13,7 +13,7 @@
 #include "engine/plot/picture_profile.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 
 namespace asperity::lua {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // s:registered_to(before) and its record.
-#include "engine/metrology/registration.hpp"
+#include "engine/metrology/registration/registration.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"

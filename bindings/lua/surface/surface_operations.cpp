@@ -5,7 +5,7 @@
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/surface/operations.hpp"
+#include "engine/surface/operations/operations.hpp"
 
 namespace asperity::lua {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 
 namespace asperity::web {
 

@@ -8,9 +8,9 @@
 
 #include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
-#include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/answers.hpp"
 #include "bindings/web/runs/page_run.hpp"
-#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::web {

@@ -12,7 +12,7 @@
 #include "bindings/web/api/access.hpp"
 #include "bindings/web/api/page_files.hpp"
 #include "bindings/web/api/room_board.hpp"
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 #include "bindings/web/runs/live_sessions.hpp"
 #include "bindings/web/runs/run_queue.hpp"
 #include "bindings/web/runs/shares.hpp"

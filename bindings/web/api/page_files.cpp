@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/web/api/page_files.hpp"
 
-#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/digest.hpp"
 
 namespace asperity::web {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 
 namespace asperity::web {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "bindings/web/api/answers.hpp"
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
+#include "bindings/web/runs/answers.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/temporary_folder.hpp"
 

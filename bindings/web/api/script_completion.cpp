@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bindings/lua/editor/completion.hpp"
-#include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/answers.hpp"
 
 namespace asperity::web {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

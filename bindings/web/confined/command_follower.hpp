@@ -12,7 +12,7 @@
 #include <string_view>
 #include <thread>
 
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 
 namespace asperity::web {
 

@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <mutex>
 
-#include "bindings/web/confined/frames.hpp"
-#include "bindings/web/runs/plain_files.hpp"
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
+#include "bindings/web/sandbox/frames.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/temporary_folder.hpp"

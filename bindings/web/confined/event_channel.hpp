@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bindings/cli/run_observer.hpp"
-#include "bindings/web/api/views.hpp"
+#include "bindings/web/confined/views.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/surface/surface.hpp"
 

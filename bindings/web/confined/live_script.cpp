@@ -26,7 +26,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/web/confined/event_channel.hpp"
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 
 namespace asperity::web {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http.hpp. The library's
+// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http/http.hpp. The library's
 // unpacking, compression, ranges and forms are disabled, because a short request could make them expensive.
 #include <httplib.h>
 #include <sys/socket.h>
@@ -13,9 +13,9 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/web/http.hpp"
 #include "bindings/web/http/connections.hpp"
 #include "bindings/web/http/deadline_stream.hpp"
+#include "bindings/web/http/http.hpp"
 #include "bindings/web/http/request_head.hpp"
 
 namespace asperity::web {

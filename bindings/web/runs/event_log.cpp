@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/files/disk.hpp"
 
 namespace asperity::web {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity::web {

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "bindings/web/confined/disk_bound.hpp"
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/json.hpp"

@@ -18,9 +18,9 @@
 #include <thread>
 #include <vector>
 
+#include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/runs/shares.hpp"
-#include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {

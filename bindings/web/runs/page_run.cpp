@@ -6,8 +6,8 @@
 #include <cerrno>
 
 #include "bindings/web/confined/disk_bound.hpp"
-#include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/runs/run_follower.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 

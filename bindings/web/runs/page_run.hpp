@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bindings/web/confined/confined.hpp"
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 #include "bindings/web/runs/event_log.hpp"
 #include "engine/run/run_knobs.hpp"
 

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <utility>
 
-#include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/answers.hpp"
 #include "bindings/web/runs/page_run.hpp"
-#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 
 namespace asperity::web {
 

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/runs/page_run.hpp"
-#include "bindings/web/sandbox/confined_process.hpp"
 
 namespace asperity::web {
 

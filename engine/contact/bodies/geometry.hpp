@@ -12,7 +12,7 @@
 
 #include "engine/contact/bodies/node_memory.hpp"
 #include "engine/contact/bodies/pose.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 namespace asperity {
 

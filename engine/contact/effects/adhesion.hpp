@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "engine/contact/effect.hpp"
 #include "engine/contact/gap_term.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 // 1951). Used by friction only.
 #pragma once
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

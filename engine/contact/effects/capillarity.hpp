@@ -5,7 +5,7 @@
 // liquid is not conserved.
 #pragma once
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

@@ -2,7 +2,7 @@
 // Creep: scales the hardness by the dwell, H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)).
 #pragma once
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

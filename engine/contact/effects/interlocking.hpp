@@ -2,7 +2,7 @@
 // Interlocking: slopes of rough bodies add to the friction angle of junctions (friction/interlocking.hpp).
 #pragma once
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "engine/contact/bodies/after_event.hpp"
+#include "engine/contact/after_event.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/contact/solution.hpp"

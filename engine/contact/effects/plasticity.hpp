@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

@@ -6,7 +6,7 @@
 // included: coupling of shear and pressure, zero for like bodies or ν = ½, growing with Dundurs' β.
 #pragma once
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

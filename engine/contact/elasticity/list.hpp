@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "engine/contact/elastic_model.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 
 namespace asperity {
 

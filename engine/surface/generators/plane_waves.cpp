@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/arithmetic/exact_phase.hpp"
+#include "engine/core/exact_phase.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/table_product.hpp"

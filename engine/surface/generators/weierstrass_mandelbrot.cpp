@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/arithmetic/exact_phase.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/exact_phase.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/generators/plane_waves.hpp"

@@ -3,7 +3,7 @@
 // (1998):
 //   z = L (G/L)^(D−2) √(ln γ/M) Σ_{m=1..M} Σ_{n=0..n_max} γ^((D−3)n)
 //       { cos φ_mn − cos[2π γⁿ (x cos(πm/M) + y sin(πm/M))/L + φ_mn] },
-// so z = 0 at node (0, 0). Phases are exact (core/arithmetic/exact_phase.hpp). Not periodic. Unresolved
+// so z = 0 at node (0, 0). Phases are exact (core/exact_phase.hpp). Not periodic. Unresolved
 // waves are counted, or left out on request.
 #pragma once
 

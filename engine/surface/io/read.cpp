@@ -15,7 +15,7 @@
 #include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/holes.hpp"
+#include "engine/surface/operations/holes.hpp"
 
 namespace asperity {
 

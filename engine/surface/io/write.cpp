@@ -10,7 +10,7 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 
 namespace asperity {
 

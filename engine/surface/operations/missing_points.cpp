@@ -13,7 +13,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/holes.hpp"
+#include "engine/surface/operations/holes.hpp"
 
 namespace asperity {
 

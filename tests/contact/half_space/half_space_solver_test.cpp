@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "tests/core/shelf.hpp"
 
 namespace asperity::half_space_solver_test {

@@ -10,7 +10,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "engine/contact/boundary.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/core/grid.hpp"
 
 namespace asperity::stability {

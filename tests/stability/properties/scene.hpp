@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 namespace asperity::stability {
 

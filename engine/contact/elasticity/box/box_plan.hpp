@@ -6,7 +6,7 @@
 // `poisson` of every body that is not rigid, and unequal heights.
 #pragma once
 
-#include "engine/contact/elastic_model.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"

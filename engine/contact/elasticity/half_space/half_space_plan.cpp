@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "engine/contact/bodies/elastic_bodies.hpp"
-#include "engine/contact/elasticity/half_space/adhesion/adhesive_solver.hpp"
+#include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"

@@ -2,7 +2,7 @@
 // Plan of an elastic half-space: modulus, split of the displacement, memory and cost.
 #pragma once
 
-#include "engine/contact/elastic_model.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 
 namespace asperity {
 

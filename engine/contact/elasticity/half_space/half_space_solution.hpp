@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/solution.hpp"
 

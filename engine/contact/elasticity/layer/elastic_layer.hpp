@@ -9,8 +9,8 @@
 // bonded base.
 #pragma once
 
-#include "engine/contact/elastic_model.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 
 namespace asperity {
 

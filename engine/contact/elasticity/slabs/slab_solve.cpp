@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"

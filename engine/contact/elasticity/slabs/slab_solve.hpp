@@ -10,7 +10,7 @@
 #include <string>
 
 #include "engine/contact/certificate.hpp"
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
 

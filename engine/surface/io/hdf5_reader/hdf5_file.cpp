@@ -14,8 +14,8 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 namespace asperity {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
-#include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 

@@ -12,18 +12,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/contact/boundary.hpp"
+#include "engine/contact/scene/boundary.hpp"
+#include "engine/contact/wave_share.hpp"
 
 namespace asperity {
-
-// Compliance of one wave relative to a half-space: K(q) = share · 2/(E*|q|).
-struct WaveShare {
-  // In [0, 1] at x = |q| length: 0 at 0, 1 at infinity. K(q) falls beyond x = 4.
-  std::function<double(double x)> share;
-  double length = 0;                 // m
-  double uniform = 0;                // K(0) E*/length
-  std::vector<double> parameters{};  // for digests
-};
 
 struct ComplianceMultiplier {
   std::function<double(double x)> share_of{};               // empty: a half-space

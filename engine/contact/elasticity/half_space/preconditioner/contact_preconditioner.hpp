@@ -13,9 +13,9 @@
 #include <memory>
 #include <span>
 
-#include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
+#include "engine/contact/scene/boundary.hpp"
 
 namespace asperity {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/scratch_pool.hpp"
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/memory.hpp"
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/contact/boundary.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {

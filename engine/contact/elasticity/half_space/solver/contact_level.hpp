@@ -9,10 +9,10 @@
 #include <optional>
 #include <span>
 
-#include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/contact/yield_law.hpp"
 #include "engine/core/memory.hpp"
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/contact/boundary.hpp"
 #include "engine/contact/certificate.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/scene/boundary.hpp"
 #include "engine/contact/yield_law.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"

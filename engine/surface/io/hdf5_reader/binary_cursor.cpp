@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 

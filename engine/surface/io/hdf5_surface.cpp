@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 
 #include <limits>
 

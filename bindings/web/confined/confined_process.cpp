@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/sandbox/confined_process.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elastic_bodies.hpp"
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/api/views.hpp"
+#include "bindings/web/confined/views.hpp"
 
 #include <algorithm>
 #include <bit>

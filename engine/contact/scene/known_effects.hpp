@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 namespace asperity {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bindings/web/http.hpp"
+#include "bindings/web/http/http.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/run/run_knobs.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/sandbox/frames.hpp"
 
 namespace asperity::web {
 

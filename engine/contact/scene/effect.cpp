@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/answers.hpp"
 
 #include <cmath>
 

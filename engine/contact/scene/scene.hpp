@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "engine/contact/boundary.hpp"
-#include "engine/contact/effect.hpp"
-#include "engine/contact/elastic_model.hpp"
+#include "engine/contact/scene/boundary.hpp"
+#include "engine/contact/scene/effect.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/metrology/registration.hpp"
+#include "engine/metrology/registration/registration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/metrology/registration/placement.hpp"
-#include "engine/surface/io/holes.hpp"
+#include "engine/surface/operations/holes.hpp"
 
 namespace asperity {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene/press_request.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "engine/contact/effect.hpp"
+#include "engine/contact/scene/effect.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

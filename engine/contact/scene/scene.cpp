@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/scene.hpp"
+#include "engine/contact/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/effects/list.hpp"
+#include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

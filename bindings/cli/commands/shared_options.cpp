@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/shared_options.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 
 #include <CLI/CLI.hpp>
 

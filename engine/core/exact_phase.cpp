@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/arithmetic/exact_phase.hpp"
+#include "engine/core/exact_phase.hpp"
 
 #include <mpfr.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/stored_results.hpp"
+#include "bindings/cli/commands/stored_results.hpp"
 
 #include <cstdio>
 #include <filesystem>

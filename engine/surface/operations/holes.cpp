@@ -4,7 +4,7 @@
 // bilinear interpolation with zero on measured nodes, Galerkin coarse operators, one Gauss-Seidel sweep
 // down and its mirror up (Trottenberg, Oosterlee & Schueller, Multigrid, 2001, ch. 2 and 7). On elongated
 // cells, only the direction of stronger coupling is coarsened.
-#include "engine/surface/io/holes.hpp"
+#include "engine/surface/operations/holes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/adhesion/adhesive_solver.hpp"
+#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/metrology/parameters/scale_dependence.hpp"
+#include "engine/metrology/scale_dependence.hpp"
 
 #include <algorithm>
 #include <cmath>
