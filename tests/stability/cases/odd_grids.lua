@@ -161,7 +161,7 @@ case:evidence(noise, "White noise on 96 x 96 cells, longer than wide or wider th
 case:expect(noise, "solved", { at_least = 1 })
 case:expect(noise, "transforms", { at_most = 400 }) -- measured 263, at 1000:1 on a free boundary
 
--- 5. The same under hardening. Much softer than the half-space it is solved or refused with the shape of the cells.
+-- 5. The same under hardening: solved within 400 transforms, or refused with the shape of the cells.
 local soft = lab.notebook "soft"
 for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
   for _, aspect in ipairs{ 0.01, 0.1, 10, 30, 100, 300, 1000 } do
@@ -180,12 +180,12 @@ for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
   end
 end
 case:evidence(soft, "White noise on 96 x 96 long cells under hardening, by the hardening in Pa/m; E*/cell is 1e16 Pa/m"
-  .. " along the short side. From a fifth on, a press takes at most 400 transforms. At a fiftieth long cells are dear or refused.",
+  .. " along the short side. A press takes at most 400 transforms, or is refused: at a fiftieth on some of the long cells.",
   { { "hardening", "%.0e" }, { "aspect", "%.3g" }, { "solved", "%d" }, { "transforms", "%.0f" },
     { "certificate", "%.0e" } })
+case:expect(soft, "transforms", { at_most = 400 })
 for _, hardening in ipairs{ 2e15, 2e16 } do
   case:expect(soft, "solved", { where = { hardening = hardening }, at_least = 1 })
-  case:expect(soft, "transforms", { where = { hardening = hardening }, at_most = 400 })
 end
 
 case:holds("a grid of one node carries the load with no approach", (function()
