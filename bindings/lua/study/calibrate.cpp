@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: its parameters, and the model, a function of the script
-// that is called with the table q of the parameters in SI and one row as rows() gives it.
+// lab.calibrate: options, and the model, a Lua function of the parameters q (SI) and one row as rows() gives
+// it.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -25,17 +25,17 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- what is asked for
+// --- options
 
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
+  std::vector<CalibrationParameter> parameters;  // sorted by name, because Lua tables have no order
   std::vector<Dimension> dimensions;
-  std::string replicate;  // its key
+  std::string replicate;  // key of the replicate
   std::vector<double> faces;
 };
 
-// One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
+// A number in SI, or a quantity in the dimension of the parameter. The first quantity sets the dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
   if (value.is_number()) return value.number();
@@ -64,7 +64,7 @@ struct NamedParameter {
   std::optional<Dimension> dimension;
 };
 
-// nil keys are not there; the order in which Lua gives the others does not matter.
+// nil keys count as absent; the order of keys does not matter.
 NamedParameter parameter_of(const std::string& name, const Argument& table, Problems& problems) {
   static const std::vector<std::string> keys = {"start", "lower", "upper", "step"};
   NamedParameter found;
@@ -177,7 +177,7 @@ const Block<CalibrateKeys>& calibrate_block() {
 
 // --- the model
 
-// The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
+// The Lua function with its tables on the stack: the rows, q, the names of the parameters.
 class CalibratedFunction {
  public:
   CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
@@ -212,7 +212,7 @@ class CalibratedFunction {
     find_heavy(call, function);
   }
 
-  // Whether the model makes heavy calls in each of its own: it is then to be called as seldom as may be.
+  // True if every call of the model is heavy; the fit then calls the model as seldom as possible.
   bool heavy() const { return heavy_; }
 
   std::vector<double> operator()(std::span<const CalibrationQuery> queries,
@@ -282,8 +282,8 @@ class CalibratedFunction {
   }
 
  private:
-  // Called for the first row at the start and a little beside: a model that computes once and remembers is
-  // not heavy.
+  // Calls the model for the first row at the start and at a second point near it. A model that computes once
+  // and caches is not heavy.
   void find_heavy(const Call& call, const Argument& function) {
     if (list_.items.empty() || parameters_.empty()) return;
     std::int64_t before = session_.heavy_calls;
@@ -331,17 +331,15 @@ class CalibratedFunction {
   Session& session_;
   QuietMonitor monitor_;
   std::unique_ptr<CallBatch> batch_;
-  List list_;                    // of the rows
-  std::optional<double> begun_;  // of the first row at the start
+  List list_;                    // rows
+  std::optional<double> begun_;  // value of the first row at the start
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
-  std::vector<CalibrationParameter> parameters_;  // and the replicate, where there is one
+  std::vector<CalibrationParameter> parameters_;  // and the replicate, if any
   std::vector<double> faces_;
   const std::vector<std::size_t>& numbers_;
 };
-
-// --- the function
 
 Values run_calibration(Call& call) {
   const CalibrateKeys keys = call.options(calibrate_block());
