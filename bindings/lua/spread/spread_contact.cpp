@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts over the ranks of mpirun as values of the language.
+// Contacts over MPI ranks as native Lua values.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
