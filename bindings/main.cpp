@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // asperity: the program. main() lists the commands; each declares and reads its options in its own file
 // (cli/commands, web/serve_command.cpp; interface in cli/commands/command.hpp). Commands of the command line
-// receive the confined runners of the web part here, so that neither part includes the other.
+// receive the confined runners of the web part here, so that the command line includes no file of the page.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

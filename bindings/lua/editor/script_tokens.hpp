@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The words of a Lua script that need not be finished: names, numbers, strings and signs with their places,
-// comments left out. Anything reads as tokens: a string that was not closed ends with its line, or where
-// the text does, and is marked open. Linear in the length of the text.
+// Tokens of an unfinished Lua script: names, numbers, strings and signs with positions, without comments.
+// Accepts any text: an unclosed string ends with its line or the text and is marked open. Linear in the
+// length of the text.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace asperity::lua {
 struct Token {
   enum class Kind { name, keyword, number, text, sign };
   Kind kind;
-  std::size_t begin, end;   // bytes; of a text with its quotes
-  bool open = false;        // a text that was not closed
-  std::size_t content = 0;  // of a text: where it begins after its quote
+  std::size_t begin, end;   // bytes; strings include their quotes
+  bool open = false;        // unclosed string
+  std::size_t content = 0;  // string: first byte after the quote
 };
 
 struct ScriptTokens {
@@ -26,7 +26,7 @@ struct ScriptTokens {
 ScriptTokens read_tokens(std::string_view script);
 
 bool is_keyword(std::string_view word);
-// Lua's keywords in the order of the alphabet.
+// Sorted.
 const std::vector<std::string_view>& keywords();
 
 }  // namespace asperity::lua

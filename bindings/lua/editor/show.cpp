@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// show(value): what a prompt draws in the terminal. A surface or a field of a state as a map, a profile or
-// the columns of a notebook as a chart; with the name of a file, the picture goes there instead.
+// show(value): draws in the terminal. Surfaces and fields of a state become maps; profiles and the columns of
+// a notebook become charts. With a file name, the picture goes to the file.
 #include <cstdio>
 
 #include "bindings/lua/editor/prompt.hpp"
@@ -26,7 +26,7 @@ void say(const Call& call, const std::string& text) {
   std::fflush(output);
 }
 
-// The name of a file as the second argument, if it is one.
+// The second argument, if it is a file name.
 std::optional<std::string> file_given(const Call& call) {
   if (!call.given(2) || !call.argument(2).is_text()) return {};
   return call.text(2, "file");
