@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The parameters and filters of a map of 2048 x 2048 cells: what each group takes when it is first read, beside what it may
--- take on two threads. Seconds are of the processor, over all threads: divided by their number they are the least that the
--- clock can show. White noise has the most hills. Registration: bench/registration.lua.
+-- Times of the parameter groups and filters of a map of 2048 x 2048 cells, with their limits on two threads.
+-- Times are processor seconds over all threads; divided by the threads they bound the wall time from below.
+-- White noise has the most hills. Registration: bench/registration.lua.
 --
 --   asperity run bench/areal_parameters.lua --threads 2
 --   asperity run bench/areal_parameters.lua --threads 2 -- cells=1024

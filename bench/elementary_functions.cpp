@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's correctly rounded functions beside the C library's, on arguments as surfaces and solvers give
-// them. Run: bench_elementary_functions. Compare times of one run; each is of 4096 values.
+// The correctly rounded functions compared with the C library, on typical arguments of surfaces and solvers.
+// Run: bench_elementary_functions. Compare times of one run; each is for 4096 values.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a case of an ensemble costs by itself: cases that compute nothing, each of which is kept and counted. Options: cases.
--- The processors' time over their number:
+-- Overhead of one case of an ensemble: cases without computation, stored and counted as usual. Option: cases.
+-- Divide the processor time by the number of cases:
 --
 --   time asperity run bench/empty_cases.lua --threads 2
 local lab = require "asperity"

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Small presses by the thousand: what an ensemble adds to its surfaces and solves. Each case has a surface of its own seed
--- on 256 x 256 cells, pressed to a tolerance of 1e-2, elastic or capped at its hardness, and is stored and counted as every
--- case is. Options: cases, capped (how many of them stop at the hardness, first), cells. bench/ensemble_presses.cpp runs it
--- against a loop in C++ over the same surfaces and presses.
+-- Thousands of small presses: overhead of an ensemble. Each case has a surface of its own seed on 256 x 256
+-- cells, pressed with tolerance 1e-2, elastic or capped at its hardness, and is stored and counted as usual.
+-- Options: cases, capped (the first cases, which stop at the hardness), cells. bench/ensemble_presses.cpp
+-- compares the script with a C++ loop over the same surfaces and presses.
 --
 --   asperity run bench/ensemble_presses.lua --threads 2 -- cases=16000
 local lab = require "asperity"

@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a surrogate would have cost in place of thousands of presses, and how far it is off: the logarithm of the corrected
--- area by a polynomial (Legendre, total degree 1 to 4) in the logarithms of pressure and slope and in the Hurst exponent,
--- fitted by least squares to `train` presses and held against `test` others. Once all presses share one seed, so that the
--- area is a smooth function of the three; once each has its own surface, as an ensemble has, and what one seed does differs
--- from the next. The presses are those of bench/ensemble_presses.lua, through lab.ensemble.
+-- Cost and error of a surrogate for thousands of presses: a polynomial (Legendre, total degree 1 to 4) for
+-- the logarithm of the corrected area in the logarithms of pressure and slope and the Hurst exponent, fitted
+-- by least squares to `train` presses and tested on `test` others. In the first series all presses share one
+-- seed, and the area is smooth in the three variables. In the second each press has its own seed, as in an
+-- ensemble. The presses are those of bench/ensemble_presses.lua, through lab.ensemble.
 --
 --   asperity run bench/surrogate_presses.lua -- train=400 test=400
 local lab = require "asperity"
@@ -14,7 +14,7 @@ local material = lab.material{ young = 1e9, poisson = 0, hardness = 5e7 }
 local names = { "pressure", "slope", "hurst" }
 local cells = options.cells
 
--- Inputs in [-1, 1], from a sequence that fills the cube evenly (Kronecker, of the plastic numbers).
+-- Inputs in [-1, 1] from an evenly filling sequence (Kronecker sequence of the plastic number).
 local function inputs(count, from)
   local cases = {}
   for k = 1, count do
@@ -63,7 +63,7 @@ local function values(row, list)
   return v
 end
 
--- Least squares by the normal equations: the basis is close to orthogonal on points that fill the cube evenly.
+-- Normal equations suffice: the basis is nearly orthogonal on these points.
 local function fit(rows, list)
   local n, A = #list, {}
   for i = 1, n do A[i] = {} for j = 1, n + 1 do A[i][j] = 0 end end
