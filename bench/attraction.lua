@@ -13,7 +13,7 @@ local rows = lab.ensemble{
   over = { scene = (function() local list = {} for k = 1, options.scenes do list[k] = k end return list end)() },
   run = function(case)
     local state = (case.scene + 1000 * options.seed) * 7919 % 2147483647
-    local function random(low, high)  -- uniform in the logarithm
+    local function random(low, high) -- uniform in the logarithm
       state = state * 16807 % 2147483647
       return low * (high / low) ^ (state / 2147483647)
     end
