@@ -22,8 +22,7 @@ constexpr std::size_t none = ScriptTypes::none;
 
 Candidate of_function(const Function& f) { return {f.name, "method", signature(f), f.sentence}; }
 
-// The expected value: an option of a table, a parameter of a function, or the first argument of a Lua
-// built-in.
+// The expected value: an option, a parameter of a function, or the first argument of a Lua built-in.
 struct Role {
   const OptionInfo* option = nullptr;
   const Parameter* parameter = nullptr;
@@ -90,13 +89,12 @@ class Completer {
     return k > 0 && (types().is(k - 1, "{") || types().is(k - 1, ",") || types().is(k - 1, ";"));
   }
 
-  // True if the table opening at `brace` is an element of a list.
   bool is_item_of_list(std::size_t brace) const {
     const std::size_t outer = types().around(brace);
     return outer != none && types().is(outer, "{") && begins_item(brace);
   }
 
-  // The function called by the name or chain ending at token k.
+  // Function called at the end of token k.
   const Function* function_at(std::size_t k) const {
     const ScriptType called = types().chain_ending_at(k);
     if (const auto* function = called.as<const Function*>()) return *function;
@@ -109,7 +107,7 @@ class Completer {
                                   types().is(k, "]") || types().is(k, "}"));
   }
 
-  // Counts commas between an open bracket and k, skipping nested tables and calls.
+  // Skips nested tables and calls.
   int argument_number(std::size_t open, std::size_t k) const {
     int number = 0;
     for (std::size_t n = open + 1; n < k; ++n) {
@@ -120,9 +118,9 @@ class Completer {
     return number;
   }
 
-  // The option block of the table opening at `brace`; null if unknown.
+  // Options of the table at `brace`; null if unknown.
   const BlockInfo* block_of(std::size_t brace) const {
-    // Limits recursion on nested tables; no call nests nearly as deep.
+    // Bounds the recursion.
     constexpr int deepest = 100;
     if (nested_ >= deepest) return nullptr;
     if (const auto known = blocks_.find(brace); known != blocks_.end()) return known->second;
@@ -152,7 +150,6 @@ class Completer {
     return nullptr;
   }
 
-  // The role of a value that begins at token k.
   Role role_of(std::size_t k) const {
     if (k == 0) return {};
     const std::size_t around = types().around(k);
@@ -268,7 +265,7 @@ class Completer {
     }
   }
 
-  // The words of a type such as "\"free\"|\"periodic\"".
+  // Words of a type such as "\"free\"|\"periodic\"".
   static std::vector<std::string> words_in(std::string_view type) {
     std::vector<std::string> words;
     for (std::size_t at = type.find('"'); at != std::string_view::npos; at = type.find('"', at)) {
@@ -327,7 +324,7 @@ class Completer {
     return dimension::number;
   }
 
-  // A quantity in quotes: an example if the text is empty, a unit after a number.
+  // Example for an empty text, unit after a number.
   void quantity_words(Dimension wanted, const std::string& default_text) {
     if (wanted == dimension::number) return;
     const std::string_view content = text_.substr(result_.from);
@@ -386,7 +383,7 @@ class Completer {
   Completion result_;
   mutable std::map<std::size_t, const BlockInfo*> blocks_;  // results of block_of()
   mutable int nested_ = 0;                                  // recursion depth of block_of()
-  bool leading_space_ = false;                              // candidates begin with a space
+  bool leading_space_ = false;                              // of candidates
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Help texts, the reference page and the LuaCATS types for editors. All come from the registry entries that
-// also drive the calls, and therefore agree with the program.
+// Help, the reference page and LuaCATS types, all from the registry entries behind the calls.
 #pragma once
 
 #include <string>
@@ -10,10 +9,10 @@
 
 namespace asperity::lua {
 
-// Help on "lab", "lab.surface", "sine", "surface:scaled", "State.area" …; "" lists the topics. Throws
+// Topics: "lab", "lab.surface", "sine", "surface:scaled", "State.area" …; "" lists all. Throws
 // Error{unknown_name} with the nearest topic.
 std::string help_text(const std::string& topic);
-// All full names that help_text() accepts.
+// Full names for help_text().
 std::vector<std::string> help_topics();
 
 // One line each: "lab.surface.flat{ cells=, size= }"; "a length above 0, default \"1 um\""; "number, Pa".
@@ -21,8 +20,8 @@ std::string signature(const Function& function);
 std::string describe_option(const OptionInfo& option);
 std::string describe_field(const Getter& field);
 
-// Defines the values that the examples of the registry use. Each example runs after this preamble in its own
-// run (tests/bindings/examples_test.cpp).
+// Defines values for the examples; each example runs after it in its own run
+// (tests/bindings/examples_test.cpp).
 const std::string& example_preamble();
 // docs/reference.md
 std::string reference_page();

@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Lines of the opening comment, without dashes.
+// Without dashes.
 std::vector<std::string> opening_comment(std::string_view script) {
   std::vector<std::string> lines;
   while (script.starts_with("--")) {

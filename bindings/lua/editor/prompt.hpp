@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An interactive session in one Lua state, line by line. An expression prints its value; an incomplete
-// statement waits for more lines; a top-level `local` becomes a global, because the lines form one script. A
-// failing line restores all variables but not the contents of tables, and clears the hook of the state. No
-// terminal code: lines are text, and values go to the session's output.
+// An interactive session in one Lua state. An expression prints its value; an incomplete statement waits for
+// more lines; a top-level `local` becomes a global. A failing line restores all variables, not the contents
+// of tables, and clears the hook. Lines are text: no terminal code.
 #pragma once
 
 #include <string>
@@ -16,27 +15,24 @@ namespace asperity::lua {
 
 class Prompt {
  public:
-  // Sets the globals `lab` and `show`. Throws Error{out_of_memory}.
+  // Sets globals `lab` and `show`. Throws Error{out_of_memory}.
   explicit Prompt(lua_State* state);
 
   enum class Outcome { done, more, failed };
-  // Runs a line; `number` is its line number in the input. `more`: the statement is incomplete. `failed`:
-  // error() has the message, and the next line may follow.
+  // `number`: line number in the input. `more`: the statement is incomplete. `failed`: see error(); the next
+  // line may follow.
   Outcome take(std::string_view line, int number = 1);
-  // Runs the script() of an earlier prompt from its start in this state. A comment line with `why` follows in
-  // the script. Never `more`.
+  // Runs the script() of an earlier prompt and appends `why` as a comment. Never `more`.
   Outcome run_again(const std::string& script, const std::string& why);
-  // With a traceback if functions of the script were running.
+  // With a traceback, if functions were running.
   const std::string& error() const { return error_; }
 
-  // True while lines wait for more.
   bool continued() const { return !waiting_.empty(); }
   void forget() { waiting_.clear(); }
 
-  // Completion in the current line.
   Completion complete(std::string_view line, std::size_t position) const;
 
-  // The session as a script: all lines that succeeded.
+  // All lines that succeeded.
   std::string script() const { return script_; }
 
  private:
@@ -58,18 +54,17 @@ class Prompt {
   std::string script_ = "lab = require \"asperity\"\n";
 };
 
-// Drops `local` outside blocks and functions: `local x = 1` reads `x = 1`, `local x` reads `x = nil`. All
-// words stay on their lines.
+// Top-level `local x = 1` becomes `x = 1`, `local x` becomes `x = nil`, on the same lines.
 std::string with_lasting_locals(const std::string& text);
 
-// Pushes show(value) (show.cpp). Raises a Lua error without memory.
+// Raises a Lua error without memory.
 void push_show(lua_State* L);
 
 // --- values as text (shown_line.cpp)
 
-// Never raises; a failure is described in the text.
+// Never raises.
 std::string shown_line(lua_State* L, int index);
-// Readable and exact: "814.7 pm (8.147e-10 m)".
+// For example "814.7 pm (8.147e-10 m)".
 std::string shown_quantity(double value, Dimension dimension);
 
 }  // namespace asperity::lua

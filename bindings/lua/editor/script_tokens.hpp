@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tokens of an unfinished Lua script: names, numbers, strings and signs with positions, without comments.
-// Accepts any text: an unclosed string ends with its line or the text and is marked open. Linear in the
-// length of the text.
+// Tokens of an unfinished Lua script with positions, without comments. An unclosed string ends with its line
+// or the text. Linear in the length of the text.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +12,9 @@ namespace asperity::lua {
 struct Token {
   enum class Kind { name, keyword, number, text, sign };
   Kind kind;
-  std::size_t begin, end;   // bytes; strings include their quotes
+  std::size_t begin, end;   // bytes, with quotes
   bool open = false;        // unclosed string
-  std::size_t content = 0;  // string: first byte after the quote
+  std::size_t content = 0;  // of a string: first byte inside
 };
 
 struct ScriptTokens {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// show(value): draws in the terminal. Surfaces and fields of a state become maps; profiles and the columns of
-// a notebook become charts. With a file name, the picture goes to the file.
+// show(value): maps of surfaces and fields, charts of profiles and notebook columns, in the terminal or in a
+// file.
 #include <cstdio>
 
 #include "bindings/lua/editor/prompt.hpp"
@@ -26,7 +26,6 @@ void say(const Call& call, const std::string& text) {
   std::fflush(output);
 }
 
-// The second argument, if it is a file name.
 std::optional<std::string> file_given(const Call& call) {
   if (!call.given(2) || !call.argument(2).is_text()) return {};
   return call.text(2, "file");

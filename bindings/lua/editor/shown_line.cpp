@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Lua value as a prompt prints it: one line, with table contents as far as they fit, units of results, and
-// native values as they describe themselves. Native values may use several lines (a ledger, a plan).
+// A Lua value as a prompt prints it: one line with units and shortened tables. Ledgers and plans have several
+// lines.
 #include <algorithm>
 #include <vector>
 
@@ -21,7 +21,7 @@ constexpr std::size_t longest_text = 60;
 
 std::string line_of(lua_State* L, int index, int depth);
 
-// Same as Lua's tostring.
+// As Lua's tostring.
 std::string told(lua_State* L, int index) {
   const Argument::StackGuard guard(L);
   index = lua_absindex(L, index);
