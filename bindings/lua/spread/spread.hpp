@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces, contacts and states in slabs over MPI ranks, as native Lua values. A single process has one slab.
+// Contacts in slabs over MPI ranks as Lua values. One process has one slab.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace asperity::lua {
 
-// The ranks in this call, or this process alone. Collective. Throws Error{bad_state} if another rank makes
-// another call, {not_permitted} in a case of an ensemble.
+// Collective. Throws Error{bad_state} if another rank makes another call, {not_permitted} in a case of an
+// ensemble.
 Team& team_of(const Call& call);
 
 struct SpreadContact {
@@ -25,7 +25,7 @@ struct SpreadContact {
   bool plastic = false;
 };
 
-// `value`: approach in m, or mean pressure in Pa.
+// `value` in m or Pa (mean pressure).
 struct SpreadRequest {
   bool by_approach = false;
   double value = 0;
@@ -33,8 +33,7 @@ struct SpreadRequest {
 SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const SpreadRequest& request,
                         Monitor& monitor);
 
-// A press from the result store, without its fields, on all ranks. Writing fields solves the press again.
-// Only rank 0 reads and writes the store.
+// A stored press, without fields (writing them solves again), on all ranks. Only rank 0 uses the store.
 std::optional<Costed<SlabContactAnswer>> recalled_press(const Call& call, Team& team,
                                                         const SlabContactProblem& problem,
                                                         const SpreadRequest& request);
@@ -44,12 +43,12 @@ void keep_press(const Call& call, const SlabContactProblem& problem, const Sprea
 struct SpreadState {
   SlabSurface surface;
   std::shared_ptr<const SlabContactAnswer> answer;
-  SlabContactProblem problem;  // that this state solves
+  SlabContactProblem problem;  // solved by this state
   SpreadRequest request;
   bool has_fields = true;
   bool plastic = false;
   int ranks = 1;
-  Cost cost;           // bytes: peak of one rank, heights included
+  Cost cost;           // bytes: peak of a rank, with heights
   std::string digest;  // of the numbers below
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts over MPI ranks as native Lua values.
+// lab.spread.contact: contacts over MPI ranks.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"

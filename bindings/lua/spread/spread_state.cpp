@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// States of contacts over MPI ranks as native Lua values.
+// States of contacts over MPI ranks.
 #include <algorithm>
 
 #include "bindings/lua/contact/state_class.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.spread: surfaces of a contact too large for one process, distributed over MPI ranks.
+// lab.spread: surfaces over MPI ranks, for a contact too large for one process.
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -47,7 +47,7 @@ Values spread_flat_body(Call& call) {
   return spread_result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
-// Marks a call of a Lua function for which other ranks wait.
+// During a Lua call on which other ranks wait.
 class WaitedFor {
  public:
   explicit WaitedFor(Session& session) : session_(session) {
@@ -95,7 +95,7 @@ Values spread_read_body(Call& call) {
   const spread_ReadKeys keys = call.options(spread_read_block(), 2);
   const Ranks* const ranks = call.session().ranks;
   if (ranks == nullptr || ranks->leads()) note_input(call, path);
-  // Files written by the run are at the path of the first rank.
+  // Files of the run are at the path of the first rank.
   Team& team = team_of(call);
   return spread_result(slab_read(team, team.text_of_first(path), keys, call.session().monitor()),
                        keys.material);

@@ -27,7 +27,7 @@ void push_asked(lua_State* s, const std::string& v) { lua_pushlstring(s, v.data(
               "return one number");
 }
 
-// A number or a text with a unit. Otherwise adds a problem and returns nothing.
+// On failure adds a problem and returns nothing.
 std::optional<Quantity> quantity_of(const Argument& value, const std::string& path, Problems& problems) {
   if (value.is_number()) return Quantity{value.number(), dimension::number};
   if (value.is_text()) {
@@ -145,7 +145,7 @@ void read_calibration(const Object& object, const std::string& path, InputKeys& 
   }
 }
 
-// Reports the share of one run that is done; the reported share never falls.
+// The reported share never falls.
 class ShareMonitor final : public Monitor {
  public:
   ShareMonitor(Monitor& outer, std::function<void(double)> tell) : outer_(outer), tell_(std::move(tell)) {}

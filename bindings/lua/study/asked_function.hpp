@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function `ask` of a budget or a sensitivity: takes a table of inputs and knobs, returns one number.
-// AskedRuns calls it for many runs in parallel. Also reads the uncertain inputs.
+// The function `ask` of a budget or a sensitivity, from a table of inputs and knobs to one number; parallel
+// runs; uncertain inputs.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@
 
 namespace asperity::lua {
 
-// Forwards warnings and drops progress: a study reports its own progress.
+// Drops progress: a study reports its own.
 class QuietMonitor final : public Monitor {
  public:
   explicit QuietMonitor(Monitor& outer) : outer_(outer) {}
@@ -33,10 +33,10 @@ class QuietMonitor final : public Monitor {
   Monitor& outer_;
 };
 
-// Pushes the function and a table of its knobs. `table` names the table in the out-of-memory error.
+// Pushes the function and its knobs. `table` names the table in an out-of-memory error.
 void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table);
 
-// Valid while the function keeps its place on the stack.
+// Valid while the function keeps its stack index.
 class AskedFunction {
  public:
   AskedFunction(const Call& call, const Argument& ask) : L_(call.L), ask_(ask), session_(call.session()) {}
@@ -45,7 +45,7 @@ class AskedFunction {
     double value = 0;
     double seconds = 0;
   };
-  // Throws Error with the message of the function and the knobs; throws if the answer is not one number.
+  // Throws Error for a failure of the function (with the knobs) and for an answer other than one number.
   Answer operator()(const Knobs& knobs, Monitor& monitor) const;
   // For a dry run: accepts an unknown answer.
   void try_once(const Knobs& knobs) const;
@@ -58,18 +58,16 @@ class AskedFunction {
   Session& session_;
 };
 
-// The same function for many runs. The first batch runs serially in the state of the script. If it makes a
-// heavy call, later batches are spread over threads; each call then sees only its own changes and has one
-// thread, so that times are comparable.
+// Calls for many runs. The first batch is serial in the script's state. After a heavy call, later batches use
+// threads: each call sees only its own changes and has one thread, for comparable times.
 class AskedRuns {
  public:
   AskedRuns(const Call& call, const Argument& ask);
 
-  // `done` receives the number of finished runs of this batch; in a serial run also the share of the running
-  // one. Throws like AskedFunction, for the first failure.
+  // `done`: finished runs of the batch, with the share of a serial run. Throws like AskedFunction for the
+  // first failure.
   std::vector<AskedFunction::Answer> operator()(const std::vector<Knobs>& runs,
                                                 const std::function<void(double)>& done);
-  // Parallel calls of a heavy function.
   int at_a_time() const { return batch_ != nullptr ? thread_count() : 1; }
 
  private:
@@ -82,7 +80,7 @@ class AskedRuns {
 class RunProgress {
  public:
   RunProgress(Monitor& monitor, std::string title) : monitor_(monitor), title_(std::move(title)) {}
-  // `share` of all runs is done; `part` names the current part.
+  // `share` is the finished share; `part` the current part.
   void report(const std::string& part, double share);
 
  private:
@@ -96,7 +94,7 @@ struct InputKeys {
   std::vector<InputCorrelation> correlations;
   bool unknown = false;
 };
-// Reads `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
+// For example `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
 void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems);
 
 template <class O>
@@ -126,13 +124,13 @@ Option<O> ask_option(std::string sentence) {
 }
 
 constexpr const char* knob_kinds = "a number, a string or a boolean";
-// Returns nothing for other kinds. Sets `unknown` for the placeholder of a dry run.
+// Empty for other kinds. Sets `unknown` for a placeholder.
 std::optional<KnobValue> knob_value(const Argument& value, bool& unknown);
-// Reads a value or a list of values.
+// A value or a list.
 void read_sweep(const std::string& name, const std::string& path, const Argument& value, bool& unknown,
                 std::vector<KnobSweep>& knobs, Problems& problems);
 
-// Sorts by name.
+// By name.
 void sort_knobs(Knobs& knobs);
 
 }  // namespace asperity::lua

@@ -296,7 +296,7 @@ Values make_budget(Call& call) {
     Budget found = budget_of_batches(request, [&](std::span<const BudgetSetting> runs) {
       std::vector<Knobs> knobs;
       for (const BudgetSetting& run : runs) knobs.push_back(knobs_of_run(keys, grids, run));
-      // The run shown is the first unfinished one.
+      // Shows the first unfinished run.
       const auto show = [&](double done) {
         const auto k = std::min(static_cast<std::size_t>(done), runs.size() - 1);
         const BudgetSetting& run = runs[k];

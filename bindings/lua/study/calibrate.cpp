@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: options, and the model, a Lua function of the parameters q (SI) and one row as rows() gives
-// it.
+// lab.calibrate: options and the Lua model of parameters q (SI) and a row of rows().
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -29,13 +28,13 @@ using Rows = asperity::Table;
 
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::vector<CalibrationParameter> parameters;  // sorted by name, because Lua tables have no order
+  std::vector<CalibrationParameter> parameters;  // by name: Lua tables have no order
   std::vector<Dimension> dimensions;
-  std::string replicate;  // key of the replicate
+  std::string replicate;  // its key
   std::vector<double> faces;
 };
 
-// A number in SI, or a quantity in the dimension of the parameter. The first quantity sets the dimension.
+// SI or a quantity. The first quantity sets the dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
   if (value.is_number()) return value.number();
@@ -64,7 +63,7 @@ struct NamedParameter {
   std::optional<Dimension> dimension;
 };
 
-// nil keys count as absent; the order of keys does not matter.
+// nil keys count as absent.
 NamedParameter parameter_of(const std::string& name, const Argument& table, Problems& problems) {
   static const std::vector<std::string> keys = {"start", "lower", "upper", "step"};
   NamedParameter found;
@@ -177,7 +176,7 @@ const Block<CalibrateKeys>& calibrate_block() {
 
 // --- the model
 
-// The Lua function with its tables on the stack: the rows, q, the names of the parameters.
+// The Lua function; its rows, q and names of parameters are on the stack.
 class CalibratedFunction {
  public:
   CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
@@ -212,7 +211,7 @@ class CalibratedFunction {
     find_heavy(call, function);
   }
 
-  // True if every call of the model is heavy; the fit then calls the model as seldom as possible.
+  // Every call is heavy: call rarely.
   bool heavy() const { return heavy_; }
 
   std::vector<double> operator()(std::span<const CalibrationQuery> queries,
@@ -282,8 +281,7 @@ class CalibratedFunction {
   }
 
  private:
-  // Calls the model for the first row at the start and at a second point near it. A model that computes once
-  // and caches is not heavy.
+  // Calls the model twice for the first row: a model with a cache is not heavy.
   void find_heavy(const Call& call, const Argument& function) {
     if (list_.items.empty() || parameters_.empty()) return;
     std::int64_t before = session_.heavy_calls;
@@ -332,7 +330,7 @@ class CalibratedFunction {
   QuietMonitor monitor_;
   std::unique_ptr<CallBatch> batch_;
   List list_;                    // rows
-  std::optional<double> begun_;  // value of the first row at the start
+  std::optional<double> begun_;  // first row at the start
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;

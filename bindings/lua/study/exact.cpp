@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.exact: closed-form answers for comparison with computed ones. A call takes a few operations; a
-// Weierstrass–Mandelbrot height takes a few thousand cosines.
+// lab.exact: closed-form answers for comparison. A Weierstrass–Mandelbrot height takes a few thousand
+// cosines, all others a few operations.
 #include <limits>
 #include <optional>
 
@@ -50,7 +50,7 @@ const Block<HertzKeys>& hertz_block() {
       one_of_load_and_approach<K>};
   return block;
 }
-// With a law also the force and the coefficient of friction.
+// A law adds friction force and coefficient.
 struct HertzContact : exact::Hertz {
   std::optional<double> force{}, mu{};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.sensitivity: shares of the uncertain inputs in the variance of an answer.
+// lab.sensitivity: shares of uncertain inputs in the variance of an answer.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -79,7 +79,7 @@ Values make_sensitivity(Call& call) {
       finished += answers.size();
       return answers;
     };
-    // The first run alone decides whether the others run in parallel.
+    // The first run decides whether the others are parallel.
     Sensitivity found = sensitivity_of_batches(
         request,
         [&](std::span<const std::vector<double>> points) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision, lab.budget, lab.sensitivity and lab.calibrate, their results as native values, and the
-// records of a study in the run directory.
+// lab.work_precision, budget, sensitivity and calibrate: functions, results as Lua values, records.
 #pragma once
 
 #include <cstddef>
@@ -36,26 +35,25 @@ const Class& class_of<Study>();
 template <>
 const Class& class_of<StudyChoice>();
 
-// Write the journal's lines of a study: request, calls, result. The rows also go to <name>.csv. Without a run
-// nothing is written.
+// Journal lines of a study; the rows also go to <name>.csv. Without a run they do nothing.
 void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request);
 void record_calls(RunDirectory* run, const std::string& name, std::span<const StudyRun> calls);
 void record_result(RunDirectory* run, const std::string& name, const StudyResult& result);
 
-// Cost of a quantity for a given accuracy, by several ways over their settings.
+// Cost against accuracy, by several ways.
 Function work_precision_function();
 
-// Total error of a number, and the cost of halving each part.
+// Total error of a number, and what it costs to halve each part.
 Function budget_function();
 template <>
 const Class& class_of<Budget>();
 
-// Shares of the uncertain inputs in the variance of an answer, and the input to measure next.
+// Shares of uncertain inputs in the variance of an answer.
 Function sensitivity_function();
 template <>
 const Class& class_of<Sensitivity>();
 
-// Fits parameters of a Lua model to the rows of a table.
+// Fit of a Lua model to a table.
 Function calibrate_function();
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision: cost of a quantity for a given accuracy, by several ways over their settings.
+// lab.work_precision: cost against accuracy, by several ways over their settings.
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -178,7 +178,7 @@ class LuaWork final : public StudyWork {
     return answer;
   }
 
-  // Collect the garbage of a run between runs, outside the time of the next setting.
+  // Keeps garbage collection out of the measured times.
   void settle() override { lua_gc(L, LUA_GCCOLLECT); }
 
   void record(std::span<const StudyRun> runs) override { record_calls(session_.run.get(), name_, runs); }
@@ -190,13 +190,12 @@ class LuaWork final : public StudyWork {
   std::string name_;
 };
 
-// The second study of one name gets a number.
 std::string own_name(Session& session, const std::string& name) {
   const int count = ++session.studies[name];
   return count == 1 ? name : name + "-" + std::to_string(count);
 }
 
-// A dry run calls `ask` once, with the first setting.
+// Calls `ask` once, for the first setting.
 Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
   if (!keys.unknown) {
     const Knobs& knobs = keys.request.ways.front().settings.front();
