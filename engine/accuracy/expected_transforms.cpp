@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The trial grid takes nodes of the combined heights at regular intervals; waves of a few cells keep their
-// roughness. It keeps the highest nodes, which touch first, and the lowest, the reference of a flattening.
-// The load of full contact depends on the grid: near full contact, the trial uses the same share of that
-// load.
+// The trial grid takes every k-th node of the combined heights, which preserves short waves, and keeps the
+// highest nodes (first contacts) and the lowest (reference of a flattening). Near full contact, the trial
+// keeps the share of the load of full contact, which depends on the grid.
 #include "engine/accuracy/expected_transforms.hpp"
 
 #include <algorithm>
@@ -27,22 +26,21 @@ namespace asperity {
 namespace {
 
 // --- constants
-// Fitted to 1062 presses on more than 96² nodes (900 random scenes, at most 256 cells a side) by
+// Fit to 1062 presses on more than 96² nodes (900 random scenes, up to 256 cells a side):
 //   ASPERITY_FIT=1 test_properties family=explain scenes=300 seed=31
 struct Growth {
   double a, b;
 };
 constexpr Growth by_load{0.06, 0.18}, by_approach{0.14, 0.12}, by_flattening{0.18, 0.16};
-// A grid on which the trial's work covers `surely_enough` transforms is tried whole. Otherwise the first
-// trial has `first_tried` nodes. A second trial uses as many nodes as the work allows, at least `share_tried`
-// of all (about 3 % of the work of the press), if that is `enough_more` than the first.
+// The whole grid is tried if `surely_enough` transforms fit the work of the trial. Otherwise a first trial
+// has `first_tried` nodes. A second has all nodes that the work allows, at least `share_tried` (3 % of the
+// work of the press), if `enough_more` than the first.
 constexpr double surely_enough = 1000, first_tried = 96 * 96, enough_more = 1.5, share_tried = 1.0 / 32;
-// Limit of the second trial, in multiples of its expected transforms; expected transforms of a stopped trial,
-// in multiples of the limit, on all cells and on part of them.
+// Limit of the second trial, relative to its expectation. Expectation of a stopped trial, relative to its
+// limit, on all cells and on part of them.
 constexpr double room_for_a_stall = 2, times_left = 3, times_left_of_some = 1.5;
-// Presses by approach or flattening on more cells than tried: 4 of 215 took over four times the estimate (by
-// pressure 1 of 44), because they stall where the trial does not. Seeds:
-// tests/stability/properties/explain.cpp.
+// Large presses can stall where the trial does not: 4 of 215 by approach or flattening, 1 of 44 by pressure
+// (seeds: tests/stability/properties/explain.cpp).
 constexpr const char* seldom = "; one such press in some fifty takes over four times as many";
 
 Growth growth_by(PressBy by) {
@@ -61,7 +59,7 @@ Growth growth_by(PressBy by) {
 
 // --- fewer cells
 
-// m of n nodes along one side, at regular intervals, including the highest.
+// m of n nodes of one side, including the highest.
 struct Sublattice {
   int n, m, shift = 0;
   Sublattice(int all, int kept, int highest) : n(all), m(kept) {
@@ -69,7 +67,7 @@ struct Sublattice {
   }
   int at(int k) const { return static_cast<int>(static_cast<std::int64_t>(k) * n / m); }
   int node(int k) const { return std::min(n - 1, at(k) + shift); }
-  // The index whose node replaces node i.
+  // Index of the node in place of node i.
   int place(int i) const {
     return std::clamp(static_cast<int>((static_cast<std::int64_t>(i - shift + 1) * m - 1) / n), 0, m - 1);
   }
@@ -81,7 +79,7 @@ struct HeightOfNode {
   bool operator<(const HeightOfNode& other) const { return height < other.height; }
 };
 
-// The highest nodes in ascending order, and the lowest. Missing heights are skipped.
+// Highest nodes in ascending order. Missing heights are skipped.
 constexpr std::size_t kept_highest = 16;
 struct Extremes {
   std::vector<HeightOfNode> highest;
@@ -127,7 +125,7 @@ Field thinned(const Field& h, const Grid& grid) {
   return result;
 }
 
-// s of the file opening, from at most `most_rows` rows.
+// s, from at most `most_rows` rows.
 double roughness(const Field& h) {
   constexpr int most_rows = 256;
   const int nx = h.nx(), ny = h.ny(), step = (ny + most_rows - 1) / most_rows;
@@ -164,7 +162,7 @@ double roughness(const Field& h) {
 
 double distance_to_full_contact(const Field& h, Range known) { return known.max - known_mean(h.values()); }
 
-// Pressure of full contact over E*: −min (|q|/2) h, accurate to some tens of percent.
+// Divided by E*: −min (|q|/2) h, to some tens of percent.
 double pressure_of_full_contact(const Field& h, const Grid& grid, const HalfSpaceOperator& half_space) {
   ComplianceMultiplier multiplier;
   if (half_space.share) multiplier = in_cells(*half_space.share, grid.hx(), false);
@@ -211,14 +209,12 @@ PressRequest request_times(PressRequest request, double factor) {
   return request;
 }
 
-// The press on another grid. With fewer cells and near full contact, the load keeps its share of the load of
-// full contact.
 Tried try_on(const Grid& grid, const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
              const PressRequest& request, double most) {
   const Grid& given = geometry.grid();
   const bool fewer = grid != given;
   const Field& all = geometry.combined();
-  // Small grids gain little from threads.
+  // Few nodes gain little from threads.
   constexpr std::size_t small = 128 * 128;
   std::optional<SingleThreaded> alone;
   if (grid.nodes() <= small) alone.emplace();
@@ -249,8 +245,7 @@ Tried try_on(const Grid& grid, const Scene& scene, const ContactGeometry& geomet
   return found;
 }
 
-// The number of nodes that takes half of the free memory, so that `explain` also covers presses above the
-// memory limit.
+// Nodes for half of the free memory: `explain` must work for presses above the limit.
 double nodes_within_memory(const Plan& plan, PressBy by, double nodes) {
   constexpr double share = 0.5;
   const std::int64_t limit = memory::limit();
@@ -298,7 +293,7 @@ ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, co
 
 Grid trial_grid(const Grid& grid, double most) {
   if (static_cast<double>(grid.nodes()) <= most) return grid;
-  // Multiples of four give nested grids like those of most tiles.
+  // Nested grids need multiples of four.
   constexpr int fewest = 8, nested = 32;
   const auto side = [&](int n, double share) {
     const int m = std::max(std::min(n, fewest), static_cast<int>(n * share));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Least squares for an expensive model with its own tolerance. The initial derivatives are differences; each
-// step corrects them (Broyden 1965), and near the minimum they are recomputed. Convergence is measured in
-// standard errors, offset/s: offset is the distance of the residuals from the predicted minimum, s their
-// scatter. Steps below some thousandths, or below the model noise, are skipped. Difference steps move all
-// observations together by the scatter of one observation: large against the noise, small against the range
-// in which the model should be linear.
+// Least squares for an expensive, noisy model. Derivatives begin as differences; each step corrects them
+// (Broyden 1965), and differences are repeated near the minimum. The distance left is offset/s in standard
+// errors: offset of the residuals from the predicted minimum, s their scatter. Difference steps move the
+// observations by about s: above the noise, within the linear range.
 #include <algorithm>
 #include <cmath>
 
@@ -17,25 +15,24 @@ namespace asperity {
 namespace {
 
 constexpr int most_sparing_steps = 60;
-constexpr double first_step = 0.02;      // initial differences, relative to the parameter
-constexpr double widest_step = 0.1;      // all other differences, relative to the parameter
-constexpr double moves_by = 1;           // move of the observations by differences, in scatters
-constexpr double above_noise = 20;       // minimum move of the observations, in units of model noise
-constexpr double little_to_go = 0.003;   // standard errors: converged
-constexpr double end_is_near = 0.3;      // standard errors: derivatives stay valid
-constexpr double foretold_within = 0.1;  // standard errors: the last step is only predicted
-constexpr double foretold_gains =
-    15;  // predicted reduction of the sum, in units of `gain`, that needs no model call
-constexpr double full_steps_within = 1;    // standard errors: steps are not checked by their sums
+constexpr double first_step = 0.02;        // first differences, relative to the parameter
+constexpr double widest_step = 0.1;        // later differences, relative
+constexpr double moves_by = 1;             // scatters: move of the observations
+constexpr double above_noise = 20;         // model noises: minimum move
+constexpr double little_to_go = 0.003;     // standard errors: converged
+constexpr double end_is_near = 0.3;        // standard errors: derivatives stay valid
+constexpr double foretold_within = 0.1;    // standard errors: predict the last step
+constexpr double foretold_gains = 15;      // in units of `gain`: predicted reductions up to this need no call
+constexpr double full_steps_within = 1;    // standard errors: do not compare sums
 constexpr double hidden_within = 3;        // standard errors: noise may hide the minimum
-constexpr double comes_nearer_by = 0.5;    // maximum offset ratio of a step that is not the last
-constexpr double noise_is_seen = 0.1;      // standard errors: short steps measure the model noise
-constexpr double noise_tells = 0.1;        // standard errors: noise below this is not reported
+constexpr double comes_nearer_by = 0.5;    // offset ratio: continue
+constexpr double noise_is_seen = 0.1;      // standard errors: short steps show noise
+constexpr double noise_tells = 0.1;        // standard errors: unreported noise
 constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
 
 }  // namespace
 
-// For an observation of weight 1, at the predicted minimum.
+// For weight 1, at the predicted minimum.
 double CalibrationProblem::scatter_at(const CalibrationPlace& at, const CalibrationTangent& tangent) const {
   const std::size_t observations = groups_.size();
   const double least = sparing_rounding * size_of(at);
@@ -44,7 +41,6 @@ double CalibrationProblem::scatter_at(const CalibrationPlace& at, const Calibrat
   return std::max(least, std::sqrt(sum / static_cast<double>(observations - tangent.rank)));
 }
 
-// Difference step of each parameter. Without derivatives: a share of the scale.
 std::vector<double> CalibrationProblem::sparing_steps(const CalibrationPlace& at,
                                                       const TableColumns& rows_jacobian,
                                                       const std::vector<double>& scales,
@@ -73,7 +69,7 @@ double CalibrationProblem::sparing_unseen() const {
   return std::clamp(2 * noise_ * std::sqrt(static_cast<double>(groups_.size())) / differences_, least, most);
 }
 
-// Evaluates all parameter sets in one batch. Where the model has no value, retries with smaller steps.
+// One batch. If the model has no value, retries with smaller steps.
 TableColumns CalibrationProblem::sparing_jacobian(const CalibrationPlace& at,
                                                   const std::vector<double>& steps,
                                                   const std::vector<bool>& held) {
@@ -117,7 +113,7 @@ std::vector<double> CalibrationProblem::foretold(const CalibrationPlace& at,
   return observed(of_rows);
 }
 
-// Broyden (1965): changes derivatives along the step only.
+// Broyden (1965).
 void CalibrationProblem::correct(TableColumns& rows_jacobian, const CalibrationPlace& from,
                                  const CalibrationPlace& to, const std::vector<double>& scales) const {
   double length = 0;
@@ -149,7 +145,7 @@ void CalibrationProblem::see_noise(const CalibrationMinimum& from, const Calibra
   noise_ = std::sqrt(lack);
 }
 
-// Linear prediction at q.
+// Linear prediction.
 CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& from,
                                                     const std::vector<double>& q) const {
   CalibrationPlace there = from.place;
@@ -161,7 +157,7 @@ CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& fr
   return there;
 }
 
-// Finds a place with a smaller sum. A failed step corrects the derivatives for the next one.
+// A failed step corrects the derivatives for the next one.
 std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& from, double& damping,
                                                           int& tries) {
   const std::vector<bool> none(parameters(), false);
@@ -172,7 +168,7 @@ std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& fr
     if (q == from.place.q) return {};
     auto there = place(q, &from.place.roots);
     if (there && there->sum < from.place.sum) return there;
-    // A short step shows more noise than slope.
+    // Short steps show more noise than slope.
     if (there && length_of(foretold(from.place, from.rows_jacobian, from.place.q, q)) >
                      end_is_near * scatter_at(from.place, at))
       correct(from.rows_jacobian, from.place, *there, from.scales);
@@ -189,7 +185,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
   found.place = *std::move(begin);
   found.scales = before.scales.empty() ? natural_scales(found.place) : before.scales;
   const std::vector<bool> none(parameters(), false);
-  // Reuse the derivatives of an earlier fit that began or ended here.
+  // Derivatives of an earlier fit that began or ended here.
   bool first = before.differenced_at.empty() || before.place.q != start;
   if (first) {
     found.rows_jacobian =
@@ -233,13 +229,13 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
                       " steps; it ended at " + parameters_text(found.place.q),
                   "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
     if (fresh && at.offset <= foretold_within * scatter) {
-      // The remaining step is not worth a model call: use the prediction.
+      // The step is not worth a model call.
       found.place = foretold_place(found, stepped(found.place, at, 0));
       found.noisy = noise > noise_tells * scatter;
       return found;
     }
     if (fresh && at.offset <= full_steps_within * scatter) {
-      // Near the minimum, noise hides which sum is smaller; noise changes the offset far less.
+      // Near the minimum, noise hides the smaller sum but hardly changes the offset.
       auto last = place(stepped(found.place, at, 0), nullptr);
       if (!last) {
         found.noisy = at.offset > noise_tells * scatter;
@@ -272,7 +268,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     for (std::size_t p = 0; p < parameters(); ++p)
       if (found.place.q[p] != 0 && before.scales.empty())
         found.scales[p] = std::max(std::abs(found.place.q[p]), 1e-3 * found.scales[p]);
-    // Far from the minimum, corrected derivatives lose accuracy.
+    // Corrected derivatives lose accuracy.
     if (tries > 2 || ++steps > 5) take_anew();
   }
 }
@@ -291,7 +287,6 @@ std::optional<CalibrationPlace> CalibrationProblem::sparing_beside(const Calibra
     const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
     const double left = here.offset * here.offset;
     if (left <= foretold_gains * gain) {
-      // The derivatives predict the remaining reduction.
       at.q = stepped(at, here, 0);
       at.sum -= left;
       return at;
