@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Times of the parameter groups and filters of a map of 2048 x 2048 cells, with their limits on two threads.
--- Times are processor seconds over all threads; divided by the threads they bound the wall time from below.
--- White noise has the most hills. Registration: bench/registration.lua.
+-- Times of parameter groups and filters of a map of 2048 x 2048 cells, and limits on two threads. Processor
+-- seconds over all threads, a lower bound of wall time times threads. White noise has the most hills.
 --
 --   asperity run bench/areal_parameters.lua --threads 2
 --   asperity run bench/areal_parameters.lua --threads 2 -- cells=1024

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Transforms of adhesive presses, compared with the same pressure without adhesion: 60 contacts of 64 x 64
--- cells with random work and range, half of them spheres on a free boundary, half rough periodic tiles,
--- pressed by approach and by pressure. Refused presses are counted separately.
+-- Transforms of adhesive presses and of the same pressure without adhesion: 60 contacts of 64 x 64 cells,
+-- random work and range, half spheres on a free boundary, half rough periodic tiles, by approach and by
+-- pressure. Refused presses are counted separately.
 --
 --   asperity run bench/attraction.lua --threads 1
 --   asperity run bench/attraction.lua --threads 1 -- scenes=240 seed=2
@@ -22,7 +22,7 @@ local rows = lab.ensemble{
     local face = ball and lab.surface.sphere{ cells = options.cells, size = 1, radius = random(0.5, 4), shape = "paraboloid", material = body } or
       lab.surface.self_affine{ cells = options.cells, size = 1, hurst = 0.8, rms_slope = random(0.03, 0.3), short_wave = 8 / options.cells,
                                roll_off = 0.5, seed = case.scene, material = body }
-    -- Range in units of the rms height; work in units of range times E*.
+    -- Range relative to rms height; work relative to range times E*.
     local height = face:roughness().Rq
     local range = height * random(0.1, 1)
     local work = range * random(0.003, 0.3)

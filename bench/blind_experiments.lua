@@ -1,14 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Coverage of 95 % intervals whose numbers all come from solved contacts. Blind experiments with a known
--- truth: budgets of the approach of rough faces, and calibrations of the amplitude and Young's modulus of a
--- face.
+-- Coverage of 95 % intervals from solved contacts with a known truth: budgets of the approach of rough faces,
+-- and calibrations of the amplitude and Young's modulus of a face.
 --
 --   asperity run bench/blind_experiments.lua --threads 2 -- experiments=200
 --
--- Budgets: the truth is the mean approach over all faces of one recipe, on infinitely fine cells, with the
--- true modulus. It is estimated from `faces` other faces on 64 and 128 cells, extrapolated with the observed
--- order. An experiment has 5 to 12 faces on 16 and 32 cells, and a modulus with a measurement error of 5 %.
--- Calibrations: 14 gaps under 14 loads with a scatter of 3 %; amplitude and modulus are unknown.
+-- Budgets: the truth is the mean approach over one recipe with the true modulus, from `faces` other faces on
+-- 64 and 128 cells, extrapolated with the observed order. An experiment has 5 to 12 faces on 16 and 32 cells
+-- and a modulus with an error of 5 %. Calibrations: 14 gaps under 14 loads, scatter 3 %, unknown amplitude
+-- and modulus.
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
 local options = arguments({ experiments = 200, faces = 400, seed = 1 }, ...)
@@ -28,7 +27,7 @@ end
 math.randomseed(options.seed)
 local function normal() return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random()) end
 
--- 1. The truth of the budgets and its standard error.
+-- 1. Truth of the budgets.
 local sums, n = { 0, 0, 0 }, options.faces
 local squares = 0
 for _, row in ipairs(lab.ensemble{ over = { seed = list(1000001, 1000000 + n) }, run = function(case)

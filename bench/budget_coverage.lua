@@ -1,12 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Coverage of the intervals of lab.budget: the cells part of single rough contacts, and inputs of every kind.
+-- Coverage of lab.budget: the cells part of single rough contacts, and inputs of every kind.
 --
 --   asperity run bench/budget_coverage.lua --threads 2 -- contacts=480 sets=300
 --
 -- Contacts: one face each (H 0.5 to 0.9, slopes 0.05 to 0.2, shortest waves 1/16 to 1/5 of the tile, loads 1
--- to 20 % of the slope, free and periodic), no replicates, grids of 32 and 64 cells. The truth is the answer
--- on four times as many cells a side. Inputs: models with a known answer and inputs with a measurement error;
--- the interval must contain the answer at the true inputs.
+-- to 20 % of the slope, free and periodic), no replicates, 32 and 64 cells; truth on four times as many cells
+-- a side. Inputs: models with known answers; the interval must contain the answer at the true inputs.
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
 local options = arguments({ contacts = 480, sets = 300, seed = 1, finest = 64 }, ...)

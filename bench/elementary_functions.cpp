@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The correctly rounded functions compared with the C library, on typical arguments of surfaces and solvers.
-// Run: bench_elementary_functions. Compare times of one run; each is for 4096 values.
+// Correctly rounded functions against the C library, on typical arguments; times for 4096 values.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

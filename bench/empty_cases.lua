@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Overhead of one case of an ensemble: cases without computation, stored and counted as usual. Option: cases.
--- Divide the processor time by the number of cases:
+-- Overhead of one case of an ensemble: processor time over the number of empty cases. Option: cases.
 --
 --   time asperity run bench/empty_cases.lua --threads 2
 local lab = require "asperity"

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Cases of an ensemble distributed over ranks: eight presses of one to two seconds. Wall time of the whole
--- run:
+-- Cases of an ensemble over ranks: eight presses of one to two seconds. Wall time:
 --
 --   time mpirun --bind-to none -n 2 asperity run bench/ensemble_cases.lua --threads 1 --store-limit 0 --out run
 local lab = require "asperity"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Overhead of lab.ensemble: bench/ensemble_presses.lua, run by the program, compared with a loop over the
-// same surfaces and presses on the same number of threads. Times are processor times (user and system), which
-// other programs disturb least. Both alternate; the ratio compares neighbouring runs.
+// Overhead of lab.ensemble: bench/ensemble_presses.lua against a loop over the same surfaces and presses, on
+// as many threads. Processor times (user and system) of alternating runs; the ratio compares neighbours.
 //
 //   bench_ensemble_presses PROGRAM SCRIPT                       1000 cases, two threads, three rounds
-// bench_ensemble_presses PROGRAM SCRIPT cases=16000 rounds=1  other settings
+//   bench_ensemble_presses PROGRAM SCRIPT cases=16000 rounds=1  other settings
 //   bench_ensemble_presses PROGRAM SCRIPT capped=1000           presses that stop at the hardness
 //
-// Settings: cases=, capped=, cells=, threads=, rounds=, and store=0 for a run without a store of cases.
-// Prints one line per round, then the median ratio.
+// Settings: cases=, capped=, cells=, threads=, rounds=, store=0 (no stored cases). One line per round, then
+// the median ratio.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -79,7 +78,6 @@ double area_of(int seed, const Settings& set) {
   return state.corrected_area_fraction();
 }
 
-// Prints the areas like the script.
 void loop(const Settings& set) {
   const int cases = set.at("cases");
   std::vector<double> areas(static_cast<std::size_t>(cases));

@@ -1,8 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Thousands of small presses: overhead of an ensemble. Each case has a surface of its own seed on 256 x 256
--- cells, pressed with tolerance 1e-2, elastic or capped at its hardness, and is stored and counted as usual.
--- Options: cases, capped (the first cases, which stop at the hardness), cells. bench/ensemble_presses.cpp
--- compares the script with a C++ loop over the same surfaces and presses.
+-- Thousands of small presses in an ensemble: a surface per seed on 256 x 256 cells, tolerance 1e-2, elastic
+-- or capped at its hardness. Options: cases, capped (how many, first, reach the hardness), cells.
+-- bench/ensemble_presses.cpp compares with a C++ loop.
 --
 --   asperity run bench/ensemble_presses.lua --threads 2 -- cases=16000
 local lab = require "asperity"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The half-space operators compared with FFTW's two-dimensional transforms. Run as
+// Half-space operators against FFTW's two-dimensional transforms. Run as
 //   bench_half_space_operators --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
-// Arguments: cells a side, threads. `bare_pair` is an in-place r2c and c2r (measured plan) without
-// multiplication; `free_compliance` uses the padded grid of twice the side. The free set of the
-// preconditioner is two fifths of the nodes in patches of about 8 cells, the case with the longest edge.
-// Compare times of one run. `signals_by_fftw` and `signals_in_lanes` transform complex signals forth and
+// Arguments: cells a side, threads. `bare_pair`: in-place r2c and c2r, measured plan, no multiplication.
+// `free_compliance`: padded grid of twice the side. Free set of the preconditioner: two fifths of the nodes
+// in patches of 8 cells, the longest edge. `signals_by_fftw`, `signals_in_lanes`: complex signals forth and
 // back, one or eight at a time; items_per_second counts signals.
 #include <benchmark/benchmark.h>
 #include <fftw3.h>

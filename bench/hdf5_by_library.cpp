@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost and outcome of reading HDF5 files with the HDF5 library in a child process (limited processor time and
-// memory, shared memory for the numbers), compared with the reader of this project: corrupted files, and maps
-// from disk and from memory.
+// HDF5 files by the HDF5 library in a limited child process (shared memory for the numbers), against the
+// reader of this project: corrupted files, and maps from disk and memory.
 //
 //   bench_hdf5_by_library changed FIRST COUNT tests/fuzz/corpus/hdf5/*.h5
 //   bench_hdf5_by_library maps 4 1024 4096
@@ -32,7 +31,7 @@ using namespace asperity;
 constexpr int answer = 3;  // descriptor of the child
 const std::string aside = "/dev/shm/asperity-bench-" + std::to_string(::getpid()) + ".h5";
 
-// In the child: every number as a double; references to other files are skipped.
+// Reads numbers as doubles; skips references to other files.
 herr_t take(hid_t root, const char* name, const H5O_info_t* info, void* taken) {
   if (info->type != H5O_TYPE_DATASET) return 0;
   const hid_t data = H5Dopen2(root, name, H5P_DEFAULT);
@@ -61,7 +60,7 @@ void read_as_child(const char* path) {
   ::_exit(file < 0 || H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, take, &start) < 0 ? 1 : 0);
 }
 
-// Describes the end of the child.
+// How the child ended.
 std::string read_by_child(std::string path) {
   const int memory = ::memfd_create("numbers", MFD_CLOEXEC);
   posix_spawn_file_actions_t actions;

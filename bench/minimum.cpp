@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Overhead of the laboratory: three scenes through SpecimenPair, State and the friction law, each compared
-// with minimal hand-written code that calls the same solver.
+// Overhead of SpecimenPair, State and the friction law in three scenes, against minimal code with the same
+// solver.
 //
 //   bench_minimum                          the three scenes, 15 pairs each
-// bench_minimum pairs=41 threads=2       other settings
+//   bench_minimum pairs=41 threads=2       other settings
 //
 //   box friction         sort the heights, find the depth of a load, count the contacts, sum the law
 //   elastic half-space   combine two bodies, solve, read area fraction and approach
-//   capped event         combine, solve below a hardness, take from both bodies what yielded
+//   capped event         combine, solve below a hardness, subtract the plastic volume from both bodies
 //
-// Both ways alternate, with the first one changing, and must give the same bits. Times are processor times
-// over all threads, which other programs disturb little; the ratio is the median over pairs.
+// Both alternate and must give the same bits. Processor times over all threads; median ratio of the pairs.
 #include <time.h>
 
 #include <algorithm>
@@ -39,7 +38,7 @@ using namespace asperity;
 constexpr double stiffness = 3, tau0 = 0.01, alpha = 0.2, tolerance = 1e-6, hardness = 0.15;
 constexpr double young = 1, poisson = 0.3, pressed = 0.01;
 
-// Results of a scene; both ways must agree in all.
+// Results of a scene.
 using Numbers = std::vector<double>;
 
 struct Scenario {
@@ -92,7 +91,7 @@ Scenario box_friction(int cells) {
           }};
 }
 
-// Combined heights without placement: lower node (i, j) meets upper node (nx-1-i, j).
+// Without placement: lower node (i, j) meets upper node (nx-1-i, j).
 HalfSpaceProblem problem_of(const Surface& lower, const Surface& upper) {
   const Grid& grid = lower.grid();
   Field combined = lower.heights();
@@ -158,7 +157,7 @@ Scenario capped_event(int cells) {
           }};
 }
 
-// Processor seconds of one run, the mean of enough runs for twenty milliseconds.
+// Processor seconds of one run, mean over `turns`.
 double seconds_of(const std::function<Numbers()>& way, int turns, Numbers& numbers) {
   const double start = processor_seconds();
   for (int k = 0; k < turns; ++k) numbers = way();
@@ -166,7 +165,7 @@ double seconds_of(const std::function<Numbers()>& way, int turns, Numbers& numbe
 }
 
 bool run(const Scenario& scenario, int pairs) {
-  // The first run is not timed: it fills the caches for this grid size.
+  // Untimed: fills the caches of this grid size.
   Numbers laboratory_numbers = scenario.laboratory(), numbers;
   const double once = seconds_of(scenario.by_hand, 1, numbers);
   const bool same = laboratory_numbers == numbers;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of a Weierstrass–Mandelbrot surface with the published parameters (γ = 1.5, M = 10, n_max = 100, 1010
-// waves) on one thread, compared with two references in the same run.
-//   direct   double loop over nodes and waves with std::cos; wave vectors, amplitudes and cos φ are
-//            tabulated before. 150² is summed whole; on larger grids 8 evenly spread rows are summed, and
-//            their time is multiplied by ny/8.
-//   product  Eigen's matrix product of the full shape, nx × 2K by 2K × ny with K = 1010, without tables
-//            or phases. The generator can be faster: mirrored waves share columns, and waves along an
-//            axis need none.
-// Run: bench_weierstrass_mandelbrot. Counters: seconds of both references, their ratios to the surface, peak
-// counted memory in MiB (`heights` is the size of the result).
+// Time of a Weierstrass–Mandelbrot surface (published parameters γ = 1.5, M = 10, n_max = 100: 1010 waves) on
+// one thread, against two references of the same run.
+//   direct   loop over nodes and waves with std::cos and tables of wave vectors, amplitudes and cos φ. 150²
+//            is summed whole; of larger grids 8 even rows, times ny/8.
+//   product  Eigen's product nx × 2K by 2K × ny with K = 1010, without tables or phases. The generator can be
+//            faster: mirrored waves share columns, waves along an axis need none.
+// Run: bench_weierstrass_mandelbrot. Counters: seconds and ratios of the references, peak counted memory in
+// MiB (`heights`: the result).
 #include <benchmark/benchmark.h>
 
 // GCC 12 warns about undefined registers of its own AVX-512 header (GCC bug 105593).
@@ -51,7 +49,7 @@ struct Wave {
   double along_x, along_y, phase, amplitude, base;
 };
 
-// Estimated seconds for all rows.
+// Seconds for all rows of the grid.
 double direct_sum(const WeierstrassMandelbrotOptions& o, int rows) {
   constexpr double full_turn = 2 * std::numbers::pi;
   std::vector<Wave> waves;
@@ -84,7 +82,7 @@ double direct_sum(const WeierstrassMandelbrotOptions& o, int rows) {
   return seconds_since(start) * o.ny / rows;
 }
 
-// Seconds of the matrix product, minimum of `runs`.
+// Seconds, minimum of `runs`.
 double bare_product(int cells, int waves, int runs) {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
   const Matrix left = Matrix::Random(cells, 2 * waves);
