@@ -39,8 +39,8 @@ constexpr double surely_enough = 1000, first_tried = 96 * 96, enough_more = 1.5,
 // Limit of the second trial, relative to its expectation. Expectation of a stopped trial, relative to its
 // limit, on all cells and on part of them.
 constexpr double room_for_a_stall = 2, times_left = 3, times_left_of_some = 1.5;
-// Large presses can stall where the trial does not: 4 of 215 by approach or flattening, 1 of 44 by pressure
-// (seeds: tests/stability/properties/explain.cpp).
+// Large presses can stall where the trial does not: 4 of 215 by approach or flattening and 1 of 44 by
+// pressure took over four times the estimate (seeds: tests/stability/properties/explain.cpp).
 constexpr const char* seldom = "; one such press in some fifty takes over four times as many";
 
 Growth growth_by(PressBy by) {
@@ -125,7 +125,7 @@ Field thinned(const Field& h, const Grid& grid) {
   return result;
 }
 
-// s, from at most `most_rows` rows.
+// s of the header, from at most `most_rows` rows.
 double roughness(const Field& h) {
   constexpr int most_rows = 256;
   const int nx = h.nx(), ny = h.ny(), step = (ny + most_rows - 1) / most_rows;

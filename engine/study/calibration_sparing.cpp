@@ -25,9 +25,9 @@ constexpr double foretold_within = 0.1;    // standard errors: predict the last 
 constexpr double foretold_gains = 15;      // in units of `gain`: predicted reductions up to this need no call
 constexpr double full_steps_within = 1;    // standard errors: do not compare sums
 constexpr double hidden_within = 3;        // standard errors: noise may hide the minimum
-constexpr double comes_nearer_by = 0.5;    // offset ratio: continue
+constexpr double comes_nearer_by = 0.5;    // offset ratio after a step: continue below
 constexpr double noise_is_seen = 0.1;      // standard errors: short steps show noise
-constexpr double noise_tells = 0.1;        // standard errors: unreported noise
+constexpr double noise_tells = 0.1;        // standard errors: noise up to this is not reported
 constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
 
 }  // namespace
