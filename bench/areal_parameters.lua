@@ -1,7 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The parameters and filters of a map of 2048 x 2048 cells: what each group takes when it is first read, beside what it may
--- take on two threads. Seconds are of the processor, over all threads: divided by their number they are the least that the
--- clock can show. White noise has the most hills. Registration: bench/registration.lua.
+-- Times of parameter groups and filters of a map of 2048 x 2048 cells, and limits on two threads. Processor
+-- seconds over all threads, a lower bound of wall time times threads. White noise has the most hills.
 --
 --   asperity run bench/areal_parameters.lua --threads 2
 --   asperity run bench/areal_parameters.lua --threads 2 -- cells=1024

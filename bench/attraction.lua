@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What presses of bodies that attract each other cost: 60 contacts on 64 x 64 cells, half of them balls on a free boundary
--- and half rough ground on a periodic tile, each of random work and range, by an approach into contact and by a pressure;
--- counted in transforms, beside the same pressure without attraction. A press that is refused is counted apart.
+-- Transforms of adhesive presses and of the same pressure without adhesion: 60 contacts of 64 x 64 cells,
+-- random work and range, half spheres on a free boundary, half rough periodic tiles, by approach and by
+-- pressure. Refused presses are counted separately.
 --
 --   asperity run bench/attraction.lua --threads 1
 --   asperity run bench/attraction.lua --threads 1 -- scenes=240 seed=2
@@ -13,7 +13,7 @@ local rows = lab.ensemble{
   over = { scene = (function() local list = {} for k = 1, options.scenes do list[k] = k end return list end)() },
   run = function(case)
     local state = (case.scene + 1000 * options.seed) * 7919 % 2147483647
-    local function random(low, high) -- alike in its logarithm
+    local function random(low, high) -- uniform in the logarithm
       state = state * 16807 % 2147483647
       return low * (high / low) ^ (state / 2147483647)
     end
@@ -22,7 +22,7 @@ local rows = lab.ensemble{
     local face = ball and lab.surface.sphere{ cells = options.cells, size = 1, radius = random(0.5, 4), shape = "paraboloid", material = body } or
       lab.surface.self_affine{ cells = options.cells, size = 1, hurst = 0.8, rms_slope = random(0.03, 0.3), short_wave = 8 / options.cells,
                                roll_off = 0.5, seed = case.scene, material = body }
-    -- The zone that pulls: its range in the height of what touches, its work in what bends the face over the range.
+    -- Range relative to rms height; work relative to range times E*.
     local height = face:roughness().Rq
     local range = height * random(0.1, 1)
     local work = range * random(0.003, 0.3)

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Does a 95 % interval hold the truth when every number in it comes from a contact that is solved? Blind experiments with
--- a known truth: budgets of the approach of rough faces, and calibrations of a face's amplitude and Young's modulus.
+-- Coverage of 95 % intervals from solved contacts with a known truth: budgets of the approach of rough faces,
+-- and calibrations of the amplitude and Young's modulus of a face.
 --
 --   asperity run bench/blind_experiments.lua --threads 2 -- experiments=200
 --
--- Budgets: the truth is the mean approach of all faces of one recipe on infinitely fine cells with the true modulus. It is
--- taken from `faces` faces that no experiment uses, on 64 and 128 cells and extrapolated by their observed order. An
--- experiment has 5 to 12 faces of its own on 16 and 32 cells, and a modulus that was measured with an error of 5 %.
--- Calibrations: 14 gaps under 14 loads, each with a scatter of 3 %, of a face whose amplitude and modulus are not known.
+-- Budgets: the truth is the mean approach over one recipe with the true modulus, from `faces` other faces on
+-- 64 and 128 cells, extrapolated with the observed order. An experiment has 5 to 12 faces on 16 and 32 cells
+-- and a modulus with an error of 5 %. Calibrations: 14 gaps under 14 loads, scatter 3 %, unknown amplitude
+-- and modulus.
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
 local options = arguments({ experiments = 200, faces = 400, seed = 1 }, ...)
@@ -27,7 +27,7 @@ end
 math.randomseed(options.seed)
 local function normal() return math.sqrt(-2 * math.log(1 - math.random())) * math.cos(2 * math.pi * math.random()) end
 
--- 1. The truth of the budgets, and how well that is known.
+-- 1. Truth of the budgets.
 local sums, n = { 0, 0, 0 }, options.faces
 local squares = 0
 for _, row in ipairs(lab.ensemble{ over = { seed = list(1000001, 1000000 + n) }, run = function(case)

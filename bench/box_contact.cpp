@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box contact: what the sort costs once, and what a load costs after it. Run as
+// Box contact: cost of the sort, and of a load after it. Run as
 //   bench_box_contact --benchmark_counters_tabular=true
-// `loads` times a hundred loads after one sort at 150², scalars and both counts of spots included;
-// `library sort` is std::sort of the same drops, the reference for the radix sort. Peak bytes are
-// counted memory above the surface itself.
+// `loads`: a hundred loads after one sort at 150², with scalars and both counts of spots. `library sort`:
+// std::sort of the same drops. Peak bytes exclude the surface.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

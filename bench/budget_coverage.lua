@@ -1,12 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How often does the interval of a budget hold the truth? The cells part of single rough contacts, and inputs of every kind.
+-- Coverage of lab.budget: the cells part of single rough contacts, and inputs of every kind.
 --
 --   asperity run bench/budget_coverage.lua --threads 2 -- contacts=480 sets=300
 --
--- Contacts: one face each (H 0.5 to 0.9, slopes 0.05 to 0.2, shortest waves of a sixteenth to a fifth of the tile, loads of 1
--- to 20 % of the slope, free and periodic), no replicates, on grids of 32 and 64 cells. The truth is the answer on four times
--- as many cells a side. Inputs: models with a known answer, of inputs that are measured with an error; the interval must hold
--- the answer at their true values.
+-- Contacts: one face each (H 0.5 to 0.9, slopes 0.05 to 0.2, shortest waves 1/16 to 1/5 of the tile, loads 1
+-- to 20 % of the slope, free and periodic), no replicates, 32 and 64 cells; truth on four times as many cells
+-- a side. Inputs: models with known answers; the interval must contain the answer at the true inputs.
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
 local options = arguments({ contacts = 480, sets = 300, seed = 1, finest = 64 }, ...)
@@ -163,7 +162,7 @@ holds("one face, a drift of order 1 to 2 alone", function()
   return { ask = function(x) return (32 / x.cells) ^ order end, cells = { 32, 64 } }, 0
 end)
 
--- 3. What must hold.
+-- 3. Requirements.
 if #rows > 0 then
   local cells = lab.notebook "cells"
   cells:expect("held", { at_least = 0.91 })

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What eight events cost: two specimens of 1024 x 1024 cells pressed eight times at 152.78 MPa and put
--- down afresh between events, with five stylus traces, roughness and profile dimension after each.
+-- Eight events: two specimens of 1024 x 1024 cells, pressed eight times at 152.78 MPa and placed anew
+-- between, with five stylus traces, roughness and profile dimension after each.
 --
 --   asperity run bench/eight_events.lua
 --   asperity run bench/eight_events.lua -- cells=512 events=4

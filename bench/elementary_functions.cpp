@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's correctly rounded functions beside the C library's, on arguments as surfaces and solvers give
-// them. Run: bench_elementary_functions. Compare times of one run; each is of 4096 values.
+// Correctly rounded functions against the C library, on typical arguments; times for 4096 values.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

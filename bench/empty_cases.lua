@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a case of an ensemble costs by itself: cases that compute nothing, each of which is kept and counted. Options: cases.
--- The processors' time over their number:
+-- Overhead of one case of an ensemble: processor time over the number of empty cases. Option: cases.
 --
 --   time asperity run bench/empty_cases.lua --threads 2
 local lab = require "asperity"

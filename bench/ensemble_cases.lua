@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The cases of an ensemble over the ranks: eight presses of a second or two each. Wall time of the whole run:
+-- Cases of an ensemble over ranks: eight presses of one to two seconds. Wall time:
 --
 --   time mpirun --bind-to none -n 2 asperity run bench/ensemble_cases.lua --threads 1 --store-limit 0 --out run
 local lab = require "asperity"

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lab.ensemble adds to the surfaces and solves of its cases: bench/ensemble_presses.lua, run by the
-// program as anybody would run it, against a loop over the same surfaces and the same presses on as many
-// threads. Time is that of the processors, of user and system together, which other programs on the machine
-// change least; the two take turns, and the ratio is that of neighbours.
+// Overhead of lab.ensemble: bench/ensemble_presses.lua against a loop over the same surfaces and presses, on
+// as many threads. Processor times (user and system) of alternating runs; the ratio compares neighbours.
 //
 //   bench_ensemble_presses PROGRAM SCRIPT                       1000 cases, two threads, three rounds
-//   bench_ensemble_presses PROGRAM SCRIPT cases=16000 rounds=1  what is asked
+//   bench_ensemble_presses PROGRAM SCRIPT cases=16000 rounds=1  other settings
 //   bench_ensemble_presses PROGRAM SCRIPT capped=1000           presses that stop at the hardness
 //
-// Words after the script's: cases=, capped=, cells=, threads=, rounds=, and store=0 for a run that keeps no
-// case. Prints a line a round, and the middle ratio last.
+// Settings: cases=, capped=, cells=, threads=, rounds=, store=0 (no stored cases). One line per round, then
+// the median ratio.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -80,7 +78,6 @@ double area_of(int seed, const Settings& set) {
   return state.corrected_area_fraction();
 }
 
-// Prints what the script prints of the areas.
 void loop(const Settings& set) {
   const int cases = set.at("cases");
   std::vector<double> areas(static_cast<std::size_t>(cases));

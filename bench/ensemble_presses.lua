@@ -1,8 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Small presses by the thousand: what an ensemble adds to its surfaces and solves. Each case has a surface of its own seed
--- on 256 x 256 cells, pressed to a tolerance of 1e-2, elastic or capped at its hardness, and is stored and counted as every
--- case is. Options: cases, capped (how many of them stop at the hardness, first), cells. bench/ensemble_presses.cpp runs it
--- against a loop in C++ over the same surfaces and presses.
+-- Thousands of small presses in an ensemble: a surface per seed on 256 x 256 cells, tolerance 1e-2, elastic
+-- or capped at its hardness. Options: cases, capped (how many, first, reach the hardness), cells.
+-- bench/ensemble_presses.cpp compares with a C++ loop.
 --
 --   asperity run bench/ensemble_presses.lua --threads 2 -- cases=16000
 local lab = require "asperity"

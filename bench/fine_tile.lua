@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The largest event: a tile of 2 mm at the stylus's own spacing of 0.25 um, 8192 x 8192 cells, pressed once
--- at 152.78 MPa. States time and memory; needs about 20 GiB at the default size.
+-- The largest event: a tile of 2 mm at a stylus spacing of 0.25 um, 8192 x 8192 cells, pressed at 152.78 MPa.
+-- Needs about 20 GiB.
 --
 --   asperity run bench/fine_tile.lua --limit-memory 24G
 --   asperity run bench/fine_tile.lua -- cells=2048

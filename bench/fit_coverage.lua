@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How often do 95 % intervals of table:fit and lab.calibrate hold the truth, and does anything warn where they do not?
--- Then calibrations in which noise drives a parameter to its bound: which intervals are printed, and how many are wrong?
+-- Coverage of the 95 % intervals of table:fit and lab.calibrate, and their warnings; then intervals of
+-- calibrations with a parameter pushed against its bound by noise.
 --
 --   asperity run bench/fit_coverage.lua
 --   asperity run bench/fit_coverage.lua -- sets=100 seed=2
@@ -13,7 +13,7 @@ local function rows_of(count, make)
   for k = 1, count do rows[k] = make(k) end
   return rows
 end
--- Repeats on specimens: `between` and `within` are the scatter of specimens and of repeats on them.
+-- `between` and `within`: scatter of specimens and of repeats.
 local function repeats(xs, count, between, within, truth)
   local rows = {}
   for s, x in ipairs(xs) do
@@ -114,7 +114,7 @@ for place, kind in ipairs(kinds) do
     refused > 0 and ", refused " .. refused or ""))
 end
 
--- Fourteen angles of two specimens whose real areas differ by 1, 5, 10 or 30 %: alpha + tau0 is known, and little else.
+-- Fourteen angles of two specimens with similar real areas: little beyond alpha + tau0 is determined.
 local truth = { tau0 = .2, alpha = .25 }
 print "\n15 calibrations of each difference of c, tau0 with lower=0, alpha free or with lower=0"
 for _, lower in ipairs{ -math.huge, 0 } do

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The half-space solver against plain conjugate gradients and against the bare transform, side by side:
-// self-affine surfaces of Hurst exponent 0.8, roll-off at the box, shortest wave 16 cells, rms slope 0.1,
-// E* = 1, pressed to a share of E* h' until the complementarity is below 1e-8.
+// Half-space solver against plain conjugate gradients and the bare transform: self-affine surfaces (Hurst
+// exponent 0.8, roll-off at the box, shortest wave 16 cells, rms slope h' = 0.1, E* = 1), pressed to a share
+// of E* h' until the complementarity is below 1e-8.
 //
 //   bench_half_space                                   256² … 1024², five seeds
-//   bench_half_space sizes=512,2048 seeds=1 threads=2  what is asked
+//   bench_half_space sizes=512,2048 seeds=1 threads=2  other settings
 //   bench_half_space plain=1024                        plain conjugate gradients up to this size; default 512
 //   bench_half_space boundary=free                     the same heights on a free boundary
-//   bench_half_space precision=12                      steps in single against double precision, 12 solves of
-//                                                      each by turns: user time, which other programs on the
-//                                                      machine change least, and pairs, over tolerances
+//   bench_half_space precision=12                      single against double precision: user time and
+//                                                      pairs of 12 alternating solves each, by tolerance
 //
-// A pair is one transform forward and one back, of the finest grid; coarser grids are counted by n ln n.
-// Plain conjugate gradients (Polonsky & Keer 1999) apply the operator twice an iteration. The bare pair is
-// FFTW's own two-dimensional in-place real transform, measured plan, of the grid (free: of the padded grid),
-// without multiplication, always in double precision: as many in a row as the solve takes, then the solve, by
-// turns, and the ratio is that of neighbours. In rows marked single, transforms of a solve are in single
-// precision, its certificate as ever. Memory is the peak of a solve in grids of doubles, heights and answer
-// left out.
+// Pair: one forward and one backward transform of the finest grid; coarser grids count by n ln n. Plain
+// conjugate gradients (Polonsky & Keer 1999) apply the operator twice per iteration. Bare pair: FFTW's
+// in-place 2D real transform (measured plan, double precision, free boundaries padded), without
+// multiplication; as many as the solve takes, alternating with the solve. Rows marked single have
+// single-precision transforms and the usual certificate. Memory: peak of a solve in grids of doubles, without
+// heights and result.
 #include <fftw3.h>
 #include <sys/resource.h>
 
@@ -99,8 +97,7 @@ Value median(std::vector<Value> values) {
 
 constexpr double slope = 0.1, tolerance = 1e-8;
 
-// What is compared takes turns of about as long: other programs have the processor and its memory now and
-// then, and meet both alike.
+// Turns of equal length: other programs disturb both alike.
 constexpr int turns = 7;
 
 Field heights(int n, std::uint64_t seed) {
@@ -113,7 +110,7 @@ Field heights(int n, std::uint64_t seed) {
   return self_affine_surface(options).heights();
 }
 
-// FFTW's own pair of transforms on n x n doubles, in place.
+// FFTW, double precision, in place.
 class BarePair {
  public:
   BarePair(int n, int threads) {
@@ -125,7 +122,7 @@ class BarePair {
     forward_ = fftw_plan_dft_r2c_2d(n, n, data_, bins, FFTW_MEASURE);
     back_ = fftw_plan_dft_c2r_2d(n, n, bins, data_, FFTW_MEASURE);
     std::fill_n(data_, row * static_cast<std::size_t>(n), 0.0);
-    // Plans made from here on, the engine's own, are for one thread each.
+    // Later plans, including the engine's, use one thread.
     fftw_plan_with_nthreads(1);
   }
   ~BarePair() {
@@ -136,7 +133,7 @@ class BarePair {
   BarePair(const BarePair&) = delete;
   BarePair& operator=(const BarePair&) = delete;
 
-  // Of one, of so many in a row.
+  // Mean of `pairs` in a row.
   double seconds(int pairs) const {
     const double start = now();
     for (int pair = 0; pair < pairs; ++pair) {
@@ -156,7 +153,7 @@ struct Plain {
   double seconds = 0;
 };
 
-// Polonsky & Keer (1999) with the load met by scaling, as codes in use do it.
+// Polonsky & Keer (1999); load by scaling.
 Plain plain_conjugate_gradients(const Field& h, double mean_pressure, Boundary boundary) {
   const double start = now();
   const std::size_t n = h.size();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operators of the half-space against FFTW's own two-dimensional transforms. Run as
+// Half-space operators against FFTW's two-dimensional transforms. Run as
 //   bench_half_space_operators --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
-// Arguments: cells a side, threads. `bare_pair` is an in-place r2c and c2r of a plan that FFTW took the
-// time to measure, without a multiplication; `free_compliance` works on the padded grid of twice the
-// side. The free set of the preconditioner is two fifths of the nodes, in patches of some 8 cells, the
-// kind with the longest edge. Compare times of one run. `signals_by_fftw` and `signals_in_lanes` transform
-// complex signals forth and back, one after another or eight at once; items_per_second counts signals.
+// Arguments: cells a side, threads. `bare_pair`: in-place r2c and c2r, measured plan, no multiplication.
+// `free_compliance`: padded grid of twice the side. Free set of the preconditioner: two fifths of the nodes
+// in patches of 8 cells, the longest edge. `signals_by_fftw`, `signals_in_lanes`: complex signals forth and
+// back, one or eight at a time; items_per_second counts signals.
 #include <benchmark/benchmark.h>
 #include <fftw3.h>
 
@@ -25,7 +24,6 @@ namespace {
 
 using namespace asperity;
 
-// Waves of 16 cells and longer.
 Array<double> smooth_heights(int cells) {
   const Stream stream(1, "bench heights");
   Array<double> z(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What it would cost, and what would come of it, if HDF5 files were read by the HDF5 library in a child
-// process that may fail, with processor time and memory limited and the numbers handed over in shared memory,
-// beside this project's reader: on files with changed bytes, and on maps, from the disk and from memory.
+// HDF5 files by the HDF5 library in a limited child process (shared memory for the numbers), against the
+// reader of this project: corrupted files, and maps from disk and memory.
 //
 //   bench_hdf5_by_library changed FIRST COUNT tests/fuzz/corpus/hdf5/*.h5
 //   bench_hdf5_by_library maps 4 1024 4096
@@ -29,10 +28,10 @@
 namespace {
 
 using namespace asperity;
-constexpr int answer = 3;  // the child's descriptor
+constexpr int answer = 3;  // descriptor of the child
 const std::string aside = "/dev/shm/asperity-bench-" + std::to_string(::getpid()) + ".h5";
 
-// In the child: every number as a double; what leads out of the file is left out.
+// Reads numbers as doubles; skips references to other files.
 herr_t take(hid_t root, const char* name, const H5O_info_t* info, void* taken) {
   if (info->type != H5O_TYPE_DATASET) return 0;
   const hid_t data = H5Dopen2(root, name, H5P_DEFAULT);

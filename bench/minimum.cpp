@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the laboratory costs beside its solvers: three scenes through SpecimenPair, State and the friction
-// law, each against the least that could be written by hand for it with the same calls of the solver.
+// Overhead of SpecimenPair, State and the friction law in three scenes, against minimal code with the same
+// solver.
 //
 //   bench_minimum                          the three scenes, 15 pairs each
-//   bench_minimum pairs=41 threads=2       what is asked
+//   bench_minimum pairs=41 threads=2       other settings
 //
 //   box friction         sort the heights, find the depth of a load, count the contacts, sum the law
 //   elastic half-space   combine two bodies, solve, read area fraction and approach
-//   capped event         combine, solve below a hardness, take from both bodies what yielded
+//   capped event         combine, solve below a hardness, subtract the plastic volume from both bodies
 //
-// Both ways are run in turn, the one that goes first changing, and give the same bits, which is checked.
-// Times are of the processor (of all threads together), so that other programs on the machine count little;
-// the ratio is the median over pairs.
+// Both alternate and must give the same bits. Processor times over all threads; median ratio of the pairs.
 #include <time.h>
 
 #include <algorithm>
@@ -40,7 +38,7 @@ using namespace asperity;
 constexpr double stiffness = 3, tau0 = 0.01, alpha = 0.2, tolerance = 1e-6, hardness = 0.15;
 constexpr double young = 1, poisson = 0.3, pressed = 0.01;
 
-// The numbers a scene is run for; both ways must agree in all of them.
+// Results of a scene.
 using Numbers = std::vector<double>;
 
 struct Scenario {
@@ -93,7 +91,7 @@ Scenario box_friction(int cells) {
           }};
 }
 
-// Combined heights as the bodies lie without placement: lower node (i, j) meets upper node (nx-1-i, j).
+// Without placement: lower node (i, j) meets upper node (nx-1-i, j).
 HalfSpaceProblem problem_of(const Surface& lower, const Surface& upper) {
   const Grid& grid = lower.grid();
   Field combined = lower.heights();
@@ -159,7 +157,7 @@ Scenario capped_event(int cells) {
           }};
 }
 
-// Processor seconds of one run: of as many in a row as take twenty milliseconds.
+// Processor seconds of one run, mean over `turns`.
 double seconds_of(const std::function<Numbers()>& way, int turns, Numbers& numbers) {
   const double start = processor_seconds();
   for (int k = 0; k < turns; ++k) numbers = way();
@@ -167,7 +165,7 @@ double seconds_of(const std::function<Numbers()>& way, int turns, Numbers& numbe
 }
 
 bool run(const Scenario& scenario, int pairs) {
-  // The first time is apart: the process makes what it keeps for every contact of a size.
+  // Untimed: fills the caches of this grid size.
   Numbers laboratory_numbers = scenario.laboratory(), numbers;
   const double once = seconds_of(scenario.by_hand, 1, numbers);
   const bool same = laboratory_numbers == numbers;

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A worn map of 1024 x 1024 cells laid on the one before, for turns up to 5 degrees and over the whole circle: states
--- time, what it may take, and what was found. Seconds are of the processor, over all threads.
+-- Registration of a worn map of 1024 x 1024 cells, for turns up to 5 degrees and over the full circle:
+-- processor seconds over all threads, their limit, and the result.
 --
 --   asperity run bench/registration.lua
 --   asperity run bench/registration.lua -- cells=2048

@@ -1,11 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- How often accuracy={ error= } meets the requested error, and its cost compared with the cheapest grid
--- within the error. Scenes of each kind have random shapes and loads; 10, 3 and 1 % of the corrected area
--- fraction are requested. The truth is the corrected area on truth x truth cells, of boxes the counted area, which
--- has no bias. The settings are 32, 64 ... truth/2 cells at the
--- default tolerance; the cheapest one within the error counts, even if by luck. Cost is transforms times n log n
--- of their grid (of boxes one per press); the cost of a choice includes all grids tried. A refusal is a miss.
--- The rules were developed on seeds 1 to 10; docs/accuracy.md has the table of seeds 101 to 140.
+-- Success rate of accuracy={ error= }, and cost relative to the cheapest grid within the error: random scenes
+-- of each kind; 10, 3 and 1 % of the corrected area fraction. Truth: corrected area on truth x truth cells
+-- (boxes: the counted area, which has no bias). Settings: 32, 64 ... truth/2 cells at the default tolerance;
+-- the cheapest within the error counts, even by luck. Cost: transforms times n log n (boxes: one per press);
+-- a choice includes all grids tried. A refusal is a miss. The rules were developed on seeds 1 to 10;
+-- docs/accuracy.md has seeds 101 to 140.
 --
 --   asperity run --threads 1 bench/requested_error.lua -- first=101 last=140
 --   asperity run --threads 1 bench/requested_error.lua -- first=1 last=2 kinds=ball,pairs
@@ -16,7 +15,7 @@ local options = arguments({ first = 101, last = 103, truth = 1024, given = 256, 
 local requested = { 0.1, 0.03, 0.01 }
 local material = lab.material{ young = 1e9, poisson = 0 }
 
--- A scene of this kind: { make = function(cells) returns lower, upper, boundary, effects, pressure }.
+-- { make = function(cells) returns lower, upper, boundary, effects, pressure }
 local function scene(kind, seed)
   local state = seed * 7919 + #kind * 104729 + kind:byte(1) * 31 + kind:byte(2)
   local function random()
@@ -90,7 +89,7 @@ local function scene(kind, seed)
         made[k] = lab.surface.self_affine{ cells = n, size = 1, hurst = face.hurst, rms_slope = slope, roll_off = 0.5,
           short_wave = face.short_wave, seed = seed + 5000 * (k - 1), material = material }
       end
-      -- A body is turned over about its middle node: moved by a cell, any grid gives the same contact.
+      -- A body is turned about its middle node; shifted by one cell, every grid gives the same contact.
       return made[1], made[2] and made[2]:shifted{ x = -1 / n }
     end
   end
@@ -108,7 +107,7 @@ end
 
 local function work(cells, transforms) return math.max(transforms, 1) * cells ^ 2 * 2 * math.log(cells, 2) end
 
--- The cost of a press on `cells`; the grids tried before are included after a choice.
+-- A choice includes the grids tried before.
 local function cost_of(st, cells)
   if not st.chosen then return work(cells, st.cost.transforms) end
   local sum = 0

@@ -1,6 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- One contact over the ranks of mpirun: what a press takes, and what any rank holds; with whole=1 what lab.contact
--- takes for the same in one process.
+-- One contact over MPI ranks: time and peak memory per rank. whole=1: lab.contact in one process.
 --
 --   mpirun --bind-to none -n 2 asperity run bench/spread.lua --threads 1 --store-limit 0 --out run -- cells=2048
 --   asperity run bench/spread.lua --threads 1 --store-limit 0 --out run -- cells=2048 whole=1

@@ -1,9 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a surrogate would have cost in place of thousands of presses, and how far it is off: the logarithm of the corrected
--- area by a polynomial (Legendre, total degree 1 to 4) in the logarithms of pressure and slope and in the Hurst exponent,
--- fitted by least squares to `train` presses and held against `test` others. Once all presses share one seed, so that the
--- area is a smooth function of the three; once each has its own surface, as an ensemble has, and what one seed does differs
--- from the next. The presses are those of bench/ensemble_presses.lua, through lab.ensemble.
+-- Cost and error of a surrogate for thousands of presses: Legendre polynomials (total degree 1 to 4) for the
+-- logarithm of the corrected area in log pressure, log slope and Hurst exponent, least squares on `train`
+-- presses, tested on `test`. First all presses share one seed (a smooth area), then each has its own. Presses
+-- as in bench/ensemble_presses.lua.
 --
 --   asperity run bench/surrogate_presses.lua -- train=400 test=400
 local lab = require "asperity"
@@ -14,7 +13,7 @@ local material = lab.material{ young = 1e9, poisson = 0, hardness = 5e7 }
 local names = { "pressure", "slope", "hurst" }
 local cells = options.cells
 
--- Inputs in [-1, 1], from a sequence that fills the cube evenly (Kronecker, of the plastic numbers).
+-- In [-1, 1], evenly filling the cube (Kronecker sequence of the plastic number).
 local function inputs(count, from)
   local cases = {}
   for k = 1, count do
@@ -63,7 +62,7 @@ local function values(row, list)
   return v
 end
 
--- Least squares by the normal equations: the basis is close to orthogonal on points that fill the cube evenly.
+-- Normal equations: the basis is nearly orthogonal on these points.
 local function fit(rows, list)
   local n, A = #list, {}
   for i = 1, n do A[i] = {} for j = 1, n + 1 do A[i][j] = 0 end end

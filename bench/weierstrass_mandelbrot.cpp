@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast a Weierstrass–Mandelbrot surface is made: at the published parameters (γ = 1.5, M = 10,
-// n_max = 100, 1010 waves), one thread, against two references measured beside it in the same run.
-//   direct   the double loop over nodes and waves with std::cos; wave vectors, amplitudes and
-//            cos φ are tabled beforehand. 150² is summed whole; of larger grids 8 rows, spread
-//            evenly, are summed and their time is multiplied by ny/8: every row costs the same.
-//   product  Eigen's bare matrix product of the full shape, nx × 2K by 2K × ny with K = 1010, and
-//            nothing else: no tables, no phases. The generator may beat it, because waves that are
-//            mirror images share their columns and waves along an axis need none.
-// Run: bench_weierstrass_mandelbrot. Counters: seconds of both references, their ratios to the
-// surface, and the peak of counted memory in MiB (`heights` of it are the result).
+// Time of a Weierstrass–Mandelbrot surface (published parameters γ = 1.5, M = 10, n_max = 100: 1010 waves) on
+// one thread, against two references of the same run.
+//   direct   loop over nodes and waves with std::cos and tables of wave vectors, amplitudes and cos φ. 150²
+//            is summed whole; of larger grids 8 even rows, times ny/8.
+//   product  Eigen's product nx × 2K by 2K × ny with K = 1010, without tables or phases. The generator can be
+//            faster: mirrored waves share columns, waves along an axis need none.
+// Run: bench_weierstrass_mandelbrot. Counters: seconds and ratios of the references, peak counted memory in
+// MiB (`heights`: the result).
 #include <benchmark/benchmark.h>
 
-// GCC 12 takes the deliberately undefined registers of its own AVX-512 header for a mistake (GCC bug 105593).
+// GCC 12 warns about undefined registers of its own AVX-512 header (GCC bug 105593).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -84,7 +82,7 @@ double direct_sum(const WeierstrassMandelbrotOptions& o, int rows) {
   return seconds_since(start) * o.ny / rows;
 }
 
-// Seconds of the bare product, the best of `runs`.
+// Seconds, minimum of `runs`.
 double bare_product(int cells, int waves, int runs) {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
   const Matrix left = Matrix::Random(cells, 2 * waves);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// asperity: the program. main() walks the list of commands below; each declares its options, reads them and
-// runs in a file of its own (cli/*_command.cpp and web/serve_command.cpp), by the interface of
-// cli/commands/command.hpp. This file stands above the command line and the page, and hands the commands of
-// the one what carries them out behind the barriers of the other.
+// asperity: the program. main() lists the commands; each declares and reads its options in its own file
+// (cli/commands, web/serve_command.cpp; interface in cli/commands/command.hpp). Commands of the command line
+// receive the confined runners of the web part here, so that the command line includes no file of the page.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -31,8 +30,7 @@ namespace {
 
 using namespace asperity;
 
-// A command, and its place among the lines of `asperity help`: there the commands that follow a script stand
-// together.
+// `place`: line in `asperity help`, where commands that take a script form one group.
 struct Listed {
   int place;
   cli::Command command;
@@ -40,7 +38,7 @@ struct Listed {
 
 std::string overview();
 
-// In the order of --help, of the manual page and of what a shell completes.
+// Order of --help, the manual page and shell completion.
 const std::vector<Listed>& commands() {
   static const std::vector<Listed> all{
       {1, cli::run_command({web::to_be_confined, web::run_behind_barriers})},
@@ -69,8 +67,8 @@ std::string overview() {
   return text;
 }
 
-// A terminal shows what scripts and files hold and obeys none of it. Standard output of a script is its own,
-// and reaches a program or a file as it is; libedit, at the prompt, writes to the terminal by itself.
+// A terminal must not obey escape sequences from scripts and files. Standard output of a script passes
+// unchanged to a program or a file. At the prompt, libedit writes to the terminal itself.
 void make_streams_plain(std::string_view word) {
   const auto named = std::ranges::find(
       commands(), word, [](const Listed& listed) -> std::string_view { return listed.command.name; });
@@ -81,7 +79,7 @@ void make_streams_plain(std::string_view word) {
   cli::make_output_plain(of_script ? cli::Keeps::colours : cli::Keeps::text);
 }
 
-// What the parser has to say of a command line, in streams that are plain.
+// Prints messages of the parser through the filtered streams.
 int parser_exit(const CLI::App& app, const CLI::Error& error) {
   std::ostringstream out, err;
   const int status = app.exit(error, out, err);
@@ -93,7 +91,7 @@ int parser_exit(const CLI::App& app, const CLI::Error& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // The child of `asperity serve` and of what runs behind barriers: nothing of the command line is for it.
+  // The confined child process ignores all other arguments.
   if (argc == 2 && std::string_view(argv[1]) == "--confined") return web::confined_main();
 
   make_streams_plain(argc > 1 ? argv[1] : "");
@@ -111,7 +109,7 @@ int main(int argc, char** argv) {
     readers.emplace_back(&options, command.declare(options));
   }
 
-  // A word that is no command is answered with the nearest one, which the parser does not know how to do.
+  // The parser has no suggestion for an unknown command.
   if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
     std::fprintf(stderr, "asperity: there is no command %s%s; the commands are %s\n", quoted(argv[1]).c_str(),
                  did_you_mean(argv[1], names).c_str(), joined(names, " and ").c_str());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of everything a script can see, one line a module and a class.
+// All modules and classes of the language, one per line.
 #include "bindings/lua/contact/discretisation_error.hpp"
 #include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/contact/state_error.hpp"
@@ -20,7 +20,6 @@
 
 namespace asperity::lua {
 
-// Each defined in the source of its name.
 const Module& lab_module();
 const Module& units_module();
 const Module& protocol_module();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The root of the language: lab, its help, quantities as numbers, and the unit factors of lab.units.
+// The module lab: help, quantities as numbers, unit factors of lab.units.
 #include <numbers>
 #include <string>
 
@@ -22,12 +22,11 @@
 
 namespace asperity::lua {
 
-// Defined in runtime/file_list.cpp.
 Function files_function();
 
 namespace {
 
-// Help on a value that a script holds: a function of the laboratory, a module, an object, a result.
+// Help on a Lua value: a function of the laboratory, a module, an object, a result.
 std::string help_on(const Argument& value) {
   lua_State* L = value.state();
   const Argument::StackGuard guard(L);
@@ -63,7 +62,7 @@ Values help(Call& call) {
   return {call.argument(1).is_text() ? help_text(call.text(1, "topic")) : help_on(call.argument(1))};
 }
 
-// A kind by its name, "pressure", or that of a unit, "MPa".
+// The kind by its name ("pressure") or by a unit ("MPa").
 Dimension kind_given(const std::string& text) {
   if (const auto kind = dimension_named(text)) return *kind;
   try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loadable module: `require "asperity"` from any Lua 5.4. It links no Lua; the interpreter that
-// loads it supplies one. Nothing is recorded here: files go where the script says.
+// The loadable module: `require "asperity"` from any Lua 5.4. The module links no Lua library and records no
+// run.
 #include "bindings/lua/registry/embedded.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"

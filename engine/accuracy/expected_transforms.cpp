@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The trial's cells hold every so manyeth node of the combined heights, which leaves waves of a few cells
-// what they are: as rough as the cells. What a contact hangs on beyond that is kept: the highest nodes, which
-// touch first and may be a few spikes, and the lowest, from which a flattening is measured. Full contact
-// comes at another load on other cells; near it the load is taken by the same share of that.
+// The trial grid takes every k-th node of the combined heights, which preserves short waves, and keeps the
+// highest nodes (first contacts) and the lowest (reference of a flattening). Near full contact, the trial
+// keeps the share of the load of full contact, which depends on the grid.
 #include "engine/accuracy/expected_transforms.hpp"
 
 #include <algorithm>
@@ -27,24 +26,21 @@ namespace asperity {
 namespace {
 
 // --- constants
-// Fitted to the 1062 presses on more than 96² nodes among those of 900 random scenes of up to 256 cells a
-// side.
+// Fit to 1062 presses on more than 96² nodes (900 random scenes, up to 256 cells a side):
 //   ASPERITY_FIT=1 test_properties family=explain scenes=300 seed=31
-// prints what fits its scenes best.
 struct Growth {
   double a, b;
 };
 constexpr Growth by_load{0.06, 0.18}, by_approach{0.14, 0.12}, by_flattening{0.18, 0.16};
-// A tile on which so many transforms are within the work of a trial is tried whole. Any other is first tried
-// on so many nodes, and then, where that leaves room for enough more of them, on as many as the work allows:
-// at least this share of all, some 3 % of the work of the press.
+// The whole grid is tried if `surely_enough` transforms fit the work of the trial. Otherwise a first trial
+// has `first_tried` nodes. A second has all nodes that the work allows, at least `share_tried` (3 % of the
+// work of the press), if `enough_more` than the first.
 constexpr double surely_enough = 1000, first_tried = 96 * 96, enough_more = 1.5, share_tried = 1.0 / 32;
-// Of a stall that the first trial does not tell, the second sees so much. Where a trial was left, the press
-// is expected to take so many times more; or fewer, where only some of its cells stalled and fewer did not.
+// Limit of the second trial, relative to its expectation. Expectation of a stopped trial, relative to its
+// limit, on all cells and on part of them.
 constexpr double room_for_a_stall = 2, times_left = 3, times_left_of_some = 1.5;
-// Of the presses on more cells than are tried, 4 of 215 by approach or flattening (1 of 44 by pressure) took
-// over four times what was said: they stall where the trial does not. Seeds as at the head of
-// tests/stability/properties/explain.cpp.
+// Large presses can stall where the trial does not: 4 of 215 by approach or flattening and 1 of 44 by
+// pressure took over four times the estimate (seeds: tests/stability/properties/explain.cpp).
 constexpr const char* seldom = "; one such press in some fifty takes over four times as many";
 
 Growth growth_by(PressBy by) {
@@ -63,7 +59,7 @@ Growth growth_by(PressBy by) {
 
 // --- fewer cells
 
-// Every so many of n nodes along one side, m of them, with that of the highest.
+// m of n nodes of one side, including the highest.
 struct Sublattice {
   int n, m, shift = 0;
   Sublattice(int all, int kept, int highest) : n(all), m(kept) {
@@ -71,7 +67,7 @@ struct Sublattice {
   }
   int at(int k) const { return static_cast<int>(static_cast<std::int64_t>(k) * n / m); }
   int node(int k) const { return std::min(n - 1, at(k) + shift); }
-  // The one that stands for node i.
+  // Index of the node in place of node i.
   int place(int i) const {
     return std::clamp(static_cast<int>((static_cast<std::int64_t>(i - shift + 1) * m - 1) / n), 0, m - 1);
   }
@@ -83,7 +79,7 @@ struct HeightOfNode {
   bool operator<(const HeightOfNode& other) const { return height < other.height; }
 };
 
-// The highest few, lowest of them first, and the lowest of all. Missing heights are left out.
+// Highest nodes in ascending order. Missing heights are skipped.
 constexpr std::size_t kept_highest = 16;
 struct Extremes {
   std::vector<HeightOfNode> highest;
@@ -93,7 +89,7 @@ Extremes extremes(const Field& h) {
   Extremes found{{}, {0, 0}};
   bool any = false;
   const auto above = [](const HeightOfNode& a, const HeightOfNode& b) { return b < a; };
-  std::vector<HeightOfNode>& heap = found.highest;  // the least of them in front
+  std::vector<HeightOfNode>& heap = found.highest;  // minimum in front
   for (std::size_t k = 0; k < h.size(); ++k) {
     if (std::isnan(h[k])) continue;
     if (!any || h[k] < found.lowest.height) found.lowest = {h[k], k};
@@ -129,7 +125,7 @@ Field thinned(const Field& h, const Grid& grid) {
   return result;
 }
 
-// s: of rows spread over the tile.
+// s of the header, from at most `most_rows` rows.
 double roughness(const Field& h) {
   constexpr int most_rows = 256;
   const int nx = h.nx(), ny = h.ny(), step = (ny + most_rows - 1) / most_rows;
@@ -166,7 +162,7 @@ double roughness(const Field& h) {
 
 double distance_to_full_contact(const Field& h, Range known) { return known.max - known_mean(h.values()); }
 
-// The pressure that brings it, over E*: −min (|q|/2) h, within some tens of percent.
+// Divided by E*: −min (|q|/2) h, to some tens of percent.
 double pressure_of_full_contact(const Field& h, const Grid& grid, const HalfSpaceOperator& half_space) {
   ComplianceMultiplier multiplier;
   if (half_space.share) multiplier = in_cells(*half_space.share, grid.hx(), false);
@@ -215,14 +211,12 @@ PressRequest request_times(PressRequest request, double factor) {
   return request;
 }
 
-// The press on other cells. On fewer, near full contact, which comes under another load there: the same share
-// of that.
 Tried try_on(const Grid& grid, const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
              const PressRequest& request, double most) {
   const Grid& given = geometry.grid();
   const bool fewer = grid != given;
   const Field& all = geometry.combined();
-  // Small grids gain little by threads.
+  // Few nodes gain little from threads.
   constexpr std::size_t small = 128 * 128;
   std::optional<SingleThreaded> alone;
   if (grid.nodes() <= small) alone.emplace();
@@ -253,7 +247,7 @@ Tried try_on(const Grid& grid, const Scene& scene, const ContactGeometry& geomet
   return found;
 }
 
-// So many nodes take half of the memory that is left: a press that a limit has no room for is told, too.
+// Nodes for half of the free memory: `explain` must work for presses above the limit.
 double nodes_within_memory(const Plan& plan, PressBy by, double nodes) {
   constexpr double share = 0.5;
   const std::int64_t limit = memory::limit();
@@ -301,7 +295,7 @@ ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, co
 
 Grid trial_grid(const Grid& grid, double most) {
   if (static_cast<double>(grid.nodes()) <= most) return grid;
-  // Four times a number, so that nested grids below are such as those of most tiles.
+  // Nested grids need multiples of four.
   constexpr int fewest = 8, nested = 32;
   const auto side = [&](int n, double share) {
     const int m = std::max(std::min(n, fewest), static_cast<int>(n * share));
@@ -312,7 +306,6 @@ Grid trial_grid(const Grid& grid, double most) {
   result.nx = side(grid.nx, share);
   result.ny = side(grid.ny, share);
   if (static_cast<double>(result.nodes()) <= most) return result;
-  // A strip keeps its width.
   int& along = result.nx >= result.ny ? result.nx : result.ny;
   along = side(along, most / static_cast<double>(result.nodes()));
   return result;
@@ -334,7 +327,7 @@ Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Pl
                    const PressRequest& request) {
   Plan result = plan;
   result.press = "by " + quoted(name(request.by));
-  if (scene.accuracy.asked && !scene.accuracy.chosen) return result;  // its cells are not known
+  if (scene.accuracy.asked && !scene.accuracy.chosen) return result;  // the grid is unknown
   const ExpectedTransforms expected = expected_transforms(scene, geometry, plan, request);
   if (request.by == PressBy::flatten) hold_flattening(result);
   if (!std::holds_alternative<HalfSpaceOperator>(plan.elasticity)) return result;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least sum of squares of a model that is dear to call and has a tolerance of its own. Derivatives are
-// differences at the start; from step to step they are corrected by what the step has shown (Broyden 1965),
-// and taken anew once the end is near. What is left to go is counted in standard errors, offset/s with the
-// offset of the residuals from where no step lowers their sum and s their scatter: a step of a few
-// thousandths is not taken, nor one below the noise that the model shows beside its derivatives. Differences
-// are as wide as to move all observations together by the scatter of one: wide against noise, and narrow
-// against the interval over which the model is asked to be straight.
+// Least squares for an expensive, noisy model. Derivatives begin as differences; each step corrects them
+// (Broyden 1965), and differences are repeated near the minimum. The distance left is offset/s in standard
+// errors: offset of the residuals from the predicted minimum, s their scatter. Difference steps move the
+// observations by about s: above the noise, within the linear range.
 #include <algorithm>
 #include <cmath>
 
@@ -18,24 +15,24 @@ namespace asperity {
 namespace {
 
 constexpr int most_sparing_steps = 60;
-constexpr double first_step = 0.02;        // of differences at the start, relative to the parameter
-constexpr double widest_step = 0.1;        // the same, of all others
-constexpr double moves_by = 1;             // of the scatter, by which differences move the observations
-constexpr double above_noise = 20;         // of the model, by which differences move them at least
-constexpr double little_to_go = 0.003;     // standard errors
-constexpr double end_is_near = 0.3;        // standard errors within which derivatives stay as they are
-constexpr double foretold_within = 0.1;    // standard errors: the last step
-constexpr double foretold_gains = 15;      // of what may be left to gain beside the least sum
-constexpr double full_steps_within = 1;    // standard errors, from which sums are not compared
-constexpr double hidden_within = 3;        // standard errors, in which noise may hide the least sum
-constexpr double comes_nearer_by = 0.5;    // a step, or it is the last
-constexpr double noise_is_seen = 0.1;      // standard errors: a step so short shows the model's noise
-constexpr double noise_tells = 0.1;        // standard errors, by which noise may move the estimates unsaid
+constexpr double first_step = 0.02;        // first differences, relative to the parameter
+constexpr double widest_step = 0.1;        // later differences, relative
+constexpr double moves_by = 1;             // scatters: move of the observations
+constexpr double above_noise = 20;         // model noises: minimum move
+constexpr double little_to_go = 0.003;     // standard errors: converged
+constexpr double end_is_near = 0.3;        // standard errors: derivatives stay valid
+constexpr double foretold_within = 0.1;    // standard errors: predict the last step
+constexpr double foretold_gains = 15;      // in units of `gain`: predicted reductions up to this need no call
+constexpr double full_steps_within = 1;    // standard errors: do not compare sums
+constexpr double hidden_within = 3;        // standard errors: noise may hide the minimum
+constexpr double comes_nearer_by = 0.5;    // offset ratio after a step: continue below
+constexpr double noise_is_seen = 0.1;      // standard errors: short steps show noise
+constexpr double noise_tells = 0.1;        // standard errors: noise up to this is not reported
 constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
 
 }  // namespace
 
-// Of an observation of weight 1, as it would be at the least sum that the derivatives foretell.
+// For weight 1, at the predicted minimum.
 double CalibrationProblem::scatter_at(const CalibrationPlace& at, const CalibrationTangent& tangent) const {
   const std::size_t observations = groups_.size();
   const double least = sparing_rounding * size_of(at);
@@ -44,7 +41,6 @@ double CalibrationProblem::scatter_at(const CalibrationPlace& at, const Calibrat
   return std::max(least, std::sqrt(sum / static_cast<double>(observations - tangent.rank)));
 }
 
-// How far each parameter is moved for its difference; the first ones of a fit know no derivatives yet.
 std::vector<double> CalibrationProblem::sparing_steps(const CalibrationPlace& at,
                                                       const TableColumns& rows_jacobian,
                                                       const std::vector<double>& scales,
@@ -73,7 +69,7 @@ double CalibrationProblem::sparing_unseen() const {
   return std::clamp(2 * noise_ * std::sqrt(static_cast<double>(groups_.size())) / differences_, least, most);
 }
 
-// All sets of parameters at once; those beside which the model ends are asked for again, nearer.
+// One batch. If the model has no value, retries with smaller steps.
 TableColumns CalibrationProblem::sparing_jacobian(const CalibrationPlace& at,
                                                   const std::vector<double>& steps,
                                                   const std::vector<bool>& held) {
@@ -117,7 +113,7 @@ std::vector<double> CalibrationProblem::foretold(const CalibrationPlace& at,
   return observed(of_rows);
 }
 
-// Along the step, the derivatives become what the step has shown; across it they stay (Broyden 1965).
+// Broyden (1965).
 void CalibrationProblem::correct(TableColumns& rows_jacobian, const CalibrationPlace& from,
                                  const CalibrationPlace& to, const std::vector<double>& scales) const {
   double length = 0;
@@ -134,7 +130,7 @@ void CalibrationProblem::correct(TableColumns& rows_jacobian, const CalibrationP
   }
 }
 
-// What a short step shows beside what the derivatives foretold of it is noise.
+// For a short step, the difference between actual and predicted change is model noise.
 void CalibrationProblem::see_noise(const CalibrationMinimum& from, const CalibrationTangent& tangent,
                                    const CalibrationPlace& to, double scatter) {
   if (!(tangent.offset <= noise_is_seen * scatter)) return;
@@ -149,7 +145,7 @@ void CalibrationProblem::see_noise(const CalibrationMinimum& from, const Calibra
   noise_ = std::sqrt(lack);
 }
 
-// What the derivatives say of a place nearby.
+// Linear prediction.
 CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& from,
                                                     const std::vector<double>& q) const {
   CalibrationPlace there = from.place;
@@ -161,7 +157,7 @@ CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& fr
   return there;
 }
 
-// A place that lies lower. One that does not corrects the derivatives, so that the next begins wiser.
+// A failed step corrects the derivatives for the next one.
 std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& from, double& damping,
                                                           int& tries) {
   const std::vector<bool> none(parameters(), false);
@@ -172,7 +168,7 @@ std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& fr
     if (q == from.place.q) return {};
     auto there = place(q, &from.place.roots);
     if (there && there->sum < from.place.sum) return there;
-    // A short step shows more of the noise than of the derivatives.
+    // Short steps show more noise than slope.
     if (there && length_of(foretold(from.place, from.rows_jacobian, from.place.q, q)) >
                      end_is_near * scatter_at(from.place, at))
       correct(from.rows_jacobian, from.place, *there, from.scales);
@@ -189,7 +185,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
   found.place = *std::move(begin);
   found.scales = before.scales.empty() ? natural_scales(found.place) : before.scales;
   const std::vector<bool> none(parameters(), false);
-  // Where the derivatives of an earlier fit were taken, if that fit began or ended here.
+  // Derivatives of an earlier fit that began or ended here.
   bool first = before.differenced_at.empty() || before.place.q != start;
   if (first) {
     found.rows_jacobian =
@@ -201,7 +197,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     found.differenced_at = before.differenced_at;
   }
   double damping = 1e-6;
-  int steps = 0;  // since derivatives were taken
+  int steps = 0;  // since the last differences
   for (found.iterations = 0;; ++found.iterations) {
     const CalibrationTangent at =
         tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
@@ -233,13 +229,13 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
                       " steps; it ended at " + parameters_text(found.place.q),
                   "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
     if (fresh && at.offset <= foretold_within * scatter) {
-      // Too short to be worth a set of parameters: the derivatives say where it leads.
+      // The step is not worth a model call.
       found.place = foretold_place(found, stepped(found.place, at, 0));
       found.noisy = noise > noise_tells * scatter;
       return found;
     }
     if (fresh && at.offset <= full_steps_within * scatter) {
-      // So near the end the noise of the model hides which sum is lower; the offset it moves far less.
+      // Near the minimum, noise hides the smaller sum but hardly changes the offset.
       auto last = place(stepped(found.place, at, 0), nullptr);
       if (!last) {
         found.noisy = at.offset > noise_tells * scatter;
@@ -272,7 +268,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     for (std::size_t p = 0; p < parameters(); ++p)
       if (found.place.q[p] != 0 && before.scales.empty())
         found.scales[p] = std::max(std::abs(found.place.q[p]), 1e-3 * found.scales[p]);
-    // Far from the end corrected derivatives grow old.
+    // Corrected derivatives lose accuracy.
     if (tries > 2 || ++steps > 5) take_anew();
   }
 }
@@ -291,7 +287,6 @@ std::optional<CalibrationPlace> CalibrationProblem::sparing_beside(const Calibra
     const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
     const double left = here.offset * here.offset;
     if (left <= foretold_gains * gain) {
-      // The derivatives say how much there is still to gain.
       at.q = stepped(at, here, 0);
       at.sum -= left;
       return at;

@@ -31,7 +31,7 @@ namespace {
 
 constexpr int equal = done, different = failed;
 
-// Programs or libraries of another version may round otherwise.
+// Versions may round differently.
 void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
   if (recorded.versions == again.versions) return;
   for (const auto& [name, version] : recorded.versions.members()) {
@@ -42,8 +42,7 @@ void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
   }
 }
 
-// The engine's results are the same bits on every processor; what the script computes by `^` and `math`, and
-// contacts spread over ranks, may not be.
+// `^`, `math` and contacts over ranks may differ between processors; engine results do not.
 void print_machines(const RecordedRun& recorded, const RecordedRun& again) {
   for (const std::string& line : differing_machines(recorded.machine, again.machine))
     std::printf("  recorded on %s\n", line.c_str());
@@ -66,8 +65,7 @@ std::string count_text(std::size_t count, const char* one, const char* many) {
   return count == 1 ? one : std::to_string(count) + many;
 }
 
-// Differences from the recorded run, to the byte. For a run of another minor version: a line that names this
-// version, and differences of its results.
+// Byte by byte. For another minor version: a line with this version, and differences of results.
 std::vector<Difference> differences_from(const RecordedRun& recorded, const RecordedRun& again) {
   const std::string then = program_version(recorded), now = lua::version_text();
   if (same_minor_version(then, now)) return differences(recorded, again);
@@ -80,7 +78,6 @@ std::vector<Difference> differences_from(const RecordedRun& recorded, const Reco
   return std::move(across.differences);
 }
 
-// Prints the results that a changed argument moves.
 void show_variation(const RecordedRun& recorded, const std::filesystem::path& place,
                     const std::string& changed) {
   const std::vector<Difference> found = differences_from(recorded, read_run(place));
@@ -90,7 +87,7 @@ void show_variation(const RecordedRun& recorded, const std::filesystem::path& pl
   print_differences(found, "recorded", "varied");
 }
 
-// Prints the comparison; returns the exit status. `altered`: files of the record differ from its manifest.
+// Returns the exit status. `altered`: files differ from the manifest.
 int compare(const RecordedRun& recorded, const std::filesystem::path& place, bool altered) {
   const RecordedRun again = read_run(place);
   const std::vector<Difference> found = differences_from(recorded, again);
@@ -244,7 +241,7 @@ int replay(const ReplayCommand& command) {
     });
   });
   muted.reset();
-  // Nothing was run, or it was stopped on the way.
+  // No run, or an interrupted one.
   if (place.empty() || status > different) return status;
   return verdict(status);
 }

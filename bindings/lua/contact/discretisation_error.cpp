@@ -13,7 +13,6 @@ namespace asperity::lua {
 
 namespace {
 
-// A field is asked for by its own name.
 Values estimate(Call& call) {
   return {discretisation_estimate(call.self<DiscretisationError>().state, call.function_name()).error};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of st.error that grids leave: estimates from the same press on coarser ones, where the script
-// asked for them; and st.chosen, what was chosen for an error that it asked for.
+// Discretisation part of st.error: estimates from the same press on coarser grids, if requested. Also
+// st.chosen, the cells and tolerance chosen for a requested error.
 #pragma once
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -9,7 +9,7 @@
 
 namespace asperity::lua {
 
-// The value of st.error.discretisation: the state, whose coarser grids are read when a quantity is.
+// st.error.discretisation. The coarser grids are read with the first quantity.
 struct DiscretisationError {
   asperity::State state;
 };
@@ -20,7 +20,7 @@ const Class& class_of<DiscretisationError>();
 const RecordType<ChosenAccuracy>& chosen_accuracy_type();
 const RecordType<TriedGrid>& tried_grid_type();
 
-// The record of cells, tolerance, precision, reason and all that was tried; nil where nothing was asked for.
+// Cells, tolerance, precision, reason and trials. Nil if no error was requested.
 Value chosen_record(const asperity::State& state);
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What contact:explain gives: the plan of a press, what is to be computed and what it is expected to cost.
+// The result of contact:explain: the plan of a press and its expected cost.
 #include "engine/contact/plan.hpp"
 #include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/record_type.hpp"

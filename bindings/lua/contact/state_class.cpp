@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields and methods of a state (a contact under load). A field is worked out when the script reads it,
-// and not before.
+// Fields and methods of a state (a contact under load). Fields are computed on first use.
 #include "bindings/lua/contact/state_class.hpp"
 
 #include <algorithm>
@@ -26,7 +25,6 @@ namespace {
 
 using Contacting = asperity::State;
 
-// A field is asked for by its own name.
 Values quantity_value(Call& call) {
   const StateQuantity& quantity = *find_quantity(call.function_name());
   const double value = quantity.of(call.self<Contacting>());
@@ -137,8 +135,7 @@ Values write_state(Call& call) {
   return {path};
 }
 
-// One line with the known error of the cells, and below it the limits, a line each. A closed state has its
-// line alone.
+// One line with the discretisation error, then one line per limit. A closed state has one line.
 std::string describe_state(const void* self) {
   const auto& state = *static_cast<const Contacting*>(self);
   if (state.closed()) return state.text();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The states of a contact as native values of the language.
+// The states of a contact as native Lua values.
 #pragma once
 
 #include <vector>
@@ -13,14 +13,13 @@
 
 namespace asperity::lua {
 
-// Those of every certificate; bodies that attract each other have one more.
+// Fields common to all certificates; adhesive contacts add one.
 std::vector<RecordField<Certificate>> certificate_fields();
 
 template <>
 const Class& class_of<asperity::State>();
 
-// What contact:explain gives (plan.cpp): the plan of a press, what is to be computed and what it is expected
-// to cost.
+// The result of contact:explain (plan.cpp).
 template <>
 const Class& class_of<Plan>();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The classes behind st.error: what there is of errors, and the bound of each quantity.
+// The classes of st.error: the parts of the error, and the bound of each quantity.
 #include "bindings/lua/contact/state_error.hpp"
 
 #include <algorithm>
@@ -22,7 +22,6 @@ namespace {
 
 const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
 
-// A field is asked for by its own name.
 Values bound(Call& call) {
   const std::optional<double> found =
       find_quantity(call.function_name())->bound(call.self<StateBounds>().state);
@@ -135,7 +134,7 @@ const Class& class_of<StateError>() {
          {},
          [](Call& call) -> Values {
            StateBounds found{call.self<StateError>().state};
-           found.state.algebraic_error();  // now, and not after the contact was closed
+           found.state.algebraic_error();  // must not wait until the contact is closed
            return {object(std::move(found))};
          }},
         getter<StateError>(

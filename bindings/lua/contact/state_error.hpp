@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The errors of a state as a script reads them, st.error: parts that are never mixed, each worked out
-// when it is first read.
+// st.error, the errors of a state: separate parts, each computed on first use.
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
@@ -9,12 +8,12 @@
 
 namespace asperity::lua {
 
-// The value of st.error: the state itself, so that its parts are found when they are asked for.
+// st.error holds the state, and so computes a part on demand.
 struct StateError {
   asperity::State state;
 };
 
-// st.error.algebraic: bounds that are worked out.
+// st.error.algebraic.
 struct StateBounds {
   asperity::State state;
 };

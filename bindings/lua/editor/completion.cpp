@@ -22,8 +22,7 @@ constexpr std::size_t none = ScriptTypes::none;
 
 Candidate of_function(const Function& f) { return {f.name, "method", signature(f), f.sentence}; }
 
-// What is expected where a value stands: an option of a table, a parameter of a function, or the first
-// argument of one of Lua's own functions.
+// The expected value: an option, a parameter of a function, or the first argument of a Lua built-in.
 struct Role {
   const OptionInfo* option = nullptr;
   const Parameter* parameter = nullptr;
@@ -90,13 +89,12 @@ class Completer {
     return k > 0 && (types().is(k - 1, "{") || types().is(k - 1, ",") || types().is(k - 1, ";"));
   }
 
-  // Whether the table that opens here is one of the list that a call takes.
   bool is_item_of_list(std::size_t brace) const {
     const std::size_t outer = types().around(brace);
     return outer != none && types().is(outer, "{") && begins_item(brace);
   }
 
-  // The function whose name or chain ends with token k.
+  // Function called at the end of token k.
   const Function* function_at(std::size_t k) const {
     const ScriptType called = types().chain_ending_at(k);
     if (const auto* function = called.as<const Function*>()) return *function;
@@ -109,7 +107,7 @@ class Completer {
                                   types().is(k, "]") || types().is(k, "}"));
   }
 
-  // Commas between an open bracket and k, tables and calls inside passed over.
+  // Skips nested tables and calls.
   int argument_number(std::size_t open, std::size_t k) const {
     int number = 0;
     for (std::size_t n = open + 1; n < k; ++n) {
@@ -120,9 +118,9 @@ class Completer {
     return number;
   }
 
-  // The block of keys that a table holds which opens at `brace`; null if it is not known to hold any.
+  // Options of the table at `brace`; null if unknown.
   const BlockInfo* block_of(std::size_t brace) const {
-    // Tables in tables: no call of the language goes nearly so deep, and a stack has an end.
+    // Bounds the recursion.
     constexpr int deepest = 100;
     if (nested_ >= deepest) return nullptr;
     if (const auto known = blocks_.find(brace); known != blocks_.end()) return known->second;
@@ -152,7 +150,6 @@ class Completer {
     return nullptr;
   }
 
-  // What is expected of a value that begins at token k.
   Role role_of(std::size_t k) const {
     if (k == 0) return {};
     const std::size_t around = types().around(k);
@@ -161,7 +158,6 @@ class Completer {
         const BlockInfo* block = block_of(around);
         return {block == nullptr ? nullptr : option_of(*block, types().word(k - 2)), nullptr, nullptr, {}};
       }
-      // An element of a list that an option takes.
       if (begins_item(k) && around > 0 && types().is(around - 1, "=")) {
         Role role = role_of(around);
         if (role.option != nullptr && role.option->inner == nullptr) return role;
@@ -253,7 +249,7 @@ class Completer {
       }
   }
 
-  // Keys that the same table holds behind the place that is asked about.
+  // Keys of the same table after the cursor.
   void keys_after(std::set<std::string, std::less<>>& given) const {
     constexpr std::size_t far_enough = 4000;  // bytes
     const std::string_view behind = rest_.substr(0, far_enough);
@@ -269,7 +265,7 @@ class Completer {
     }
   }
 
-  // The words of a type such as "\"free\"|\"periodic\"".
+  // Words of a type such as "\"free\"|\"periodic\"".
   static std::vector<std::string> words_in(std::string_view type) {
     std::vector<std::string> words;
     for (std::size_t at = type.find('"'); at != std::string_view::npos; at = type.find('"', at)) {
@@ -319,7 +315,7 @@ class Completer {
     if (role.parameter != nullptr) quantity_words(dimension_of(role.parameter->type), "");
   }
 
-  // Of a type such as "a pressure[]".
+  // For a type such as "a pressure[]".
   static Dimension dimension_of(std::string_view type) {
     type = type.substr(0, std::min({type.find('['), type.find('?'), type.size()}));
     for (const Dimension known : {dimension::length, dimension::area, dimension::mass, dimension::time,
@@ -328,7 +324,7 @@ class Completer {
     return dimension::number;
   }
 
-  // A quantity in quotes: an example while nothing is there, a unit after the number.
+  // Example for an empty text, unit after a number.
   void quantity_words(Dimension wanted, const std::string& default_text) {
     if (wanted == dimension::number) return;
     const std::string_view content = text_.substr(result_.from);
@@ -385,9 +381,9 @@ class Completer {
   const std::vector<LiveGlobal>& live_;
   std::optional<ScriptTypes> types_;
   Completion result_;
-  mutable std::map<std::size_t, const BlockInfo*> blocks_;  // that block_of() has found
-  mutable int nested_ = 0;                                  // calls of it in one another
-  bool leading_space_ = false;                              // candidates begin with a space that nobody types
+  mutable std::map<std::size_t, const BlockInfo*> blocks_;  // results of block_of()
+  mutable int nested_ = 0;                                  // recursion depth of block_of()
+  bool leading_space_ = false;                              // of candidates
 };
 
 }  // namespace

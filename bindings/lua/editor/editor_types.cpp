@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The types of the language for editors (LuaCATS): a class of each class, record, module and block of keys.
+// LuaCATS types for editors: a class for each class, record, module and block of keys.
 #include <algorithm>
 
 #include "bindings/lua/editor/help.hpp"

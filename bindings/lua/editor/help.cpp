@@ -54,7 +54,7 @@ std::string describe_field(const Getter& field) {
 
 namespace {
 
-// The options of a block, those of tables inside it after the table's own, as `accuracy.tolerance`.
+// Nested options follow their table, as `accuracy.tolerance`.
 struct NamedOption {
   std::string name;
   const OptionInfo* option;
@@ -86,7 +86,7 @@ std::string record_help(const RecordInfo& type) {
   return type.name + ": " + type.sentence + "\n" + fields_help(type.fields);
 }
 
-// The records that a type names, and those that are fields of them.
+// Includes records of fields.
 void add_records_of(const std::string& of, std::vector<const RecordInfo*>& found) {
   for (const RecordInfo* type : record_types_in(of)) {
     if (std::find(found.begin(), found.end(), type) != found.end()) continue;
@@ -103,7 +103,7 @@ std::string records_help(const std::string& of) {
   return text;
 }
 
-// What gives records of a type: functions, fields of values, and fields of other records.
+// Functions and fields with this type.
 std::vector<std::string> givers_of(const RecordInfo& type) {
   std::vector<std::string> givers;
   const auto look_at = [&](const std::string& giver, const std::string& of) {
@@ -121,7 +121,7 @@ std::vector<std::string> givers_of(const RecordInfo& type) {
   return givers;
 }
 
-// "Formats:" and of each row its name, then the other cells under the words of their columns.
+// Title, then per row its name and the other cells with their headings.
 std::string listing_help(const Listing& listing) {
   std::string text = "\n" + listing.title + ":\n";
   for (const std::vector<std::string>& row : listing.rows) {
@@ -195,7 +195,7 @@ std::string topics_help() {
          "\"press\".\n";
 }
 
-// The last part of "lab.surface.sine" or "surface:scaled".
+// Of "lab.surface.sine" or "surface:scaled".
 std::string last_name(const std::string& path) {
   const std::size_t at = path.find_last_of(".:");
   return at == std::string::npos ? path : path.substr(at + 1);
@@ -205,8 +205,8 @@ struct Topic {
   std::string name;
   std::string text;
   std::string sentence;     // of the text
-  bool exact_name = false;  // found by its name as it is written alone: `Tilt` is not meant by "tilt"
-  bool of_record = false;   // a field of a result, which few look for by its bare name alone
+  bool exact_name = false;  // case-sensitive: "tilt" does not mean `Tilt`
+  bool of_record = false;   // field of a result, rarely searched by its bare name
 };
 
 std::vector<Topic> collect_topics() {
@@ -243,7 +243,6 @@ std::vector<Topic> collect_topics() {
   return topics;
 }
 
-// What the catalogue registers is there before anything asks.
 const std::vector<Topic>& all_topics() {
   static const std::vector<Topic> topics = collect_topics();
   return topics;
@@ -269,7 +268,7 @@ bool same_word(std::string_view a, std::string_view b) {
   });
 }
 
-// The keys of this name, by the call that takes them; "" if there is none.
+// Keys of this name and their calls, or "".
 std::string keys_help(const std::string& name) {
   std::string text;
   for (const Function* function : functions_with_options())
@@ -280,20 +279,19 @@ std::string keys_help(const std::string& name) {
   return text;
 }
 
-// --- parts of names, words of sentences
+// --- search
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-// Whether a sentence has a word that begins with this one.
+// Matches beginnings of words.
 bool has_word(std::string_view sentence, std::string_view word) {
   for (std::size_t at = sentence.find(word); at != std::string_view::npos; at = sentence.find(word, at + 1))
     if (at == 0 || !is_letter(sentence[at - 1])) return true;
   return false;
 }
 
-// A line for each topic and key that has the words in its name, then for those that have them in a sentence.
-// "" where there is none, and for a single letter, which is in every name.
-// `beside` what was found by its very name.
+// Matches in names, then in sentences; "" for none and for a single letter. `beside`: exact names are already
+// shown.
 std::string hits_help(const std::string& asked, const std::vector<Topic>& topics, bool beside) {
   const std::string word = lower_case(asked);
   if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
@@ -379,7 +377,7 @@ void operators_reference(std::string& page, const std::vector<Operator>& operato
   page += "\n";
 }
 
-// Each type of record stands with the first module or class that gives it.
+// A record type appears with its first module or class.
 void records_reference(std::string& page, const std::vector<const RecordInfo*>& results,
                        std::vector<const RecordInfo*>& told) {
   for (const RecordInfo* type : results) {
@@ -397,13 +395,13 @@ void records_reference(std::string& page, const std::vector<const RecordInfo*>& 
 std::string help_text(const std::string& topic) {
   if (topic.empty()) return topics_help();
   const std::vector<Topic>& topics = all_topics();
-  // `Surface` is the value and `surface` the module: the case counts where it tells them apart.
+  // Case separates `Surface` (value) from `surface` (module).
   for (const std::string& name : {topic, "lab." + topic})
     for (const Topic& t : topics)
       if (t.name == name) return t.text;
   for (const Topic& t : topics)
     if (!t.exact_name && (same_word(t.name, topic) || same_word(t.name, "lab." + topic))) return t.text;
-  // A bare name may mean several things: `close`, `roughness`. Show them all.
+  // A bare name such as `roughness` can have several meanings.
   std::string found;
   bool fields_alone = true;
   for (const Topic& t : topics)

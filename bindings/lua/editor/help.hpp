@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the registry says about itself, for people: help on a topic, the reference page, and the
-// types an editor reads (LuaCATS). All three come from the entries that also drive the calls, so
-// they cannot disagree with what the program does.
+// Help, the reference page and LuaCATS types, all from the registry entries behind the calls.
 #pragma once
 
 #include <string>
@@ -11,10 +9,10 @@
 
 namespace asperity::lua {
 
-// Help on "lab", "lab.surface", "sine", "surface:scaled", "State.area" …; "" lists the topics.
-// Throws Error{unknown_name} with the nearest topic.
+// Topics: "lab", "lab.surface", "sine", "surface:scaled", "State.area" …; "" lists all. Throws
+// Error{unknown_name} with the nearest topic.
 std::string help_text(const std::string& topic);
-// Everything that help_text() knows by its full name.
+// Full names for help_text().
 std::vector<std::string> help_topics();
 
 // One line each: "lab.surface.flat{ cells=, size= }"; "a length above 0, default \"1 um\""; "number, Pa".
@@ -22,8 +20,8 @@ std::string signature(const Function& function);
 std::string describe_option(const OptionInfo& option);
 std::string describe_field(const Getter& field);
 
-// What stands before each example of the registry: the values that examples use by name. Every example runs
-// after it, in a run of its own (tests/bindings/examples_test.cpp).
+// Defines values for the examples; each example runs after it in its own run
+// (tests/bindings/examples_test.cpp).
 const std::string& example_preamble();
 // docs/reference.md
 std::string reference_page();

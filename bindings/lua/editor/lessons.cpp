@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-// The lines of the comment that opens a script, without their dashes.
+// Without dashes.
 std::vector<std::string> opening_comment(std::string_view script) {
   std::vector<std::string> lines;
   while (script.starts_with("--")) {

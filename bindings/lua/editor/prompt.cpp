@@ -16,11 +16,11 @@ namespace asperity::lua {
 
 namespace {
 
-const char kept_key = 0;  // the globals as they were before the line
+const char kept_key = 0;  // registry key of the globals before the line
 
 constexpr const char* chunk_name = "=prompt";
 
-// Copies globals[k] to kept[k]; and back, with what was not there taken away.
+// restore_action() also removes new globals.
 int keep_action(lua_State* L) {
   lua_newtable(L);
   lua_pushglobaltable(L);
@@ -58,7 +58,7 @@ int restore_action(lua_State* L) {
   return 0;
 }
 
-// A traceback through the line alone tells nothing that the message does not.
+// A traceback without functions repeats the message.
 std::string without_idle_traceback(std::string message) {
   const std::size_t at = message.find("\nstack traceback:");
   if (at == std::string::npos) return message;
@@ -77,7 +77,7 @@ std::string without_idle_traceback(std::string message) {
   return message;
 }
 
-// Where `.field` begins in an expression that ends with a field of what a call gave; 0 in any other.
+// Start of the final `.field` after a call, else 0.
 std::size_t owner_of_field(const std::string& text) {
   const ScriptTypes script(text, read_tokens(text).list, {});
   const std::size_t end = script.size();
@@ -91,7 +91,7 @@ std::string field_at_end(const std::string& text) {
   return text.substr(tokens.back().begin, tokens.back().end - tokens.back().begin);
 }
 
-// `return x` is x: in the script that the session becomes, nothing could follow it.
+// Nothing may follow `return` in the script of the session.
 std::string without_return(std::string text) {
   const std::vector<Token> tokens = read_tokens(text).list;
   constexpr std::string_view word = "return";
@@ -168,7 +168,7 @@ Prompt::Outcome Prompt::take(std::string_view line, int number) {
     waiting_.clear();
     return Outcome::done;
   }
-  // The owner of a field is asked for its unit: where a call gives it, it is kept for that.
+  // A second value, the owner of a call's field, gives the unit.
   const std::size_t owner = owner_of_field(text);
   const std::string with_owner = owner == 0 ? ""
                                             : "local result = " + text.substr(0, owner) + " return result" +
@@ -238,7 +238,7 @@ void Prompt::remember(const std::string& text, bool is_expression) {
   const std::string line = words(text);
   const bool moves = script.word(0) == "lab" && script.is(1, ".") && script.word(2) == "knob" &&
                      script.is(3, ".") && script.word(4) == "set";
-  if (moves) return;  // the script is run again, and told what moved
+  if (moves) return;  // the script is rerun and notes the change
   const bool about_itself = script.word(0) == "help" || script.word(0) == "show";
   const bool call =
       script.is(end - 1, ")") || script.is(end - 1, "}") || script.token(end - 1).kind == Token::Kind::text;
@@ -265,7 +265,7 @@ void Prompt::show_text(std::string text) const {
   std::fflush(output);
 }
 
-// The number at an index with the unit that this field of its owner has, or as it is.
+// With the unit of the owner's field, if any.
 std::string Prompt::with_unit_of(int owner, std::string_view field, int index) const {
   std::optional<Dimension> dimension;
   if (const std::shared_ptr<Record> record = record_at(L, owner)) {
@@ -279,14 +279,14 @@ std::string Prompt::with_unit_of(int owner, std::string_view field, int index) c
   return quantity ? shown_quantity(lua_tonumber(L, index), *dimension) : shown_line(L, index);
 }
 
-// A field of a value or result has a unit there, and the number that came out of it has lost it.
+// Numbers have no unit; their fields do.
 std::string Prompt::with_unit(const std::string& expression, int index) const {
   if (lua_type(L, index) != LUA_TNUMBER) return shown_line(L, index);
   const ScriptTypes script(expression, read_tokens(expression).list, {});
   const std::size_t end = script.size();
   const auto is_name = [&](std::size_t k) { return k < end && script.token(k).kind == Token::Kind::name; };
   if (end < 3 || !is_name(end - 1) || !script.is(end - 2, ".")) return shown_line(L, index);
-  // Names and dots alone can be followed to the owner itself.
+  // Names and dots only: other expressions would repeat a call.
   for (std::size_t k = 0; k < end; ++k)
     if (end % 2 == 0 || (k % 2 == 0 ? !is_name(k) : !script.is(k, "."))) return shown_line(L, index);
   const Argument::StackGuard guard(L);
@@ -356,7 +356,7 @@ void Prompt::keep_globals() {
 
 void Prompt::restore_globals() {
   auto action = [](lua_State* state) { return restore_action(state); };
-  // The hook by which a line was stopped would stop this too; it may come again with another Ctrl-C.
+  // The hook that stopped the line would stop this call; Ctrl-C can set the hook again.
   constexpr int tries = 5;
   for (int k = 0; k < tries; ++k) {
     lua_sethook(L, nullptr, 0, 0);

@@ -27,7 +27,7 @@ class Lexer {
   char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   std::size_t line_end(std::size_t from) const { return std::min(text_.find('\n', from), text_.size()); }
 
-  // The number of `=` of a long bracket that opens at `from`; negative if none does.
+  // Number of `=` in the long bracket at `from`, or -1.
   int long_bracket(std::size_t from) const {
     if (from >= text_.size() || text_[from] != '[') return -1;
     std::size_t k = from + 1;
@@ -35,7 +35,7 @@ class Lexer {
     return k < text_.size() && text_[k] == '[' ? static_cast<int>(k - from - 1) : -1;
   }
 
-  // Past the bracket that closes; npos if none does.
+  // End of the closing bracket, or npos.
   std::size_t past_long(std::size_t from, int level) const {
     const std::string closing = "]" + std::string(static_cast<std::size_t>(level), '=') + "]";
     const std::size_t end = text_.find(closing, from);

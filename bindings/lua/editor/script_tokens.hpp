@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The words of a Lua script that need not be finished: names, numbers, strings and signs with their places,
-// comments left out. Anything reads as tokens: a string that was not closed ends with its line, or where
-// the text does, and is marked open. Linear in the length of the text.
+// Tokens of an unfinished Lua script with positions, without comments. An unclosed string ends with its line
+// or the text. Linear in the length of the text.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +12,9 @@ namespace asperity::lua {
 struct Token {
   enum class Kind { name, keyword, number, text, sign };
   Kind kind;
-  std::size_t begin, end;   // bytes; of a text with its quotes
-  bool open = false;        // a text that was not closed
-  std::size_t content = 0;  // of a text: where it begins after its quote
+  std::size_t begin, end;   // bytes, with quotes
+  bool open = false;        // unclosed string
+  std::size_t content = 0;  // of a string: first byte inside
 };
 
 struct ScriptTokens {
@@ -26,7 +25,7 @@ struct ScriptTokens {
 ScriptTokens read_tokens(std::string_view script);
 
 bool is_keyword(std::string_view word);
-// Lua's keywords in the order of the alphabet.
+// Sorted.
 const std::vector<std::string_view>& keywords();
 
 }  // namespace asperity::lua

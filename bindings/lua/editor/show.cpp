@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// show(value): what a prompt draws in the terminal. A surface or a field of a state as a map, a profile or
-// the columns of a notebook as a chart; with the name of a file, the picture goes there instead.
+// show(value): maps of surfaces and fields, charts of profiles and notebook columns, in the terminal or in a
+// file.
 #include <cstdio>
 
 #include "bindings/lua/editor/prompt.hpp"
@@ -26,7 +26,6 @@ void say(const Call& call, const std::string& text) {
   std::fflush(output);
 }
 
-// The name of a file as the second argument, if it is one.
 std::optional<std::string> file_given(const Call& call) {
   if (!call.given(2) || !call.argument(2).is_text()) return {};
   return call.text(2, "file");

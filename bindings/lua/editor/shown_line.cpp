@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Lua value as a prompt shows it: on one line, tables with what they hold as far as it fits, results with
-// their units, native values as they describe themselves. What describes itself as a text of several lines
-// (a ledger, a plan) is shown so.
+// A Lua value as a prompt prints it: one line with units and shortened tables. Ledgers and plans have several
+// lines.
 #include <algorithm>
 #include <vector>
 
@@ -17,12 +16,12 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::size_t most_items = 10;  // of one table
-constexpr int deepest = 3;              // tables in tables
+constexpr int deepest = 3;              // nested tables
 constexpr std::size_t longest_text = 60;
 
 std::string line_of(lua_State* L, int index, int depth);
 
-// As tostring gives it.
+// As Lua's tostring.
 std::string told(lua_State* L, int index) {
   const Argument::StackGuard guard(L);
   index = lua_absindex(L, index);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.friction: the junction law as a native value of the language.
+// lab.friction: the junction law.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ const Class& class_of<JunctionLaw>();
 
 Function friction_function();
 
-// `rest`, which law:on and the methods of a tilt stage take.
+// `rest` of law:on and tilt stages.
 struct OnKeys {
   std::optional<double> rest;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces, contacts and states in slabs over the ranks of mpirun, as native values of the language; in a
-// process alone the same with one slab.
+// Contacts in slabs over MPI ranks as Lua values. One process has one slab.
 #pragma once
 
 #include <memory>
@@ -17,16 +16,16 @@
 
 namespace asperity::lua {
 
-// The ranks, all of which have come to this call; or this process alone. Throws Error{bad_state} where
-// another rank does something else, {not_permitted} in a case of an ensemble.
+// Collective. Throws Error{bad_state} if another rank makes another call, {not_permitted} in a case of an
+// ensemble.
 Team& team_of(const Call& call);
 
 struct SpreadContact {
   SlabContactProblem problem;
-  bool plastic = false;  // the scene names plasticity
+  bool plastic = false;
 };
 
-// What a press was asked for: `value` is an approach in m, or a mean pressure in Pa.
+// `value` in m or Pa (mean pressure).
 struct SpreadRequest {
   bool by_approach = false;
   double value = 0;
@@ -34,8 +33,7 @@ struct SpreadRequest {
 SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const SpreadRequest& request,
                         Monitor& monitor);
 
-// A press that the run's store holds: its numbers, without the fields, in all ranks; they are solved for
-// again where a script writes them. Rank 0 looks, and keeps.
+// A stored press, without fields (writing them solves again), on all ranks. Only rank 0 uses the store.
 std::optional<Costed<SlabContactAnswer>> recalled_press(const Call& call, Team& team,
                                                         const SlabContactProblem& problem,
                                                         const SpreadRequest& request);
@@ -45,12 +43,12 @@ void keep_press(const Call& call, const SlabContactProblem& problem, const Sprea
 struct SpreadState {
   SlabSurface surface;
   std::shared_ptr<const SlabContactAnswer> answer;
-  SlabContactProblem problem;  // that it solves
+  SlabContactProblem problem;  // solved by this state
   SpreadRequest request;
   bool has_fields = true;
   bool plastic = false;
   int ranks = 1;
-  Cost cost;           // of bytes the most that a rank held at once, heights included
+  Cost cost;           // bytes: peak of a rank, with heights
   std::string digest;  // of the numbers below
 };
 
@@ -61,7 +59,6 @@ const Class& class_of<SpreadContact>();
 template <>
 const Class& class_of<SpreadState>();
 
-// lab.spread.contact.
 Function spread_contact_function();
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts over the ranks of mpirun as values of the language.
+// lab.spread.contact: contacts over MPI ranks.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presses over ranks in the store of the run, so that a resumed one does not repeat them. Numbers alone:
-// the fields may be more than one machine has room for.
+// Stored presses over ranks, for resumed runs; without fields, which may exceed one machine.
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/spread/spread.hpp"
@@ -34,14 +33,14 @@ void numbers_of(Answer& answer, Visit visit) {
   visit("iterations", answer.iterations);
 }
 
-// Of this process; null where there is none, and on ranks other than 0.
+// Null on ranks other than 0.
 ResultStore* own_store(const Call& call) {
   const Ranks* const ranks = call.session().ranks;
   if (ranks == nullptr) return call.session().monitor().results();
   return ranks->leads() ? ranks->own_store : nullptr;
 }
 
-// The heights' digest tells over how many ranks they are spread, and so which bits come out.
+// The digest of the heights includes the number of ranks: bits depend on it.
 std::string key_of(const SlabContactProblem& problem, const SpreadRequest& request) {
   Digester digester;
   digester.add(spread_form)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The states of contacts over the ranks of mpirun, as values of the language.
+// States of contacts over MPI ranks.
 #include <algorithm>
 
 #include "bindings/lua/contact/state_class.hpp"
@@ -45,7 +45,7 @@ Values spread_state_write(Call& call) {
     throw Error(ErrorCode::unknown_name, "there is no field " + quoted(name),
                 "give \"pressure\", \"gap\" or \"contact\"");
   Team& team = team_of(call);
-  if (!state.has_fields) {  // taken from the store
+  if (!state.has_fields) {  // from the store
     state.answer = std::make_shared<const SlabContactAnswer>(
         solve(team, state.problem, state.request, call.session().monitor()));
     state.has_fields = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.spread: one contact that does not fit one process, over the ranks of mpirun. Here its surfaces.
+// lab.spread: surfaces over MPI ranks, for a contact too large for one process.
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -47,7 +47,7 @@ Values spread_flat_body(Call& call) {
   return spread_result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
-// While a function of the script is called that other ranks wait for.
+// During a Lua call on which other ranks wait.
 class WaitedFor {
  public:
   explicit WaitedFor(Session& session) : session_(session) {
@@ -95,13 +95,11 @@ Values spread_read_body(Call& call) {
   const spread_ReadKeys keys = call.options(spread_read_block(), 2);
   const Ranks* const ranks = call.session().ranks;
   if (ranks == nullptr || ranks->leads()) note_input(call, path);
-  // What the run has written lies where the first rank wrote it.
+  // Files of the run are at the path of the first rank.
   Team& team = team_of(call);
   return spread_result(slab_read(team, team.text_of_first(path), keys, call.session().monitor()),
                        keys.material);
 }
-
-// --- the class
 
 Values spread_write(Call& call) {
   const SlabSurface& surface = call.self<SlabSurface>();

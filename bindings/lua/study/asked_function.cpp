@@ -27,7 +27,7 @@ void push_asked(lua_State* s, const std::string& v) { lua_pushlstring(s, v.data(
               "return one number");
 }
 
-// A number or a text with a unit; nothing, and a problem, for anything else.
+// On failure adds a problem and returns nothing.
 std::optional<Quantity> quantity_of(const Argument& value, const std::string& path, Problems& problems) {
   if (value.is_number()) return Quantity{value.number(), dimension::number};
   if (value.is_text()) {
@@ -87,7 +87,7 @@ void read_input(const std::string& name, const std::string& path, const Argument
     } else {
       auto read = quantity_of(given, place, problems);
       if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read) {
-        // A share of the value, which may not be read yet.
+        // The share may be read before the value.
         with_key(table, "value", [&](const Argument& of) {
           Problems ignored;
           if (const auto whole = quantity_of(of, path, ignored))
@@ -122,7 +122,6 @@ void read_input(const std::string& name, const std::string& path, const Argument
   keys.inputs.push_back(std::move(input));
 }
 
-// The parameters of a calibration, each under its own name.
 void read_calibration(const Object& object, const std::string& path, InputKeys& keys, Problems& problems) {
   keys.unknown = keys.unknown || object.pointer == nullptr;  // a placeholder
   if (keys.unknown) return;
@@ -146,7 +145,7 @@ void read_calibration(const Object& object, const std::string& path, InputKeys& 
   }
 }
 
-// The share of a run that is done, of which it may speak several times over and which never falls.
+// The reported share never falls.
 class ShareMonitor final : public Monitor {
  public:
   ShareMonitor(Monitor& outer, std::function<void(double)> tell) : outer_(outer), tell_(std::move(tell)) {}
@@ -311,7 +310,7 @@ void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys,
     else
       read_input(std::string(key.text()), info.name + "." + std::string(key.text()), input, keys, problems);
   });
-  // Lua keeps no order.
+  // Lua tables have no order.
   std::ranges::sort(keys.inputs, {}, &UncertainInput::name);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function `ask` of a budget or a sensitivity: called with a table of the quantities and knobs of a run,
-// it gives one number; many runs go on side by side. And the uncertain inputs that such calls take.
+// The function `ask` of a budget or a sensitivity, from a table of inputs and knobs to one number; parallel
+// runs; uncertain inputs.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@
 
 namespace asperity::lua {
 
-// Warnings of what a study calls are shown; their progress is not, for the study has its own.
+// Drops progress: a study reports its own.
 class QuietMonitor final : public Monitor {
  public:
   explicit QuietMonitor(Monitor& outer) : outer_(outer) {}
@@ -33,11 +33,10 @@ class QuietMonitor final : public Monitor {
   Monitor& outer_;
 };
 
-// Leaves the function and a table of its knobs on the stack; `table` is what the error calls it where there
-// is no memory for it.
+// Pushes the function and its knobs. `table` names the table in an out-of-memory error.
 void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table);
 
-// Valid while the function stays where it is on the stack.
+// Valid while the function keeps its stack index.
 class AskedFunction {
  public:
   AskedFunction(const Call& call, const Argument& ask) : L_(call.L), ask_(ask), session_(call.session()) {}
@@ -46,9 +45,9 @@ class AskedFunction {
     double value = 0;
     double seconds = 0;
   };
-  // Throws Error with the function's own message and the knobs, and for an answer that is not one number.
+  // Throws Error for a failure of the function (with the knobs) and for an answer other than one number.
   Answer operator()(const Knobs& knobs, Monitor& monitor) const;
-  // What a dry run asks: an answer that cannot be known is no mistake.
+  // For a dry run: accepts an unknown answer.
   void try_once(const Knobs& knobs) const;
 
  private:
@@ -59,18 +58,16 @@ class AskedFunction {
   Session& session_;
 };
 
-// The same function for many runs. The first batch goes one by one in the script's own state; if it made a
-// heavy call, those behind it are spread over threads, where what one call changes is seen by no other. Each
-// call has one thread then, so that their times can be compared.
+// Calls for many runs. The first batch is serial in the script's state. After a heavy call, later batches use
+// threads: each call sees only its own changes and has one thread, for comparable times.
 class AskedRuns {
  public:
   AskedRuns(const Call& call, const Argument& ask);
 
-  // `done` is told how many there are of this batch, and of one that goes on by itself its share. Throws as
-  // AskedFunction does, for the first that fails.
+  // `done`: finished runs of the batch, with the share of a serial run. Throws like AskedFunction for the
+  // first failure.
   std::vector<AskedFunction::Answer> operator()(const std::vector<Knobs>& runs,
                                                 const std::function<void(double)>& done);
-  // Calls that go on side by side where calls are heavy.
   int at_a_time() const { return batch_ != nullptr ? thread_count() : 1; }
 
  private:
@@ -80,11 +77,10 @@ class AskedRuns {
   bool begun_ = false, heavy_ = false;
 };
 
-// Runs of unknown length as one progress.
 class RunProgress {
  public:
   RunProgress(Monitor& monitor, std::string title) : monitor_(monitor), title_(std::move(title)) {}
-  // That `share` of the whole is done; `part` says what goes on.
+  // `share` is the finished share; `part` the current part.
   void report(const std::string& part, double share);
 
  private:
@@ -93,13 +89,12 @@ class RunProgress {
   PartMonitor::Clock::time_point begun_ = PartMonitor::Clock::now();
 };
 
-// What lists inputs; a dry run may meet some that it cannot know.
 struct InputKeys {
   std::vector<UncertainInput> inputs;  // by name
   std::vector<InputCorrelation> correlations;
   bool unknown = false;
 };
-// `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
+// For example `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
 void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems);
 
 template <class O>
@@ -129,13 +124,13 @@ Option<O> ask_option(std::string sentence) {
 }
 
 constexpr const char* knob_kinds = "a number, a string or a boolean";
-// Nothing for other kinds. Sets `unknown` for the placeholder of a dry run.
+// Empty for other kinds. Sets `unknown` for a placeholder.
 std::optional<KnobValue> knob_value(const Argument& value, bool& unknown);
-// A value, or a list of values.
+// A value or a list.
 void read_sweep(const std::string& name, const std::string& path, const Argument& value, bool& unknown,
                 std::vector<KnobSweep>& knobs, Problems& problems);
 
-// Knobs in the order that Knobs has.
+// By name.
 void sort_knobs(Knobs& knobs);
 
 }  // namespace asperity::lua

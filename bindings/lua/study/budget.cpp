@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.budget: the whole error of a number, and what each part of it costs.
+// lab.budget: the total error of a number, and the cost of halving each part.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ namespace asperity::lua {
 namespace {
 
 struct BudgetKeys : InputKeys {
-  std::vector<KnobSweep> replicate;  // lists of equal length, which go along together
+  std::vector<KnobSweep> replicate;  // of equal length, swept in step
   std::vector<double> cells, tolerances, tips;
   std::vector<KnobSweep> noise;  // one list of seeds
   double order_low = 1, order_high = 2;
@@ -28,7 +28,6 @@ struct BudgetKeys : InputKeys {
   std::uint64_t seed = 1;
 };
 
-// Refuses two runs with the same values in all these lists.
 void refuse_repeats(const std::string& path, std::span<const KnobSweep> lists, Problems& problems) {
   const std::vector<KnobValue>& values = lists.front().values;
   for (std::size_t k = 1; k < values.size(); ++k)
@@ -59,7 +58,7 @@ void read_replicate(const Argument& value, const OptionInfo& info, BudgetKeys& k
   std::ranges::sort(keys.replicate, {}, &KnobSweep::name);
 }
 
-// Numbers in a list, or one.
+// One number or a list.
 template <std::vector<double> BudgetKeys::*member>
 void read_numbers(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
   const auto take = [&](const Argument& item) {
@@ -83,7 +82,7 @@ void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys,
     }
 }
 
-// { { "a", "b", -0.8 }, … }
+// Reads { { "a", "b", -0.8 }, … }.
 void read_correlation(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
   std::vector<KnobSweep> rows;
   for (std::int64_t k = 1; value.is_table() && k <= value.length(); ++k)
@@ -297,7 +296,7 @@ Values make_budget(Call& call) {
     Budget found = budget_of_batches(request, [&](std::span<const BudgetSetting> runs) {
       std::vector<Knobs> knobs;
       for (const BudgetSetting& run : runs) knobs.push_back(knobs_of_run(keys, grids, run));
-      // Of the run that is the first of those that are not done.
+      // Shows the first unfinished run.
       const auto show = [&](double done) {
         const auto k = std::min(static_cast<std::size_t>(done), runs.size() - 1);
         const BudgetSetting& run = runs[k];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: its parameters, and the model, a function of the script
-// that is called with the table q of the parameters in SI and one row as rows() gives it.
+// lab.calibrate: options and the Lua model of parameters q (SI) and a row of rows().
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -25,17 +24,17 @@ namespace {
 
 using Rows = asperity::Table;
 
-// --- what is asked for
+// --- options
 
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
+  std::vector<CalibrationParameter> parameters;  // by name: Lua tables have no order
   std::vector<Dimension> dimensions;
   std::string replicate;  // its key
   std::vector<double> faces;
 };
 
-// One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
+// SI or a quantity. The first quantity sets the dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
   if (value.is_number()) return value.number();
@@ -64,7 +63,7 @@ struct NamedParameter {
   std::optional<Dimension> dimension;
 };
 
-// nil keys are not there; the order in which Lua gives the others does not matter.
+// nil keys count as absent.
 NamedParameter parameter_of(const std::string& name, const Argument& table, Problems& problems) {
   static const std::vector<std::string> keys = {"start", "lower", "upper", "step"};
   NamedParameter found;
@@ -177,7 +176,7 @@ const Block<CalibrateKeys>& calibrate_block() {
 
 // --- the model
 
-// The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
+// The Lua function; its rows, q and names of parameters are on the stack.
 class CalibratedFunction {
  public:
   CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
@@ -212,7 +211,7 @@ class CalibratedFunction {
     find_heavy(call, function);
   }
 
-  // Whether the model makes heavy calls in each of its own: it is then to be called as seldom as may be.
+  // Every call is heavy: call rarely.
   bool heavy() const { return heavy_; }
 
   std::vector<double> operator()(std::span<const CalibrationQuery> queries,
@@ -282,8 +281,7 @@ class CalibratedFunction {
   }
 
  private:
-  // Called for the first row at the start and a little beside: a model that computes once and remembers is
-  // not heavy.
+  // Calls the model twice for the first row: a model with a cache is not heavy.
   void find_heavy(const Call& call, const Argument& function) {
     if (list_.items.empty() || parameters_.empty()) return;
     std::int64_t before = session_.heavy_calls;
@@ -331,17 +329,15 @@ class CalibratedFunction {
   Session& session_;
   QuietMonitor monitor_;
   std::unique_ptr<CallBatch> batch_;
-  List list_;                    // of the rows
-  std::optional<double> begun_;  // of the first row at the start
+  List list_;                    // rows
+  std::optional<double> begun_;  // first row at the start
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
-  std::vector<CalibrationParameter> parameters_;  // and the replicate, where there is one
+  std::vector<CalibrationParameter> parameters_;  // and the replicate, if any
   std::vector<double> faces_;
   const std::vector<std::size_t>& numbers_;
 };
-
-// --- the function
 
 Values run_calibration(Call& call) {
   const CalibrateKeys keys = call.options(calibrate_block());

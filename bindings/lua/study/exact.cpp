@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.exact: closed-form answers to hold a computed one against. Each call is a few operations, or for a
-// Weierstrass–Mandelbrot height a few thousand cosines.
+// lab.exact: closed-form answers for comparison. A Weierstrass–Mandelbrot height takes a few thousand
+// cosines, all others a few operations.
 #include <limits>
 #include <optional>
 
@@ -13,7 +13,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Load or approach, one of them.
+// Exactly one is given.
 struct PressedKeys {
   std::optional<double> load, approach;
 };
@@ -50,7 +50,7 @@ const Block<HertzKeys>& hertz_block() {
       one_of_load_and_approach<K>};
   return block;
 }
-// With a law also what slides it.
+// A law adds friction force and coefficient.
 struct HertzContact : exact::Hertz {
   std::optional<double> force{}, mu{};
 };

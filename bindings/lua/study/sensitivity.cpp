@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.sensitivity: which uncertain input an answer hangs on, and which to measure better next.
+// lab.sensitivity: shares of uncertain inputs in the variance of an answer.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -79,7 +79,7 @@ Values make_sensitivity(Call& call) {
       finished += answers.size();
       return answers;
     };
-    // The first run alone shows whether the others are to be spread.
+    // The first run decides whether the others are parallel.
     Sensitivity found = sensitivity_of_batches(
         request,
         [&](std::span<const std::vector<double>> points) {
@@ -102,7 +102,6 @@ Values make_sensitivity(Call& call) {
   });
 }
 
-// One input of the result.
 struct SharedInput {
   VarianceShare share;
   UncertainInput input;

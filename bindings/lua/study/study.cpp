@@ -97,7 +97,6 @@ std::string describe_choice(const void* self) {
   return lua_source(choice.study->result.knobs_of(choice.found()));
 }
 
-// A field of the study's result, and one of the row that was chosen.
 template <auto read>
 Getter of_study(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
   return getter<Study>(

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions of the room, and their results as native values: what lab.work_precision returns, a study and
-// a setting that it chose, and how a study is kept in the run directory; and those of budgets, sensitivities
-// and calibrations.
+// lab.work_precision, budget, sensitivity and calibrate: functions, results as Lua values, records.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +19,11 @@ class RunDirectory;
 
 namespace asperity::lua {
 
-// A study that ran, complete or not.
+// Finished or interrupted.
 struct Study {
   std::string name;
   StudyResult result;
 };
-// One of its settings.
 struct StudyChoice {
   std::shared_ptr<const Study> study;
   std::size_t row;
@@ -38,26 +35,25 @@ const Class& class_of<Study>();
 template <>
 const Class& class_of<StudyChoice>();
 
-// The journal's lines of a study: what is asked, each call, and what came out; the rows also go to
-// <name>.csv. Nothing is kept where there is no run.
+// Journal lines of a study; the rows also go to <name>.csv. Without a run they do nothing.
 void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request);
 void record_calls(RunDirectory* run, const std::string& name, std::span<const StudyRun> calls);
 void record_result(RunDirectory* run, const std::string& name, const StudyResult& result);
 
-// lab.work_precision: what a quantity costs to a given accuracy, by several ways over their settings.
+// Cost against accuracy, by several ways.
 Function work_precision_function();
 
-// lab.budget: the whole error of a number, and what each part of it costs.
+// Total error of a number, and what it costs to halve each part.
 Function budget_function();
 template <>
 const Class& class_of<Budget>();
 
-// lab.sensitivity: which uncertain input an answer hangs on, and which to measure better next.
+// Shares of uncertain inputs in the variance of an answer.
 Function sensitivity_function();
 template <>
 const Class& class_of<Sensitivity>();
 
-// lab.calibrate: parameters of a model of the script fitted to the rows of a table.
+// Fit of a Lua model to a table.
 Function calibrate_function();
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision: what a quantity costs to a given accuracy, by several ways over their settings.
+// lab.work_precision: cost against accuracy, by several ways over their settings.
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -16,12 +16,12 @@ namespace asperity::lua {
 
 namespace {
 
-// --- what is asked for
+// --- options
 
 struct StudyKeys {
   StudyRequest request;
   std::string name = "work_precision";
-  bool unknown = false;  // a dry run met a knob that it cannot know
+  bool unknown = false;  // a dry run met an unknown knob
 };
 
 void read_way(const Argument& table, const std::string& path, StudyKeys& keys, Problems& problems) {
@@ -146,8 +146,6 @@ const Block<StudyKeys>& study_block() {
   return block;
 }
 
-// --- the function that is asked
-
 StudyAnswer read_answer(lua_State* L, const Knobs& knobs) {
   const Argument value(L, -2), message(L, -1);
   if (value.is_number()) return {value.number(), ""};
@@ -161,7 +159,6 @@ class LuaWork final : public StudyWork {
   LuaWork(const Call& call, const Argument& ask, std::string name)
       : L(call.L), ask_(ask), session_(call.session()), name_(std::move(name)) {}
 
-  // Leaves the function and its knobs on the stack.
   void prepare(const Knobs& knobs) override { push_with_knobs(L, ask_, knobs, "the knobs"); }
 
   StudyAnswer ask(const Knobs& knobs, Monitor& monitor) override {
@@ -181,7 +178,7 @@ class LuaWork final : public StudyWork {
     return answer;
   }
 
-  // What a run left behind is collected between runs, and not in the time of another setting.
+  // Keeps garbage collection out of the measured times.
   void settle() override { lua_gc(L, LUA_GCCOLLECT); }
 
   void record(std::span<const StudyRun> runs) override { record_calls(session_.run.get(), name_, runs); }
@@ -193,13 +190,12 @@ class LuaWork final : public StudyWork {
   std::string name_;
 };
 
-// A second study of one name gets a number.
 std::string own_name(Session& session, const std::string& name) {
   const int count = ++session.studies[name];
   return count == 1 ? name : name + "-" + std::to_string(count);
 }
 
-// A dry run asks once, with the first setting.
+// Calls `ask` once, for the first setting.
 Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
   if (!keys.unknown) {
     const Knobs& knobs = keys.request.ways.front().settings.front();

@@ -27,7 +27,7 @@ struct QueueSetup {
   std::size_t most_waiting_of_one = 500;                   // of one person
   std::size_t most_kept = 5000;                            // runs of the session
   std::int64_t most_bytes_of_one = std::int64_t{8} << 30;  // on disk
-  std::vector<std::string> barriers;                       // that held in the trial
+  std::vector<std::string> barriers;                       // effective in the trial
 };
 
 // Thread-safe.

@@ -50,7 +50,7 @@ class LightContact {
   void by_approach(double approach, DescentEnd& end);
   void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // Of one node under `p` alone.
+  // Displacement of a single node under `p`.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
 
   ContactLevel& level_;
