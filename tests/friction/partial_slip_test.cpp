@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere (case V18), boxes in closed
-// form, what the tractions must meet, and what is refused.
+// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere, boxes in closed form,
+// conditions on the tractions, refusals.
 #include "engine/friction/partial_slip.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ Scene tangential(Scene scene, std::optional<double> compliance_ratio = {}) {
   return scene;
 }
 
-// R = E* = 1: the contact radius under a load of 1e-3 is (3/4·1e-3)^(1/3), about 0.091.
+// R = E* = 1: contact radius (3/4·1e-3)^(1/3), about 0.091, under a load of 1e-3.
 Scene sphere(int n, const Material& material = elastic(2)) {
   return tangential(Scene{paraboloid(n, 0.26).with_material(material), material, Boundary::free,
                           HalfSpaceOptions{}, Accuracy{}});
@@ -48,7 +48,6 @@ struct Pulled {
   }
 };
 
-// Case V18.
 TEST(PartialSlip, TheStickRadiusOfASphereIsCattaneoAndMindlins) {
   for (const int n : {128, 256}) {
     const Pulled pulled(sphere(n));
@@ -78,7 +77,7 @@ TEST(PartialSlip, TheSphereShiftsAndStiffensAsMindlinFound) {
 
 TEST(PartialSlip, PoissonsRatioScalesTheShiftByMindlinsFactor) {
   for (const double nu : {0.0, 0.3, 0.5}) {
-    // E so that E* stays 1.
+    // E for E* = 1.
     const Pulled pulled(sphere(64, elastic(2 * (1 - nu * nu), nu)));
     const double factor = (2 - nu) / (2 * (1 - nu)), a = std::cbrt(0.75e-3);
     EXPECT_NEAR(pulled.by(0.5).displacement() / (0.3 * a * a * (1 - std::pow(0.5, 2.0 / 3))), factor,
@@ -93,7 +92,6 @@ TEST(PartialSlip, UnlikeBodiesShareAsTheirCompliances) {
                       Accuracy{}};
     return ContactGeometry(scene, LatticeIsometry(8, 8));
   };
-  // A rigid counter-body gives way neither way.
   EXPECT_DOUBLE_EQ(mindlin_ratio(geometry(elastic(5, 0.3), rigid_material())), 1.7 / 1.4);
   EXPECT_DOUBLE_EQ(dundurs_beta(geometry(elastic(5, 0.3), rigid_material())), 0.5 * 0.4 / 0.7);
   EXPECT_DOUBLE_EQ(dundurs_beta(geometry(elastic(5, 0.5), rigid_material())), 0);
@@ -183,7 +181,6 @@ TEST(PartialSlip, TheSecondSolveIsItsWholeCost) {
   EXPECT_EQ(slip.cost().by_effect[0].first, "tangential");
 }
 
-// The weakest stick that a double can tell from none.
 TEST(PartialSlip, AnUlpBelowCoulombsForceIsSolved) {
   const Pulled pulled(sphere(64));
   const PartialSlip slip = pulled.by(std::nextafter(1.0, 0.0));

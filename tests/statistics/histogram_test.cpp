@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bins by rule, by number and by edges; values on edges, outside, equal and missing.
+// Bins by rule, number and edges; values on edges, outside, equal and missing.
 #include "engine/statistics/histogram.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polynomial chaos against models whose shares are known: the Ishigami function, and contact with junctions
-// over five inputs, whose shares are from a Gauss-Legendre rule of 16^5 points.
+// Polynomial chaos against known shares: the Ishigami function; contact with junctions over five inputs
+// (Gauss-Legendre rule of 16^5 points).
 #include "engine/statistics/polynomial_chaos.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations of models that are dear to call: how few sets of parameters they take, that estimates and
-// intervals are those of a fit that spares nothing, what a noise of the model does to them, and a progress
-// that moves to the end.
+// Calibrations of expensive models: number of parameter sets, agreement with a full fit, model noise,
+// progress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +17,7 @@
 namespace asperity::calibration_sparing_test {
 namespace {
 
-// Roughness under stress, Ra = first (1 - stress/(stress + hardness)), with scatter, as `rows` presses give
-// it.
+// Roughness of `rows` presses, Ra = first (1 - stress/(stress + hardness)), with scatter.
 constexpr double true_first = 1.2, true_hardness = 0.9;
 double roughness_of(double first, double hardness, double stress) {
   return first * hardness / (stress + hardness);
@@ -28,8 +26,8 @@ double roughness_of(double first, double hardness, double stress) {
 struct Presses {
   CalibrationRows rows;
   std::vector<double> stress;
-  double noise = 0;  // of the model: what its tolerance leaves open, the same for the same parameters
-  std::vector<std::vector<double>> asked;  // sets of parameters
+  double noise = 0;                        // model noise within its tolerance, reproducible
+  std::vector<std::vector<double>> asked;  // parameter sets
 
   double at(std::span<const double> q, std::size_t row) const {
     const double exact = roughness_of(q[0], q[1], stress[row]);
@@ -77,13 +75,13 @@ TEST(SparingCalibration, IsThatOfAFitWhichSparesNothing) {
     most = std::max(most, made.asked.size());
     all += made.asked.size();
     EXPECT_EQ(few.calls, static_cast<std::int64_t>(14 * made.asked.size()));
-    EXPECT_EQ(std::set(made.asked.begin(), made.asked.end()).size(), made.asked.size());  // none twice
+    EXPECT_EQ(std::set(made.asked.begin(), made.asked.end()).size(), made.asked.size());
   }
   EXPECT_LE(most, 16U);
   EXPECT_LE(all, 20 * 14U);
 }
 
-// A noise of 1e-4 where rows scatter by 3 %.
+// Noise of 1e-4 against a scatter of 3 %.
 TEST(SparingCalibration, NoiseOfTheModelNeitherStopsNorMisleadsIt) {
   std::size_t most = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -149,8 +147,7 @@ TEST(SparingCalibration, WhatIsNotDeterminedIsGivenNoNumber) {
   EXPECT_NE(found.verdict.find("the product a b"), std::string::npos) << found.verdict;
 }
 
-// Real area of a press on 32 x 32 cells: a count of nodes, so a model in steps of 1/1024 (or coarser ones),
-// in which stiffness and factor act as a product.
+// Real area on 32 x 32 cells: steps of 1/1024 or coarser; stiffness and factor act as a product.
 struct CountedNodes {
   double nodes = 1024;
   CalibrationRows rows;
@@ -174,7 +171,7 @@ CountedNodes counted_nodes(std::uint64_t seed, double scatter, double nodes = 10
   return made;
 }
 
-// Starts, bounds and steps of differences that make the columns of a Jacobian look apart.
+// Starts, bounds and difference steps that make Jacobian columns look independent.
 const std::vector<std::vector<CalibrationParameter>> starts_of_product = {
     {{"E", 1, {}, {}}, {"f", 1, {}, {}}},
     {{"E", 1, 0.1, 10.0}, {"f", 1, 0.1, 1.0}},
@@ -203,14 +200,14 @@ TEST(SparingCalibration, StepsOfTheModelTellNoProductApart) {
               ++fits;
               products += found.verdict.find("only the product E f = 1.") != std::string::npos ? 1 : 0;
             } catch (const Error& error) {
-              // A fit that the steps end too early is refused as a whole.
+              // An early end caused by steps refuses the whole fit.
               EXPECT_EQ(error.code(), ErrorCode::not_converged) << error.what();
             }
           }
   EXPECT_GE(products, 0.85 * fits) << fits;
 }
 
-// Beside the same steps, what the rows do determine keeps its number.
+// Determined parameters keep their number despite the steps.
 TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CountedNodes made = counted_nodes(seed, 0.03);
@@ -236,7 +233,7 @@ TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   }
 }
 
-// A factor at its bound, with the product at its best: the rows do not push against the bound.
+// Optimal product with a factor at its bound: the rows do not push against the bound.
 TEST(SparingCalibration, BoundGivesNoNumberToHalfAProduct) {
   Presses made = presses(3);
   const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
@@ -284,8 +281,7 @@ class Shares final : public Monitor {
   std::vector<double> shares;
 };
 
-// A fit that takes far longer than was foreseen: the share that is done goes on rising, and leaves room for
-// the profile.
+// A fit much longer than forecast: the share still rises, with room for the profile.
 TEST(SparingCalibration, ProgressMovesToTheEnd) {
   Presses made = presses(9);
   Shares shares;
