@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells chosen for a requested error: the choice, its error and cost, the bodies on other cells, and failed
-// choices. Other seeds against finer grids: tests/accuracy/distributions.
+// Cells chosen for a requested error: choice, error, cost, failures. Other seeds:
+// tests/accuracy/distributions.
 #include "engine/accuracy/accuracy_choice.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(AccuracyChoice, IsCheaperThanTheDefaultOnTheCellsGiven) {
   SpecimenPair pair(asking(surface, rigid_material(), Boundary::periodic, 0.01));
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   const double cells = static_cast<double>(state.chosen()->nx) / 512;
-  // Transforms of the chosen cells in units of 512 x 512.
+  // In transforms of 512 x 512 cells.
   const double weight = cells * cells * std::log2(state.chosen()->nx) / 9;
   const double chosen_cost = state.cost().total.transforms * weight;
   EXPECT_LT(chosen_cost, 0.5 * by_default.cost().total.transforms);
@@ -103,7 +103,7 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
   }
 }
 
-// Cells as wide as the dents once gave 1.2 to 2.6 times the requested error.
+// On cells as wide as the dents: 1.2 to 2.6 times the requested error.
 TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   const PressRequest request{PressBy::pressure, 1e7, {}};
   for (const char* of : {"corrected_area_fraction", "approach"}) {
@@ -117,7 +117,7 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   }
 }
 
-// Two cells a shortest wave lose the highest peak: 64 cells "met" 3 % with an error of 6.8 %.
+// Two cells a shortest wave lose the highest peak: 64 cells have an error of 6.8 %.
 TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
   SelfAffineOptions o;
   o.grid = Grid{512, 512, 1e-3, 1e-3};
@@ -140,7 +140,6 @@ TEST(AccuracyChoice, AnOutlineNeedsACorrectedAreaAndAKnownLaw) {
                            .press({PressBy::pressure, 1e7, {}});
   EXPECT_FALSE(energy.outline());
   EXPECT_EQ(energy.chosen()->text().find("outline"), std::string::npos);
-  // Boxes: the share of the tile above a plane.
   Scene boxes = asking(rough(128), rigid_material(), Boundary::periodic, 0.3);
   boxes.elasticity = BoxOptions{};
   const State of_boxes = SpecimenPair(boxes).press({PressBy::indentation, 0.1, {}});
@@ -169,7 +168,6 @@ TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
   EXPECT_EQ(state.chosen()->source, "generated again");
 }
 
-// Heights between the nodes of a map are unknown: its own cells are the finest.
 TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
   Scene scene = asking(measured(rough(64, 3)).with_material(test::elastic_to_yield()), rigid_material(),
                        Boundary::periodic, 0.001);
@@ -184,7 +182,7 @@ TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
   EXPECT_FALSE(best.chosen()->met());
 }
 
-// A sphere of 10 mm on a tile of 1 mm under 1 uN: one node in contact on any grid up to 4096 cells.
+// One node in contact on any grid up to 4096 cells.
 TEST(AccuracyChoice, NamesTheCellsItWouldNeed) {
   const Surface sphere = sphere_surface({Grid{128, 128, 1e-3, 1e-3}, 0.01, SphereShape::paraboloid})
                              .with_material(test::elastic_to_yield());
@@ -228,7 +226,7 @@ TEST(AccuracyChoice, NamesTheRequestedQuantitiesWithTheirError) {
 }
 
 TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
-  // 64 waves: every node of 64 cells is on a crest; coarse grids see a flat.
+  // 64 cells have every node on a crest: coarse grids see a flat.
   const Surface waves =
       sine_surface({Grid{512, 512, 1, 1}, 1e-4, 1.0 / 64, 2}).with_material(test::elastic_to_yield());
   SpecimenPair pair(asking(waves, rigid_material(), Boundary::periodic, 0.1, {"area_fraction", "energy"}));
@@ -237,7 +235,7 @@ TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
   EXPECT_EQ(state.chosen()->tried.front().note, "the heights were not carried");
 }
 
-// A contact 13 cells wide: 64 cells were wrong by 1.5 %. Reference: 2048 cells.
+// Contact 13 cells wide: 1.5 % error on 64 cells. Reference: 2048 cells.
 TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
   const Surface ball =
       sphere_surface({Grid{1024, 1024, 1e-3, 1e-3}, 0.03, SphereShape::sphere}).with_material([] {
@@ -442,7 +440,7 @@ TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
   EXPECT_EQ(pair.lower().digest(), digest);
   EXPECT_FALSE(pair.under_load());
   {
-    // Enough memory for the press, not for nine times as much.
+    // Not enough memory for nine times as much.
     Scene bare = scene;
     bare.accuracy.estimate = Accuracy::Estimate::none;
     memory::set_limit(memory::held() + 2 * SpecimenPair(bare).plan().bytes_peak());
@@ -527,7 +525,7 @@ Surface waves(int nx, int ny, std::uint64_t seed = 1) {
   return self_affine_surface(o).with_material(material);
 }
 
-// Hence no choice of precision: single precision takes as many steps.
+// Single precision saves no steps, hence no choice.
 TEST(AccuracyChoice, EitherPrecisionTakesAsManySteps) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const std::uint64_t seed : {1, 2, 3})

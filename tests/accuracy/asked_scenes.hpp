@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes with a requested error: self-affine surfaces of E* = 1 GPa on a tile of one metre, generated or
-// measured.
+// Scenes with a requested error: self-affine surfaces, E* = 1 GPa, tile of 1 m.
 #pragma once
 
 #include <cstdint>

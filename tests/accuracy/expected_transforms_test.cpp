@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expected transforms of a press: each control, small tiles (the press itself is tried) and large tiles, no
-// side effects. Accuracy over random scenes: tests/stability/properties/explain.cpp.
+// Expected transforms of a press, for each control, on small tiles (trial press) and large tiles. Accuracy:
+// tests/stability/properties/explain.cpp.
 #include "engine/accuracy/expected_transforms.hpp"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ TEST(ExpectedTransforms, OfFewerCellsAreWithinAFactorOfTwoByEachControl) {
   }
 }
 
-// The second trial gets all the work, the first a part.
+// The first trial gets a part of the work, the second all.
 TEST(ExpectedTransforms, TakeAboutTheWorkGiven) {
   const Contact contact(rough(512, 512));
   const Grid& grid = contact.scene.lower.grid();
@@ -178,7 +178,7 @@ TEST(ExpectedTransforms, ThatAreTriedAreNotCounted) {
   EXPECT_EQ(cost::transforms(), before);
 }
 
-// A step closes at a load ~ 1/cell: coarser cells are already closed at this load.
+// The closing load of a step is ~ 1/cell.
 TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   Scene scene = rough(192, 192);
   Field steps = scene.lower.heights();
@@ -189,7 +189,7 @@ TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   traits.periodic = true;
   scene.lower = Surface(scene.lower.grid(), std::move(steps), traits);
   const Contact contact(scene);
-  // Between the closing loads of doubled cells, about 2e8 Pa, and of these, 4e8 Pa.
+  // Closing loads: 2e8 Pa on doubled cells, 4e8 Pa on these.
   const double pressure = 2.4e8;
   const State state = test::press(scene, PressBy::pressure, pressure);
   ASSERT_LT(state.area_fraction(), 1);
@@ -251,7 +251,7 @@ TEST(PlanOfAPress, RefusesWhatAPressRefuses) {
             error_of([&] { test::press(contact.scene, PressBy::pressure, -1); }));
   EXPECT_NE(error_of([&] { contact.plan_of(PressBy::flatten, 2); }).find("`flatten` is 2"),
             std::string::npos);
-  // Only the solve finds the limit; the number is the guess.
+  // Only the solve finds the limit.
   const Plan plan = contact.plan_of(PressBy::approach, 1e6);
   EXPECT_EQ(plan.transforms, contact.plan.transforms);
   EXPECT_NE(plan.text().find("cannot be reached"), std::string::npos) << plan.text();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies on thrice the cells keep their pose: every third node is a node of the contact, for every turn and
-// shift. Generated surfaces are sampled between the nodes, others interpolated.
+// Bodies on thrice the cells keep their pose for every turn and shift. Generated surfaces are sampled between
+// the nodes, others interpolated.
 #include "engine/accuracy/finer_heights.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bounds on the algebraic error hold against solves to the last digits and for any feasible pressures, and
-// are tight enough to be useful.
+// Bounds on the algebraic error: valid for any feasible pressures, and tight.
 #include "engine/contact/algebraic_error.hpp"
 
 #include <algorithm>
@@ -36,7 +35,6 @@ struct Trial {
 
 State press(const Trial& trial) { return ready(trial.scene)->press(trial.request); }
 
-// Random draws of one scene, in order of the calls.
 class Draws {
  public:
   explicit Draws(std::uint64_t scene) : stream_(scene, "scenes of bounds") {}
@@ -244,7 +242,6 @@ TEST(AlgebraicError, HoldsForPressuresThatWereNeverSolved) {
   }
 }
 
-// Any approach between the plateaus carries the same load.
 TEST(AlgebraicError, AnApproachThatTheLoadDoesNotFixIsBracketed) {
   const Surface steps = test::surface_of(make_grid(16, 16, 16e-6, 16e-6),
                                          [](int i, int j) { return i < 4 && j < 4 ? 5e-6 : 0.0; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box elements under a plane: known answers, ways to prescribe a load, rescaling, and hard cases (few nodes,
-// equal heights, zero load, any magnitude).
+// Box elements under a plane: known answers, prescribed quantities, rescaling, few nodes, equal heights, any
+// magnitude.
 #include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The effects of a scene by name, and errors for unknown names.
+// The effects of a scene by name.
 #include "engine/contact/effects/list.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance of a layer, wave by wave: against the integrated equations of elasticity, its limits, and
-// sixty-digit arithmetic.
+// Compliance of a layer against integrated elasticity, limits, and sixty-digit arithmetic.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The preconditioner on a layer: near the inverse for every wave, exact on an unpadded grid, symmetric on the
-// free set.
+// Preconditioner on a layer: near the inverse for every wave (exact unpadded), symmetric on the free set.
 #include <gtest/gtest.h>
 
 #include <algorithm>

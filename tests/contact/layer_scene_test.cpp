@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A layer in a scene: refusals, plan, quantities with uniform compression and their bounds.
+// A layer in a scene: refusals, plan, quantities with uniform compression.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(LayerScene, InFullContactHasExactApproachAndEnergy) {
 }
 
 TEST(LayerScene, SpendsTheWorkOfThePressAsEnergy) {
-  // Work is the integral of load over approach: Simpson's rule between two loads.
+  // Work ∫ load dδ by Simpson's rule.
   const Scene scene = [] {
     Scene s = scene_on_layer(noise(24, 3));
     s.accuracy.tolerance = 1e-11;

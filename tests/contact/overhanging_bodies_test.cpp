@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A turned upper body covers part of the lower one. Outside the overlap there is no pressure and no gap, for
-// every prescribed quantity and elasticity.
+// Outside the overlap of turned bodies there is no pressure and no gap.
 #include <cmath>
 #include <numbers>
 #include <string>

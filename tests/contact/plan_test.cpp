@@ -31,7 +31,7 @@ TEST(Plan, DefaultStiffnessIsModulusOverPeakToValley) {
   const Surface lower = row_of({0, 1, 3, 8}).with_material(elastic(70e9, 0.33));
   const double modulus = 70e9 / (1 - 0.33 * 0.33);
   EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, rigid_material()))).stiffness, modulus / 8);
-  // 1/E* is the sum of both compliances; the peak-to-valley is that of both bodies together.
+  // 1/E* is the sum of both compliances; the peak-to-valley is the pair's.
   const Surface upper = row_of({0, 0, 0, 4}).with_material(elastic(95e9, 0.08));
   const double both = 1 / (1 / modulus + (1 - 0.08 * 0.08) / 95e9);
   EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, upper))).stiffness, both / 7);
@@ -119,8 +119,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
   EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
 }
 
-// At most the planned memory and at least half of it, within a mebibyte; without a lane period or with few
-// nodes a factor of eight once.
+// Half the planned memory to the planned memory, within a mebibyte.
 TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
                                                {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};

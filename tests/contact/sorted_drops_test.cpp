@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over sorted heights against extended precision, across block borders; the radix sort on both sides of
-// its smallest size.
+// Sums over sorted heights against extended precision; radix sort around its smallest size.
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Yielding and rigid box elements: answers by hand, bisection of sums in long double, the bearing model,
-// events, equal heights, one node, hardness over thirty decades.
+// Yielding and rigid boxes: answers by hand, bisection in long double, the bearing model, events, hardness
+// over thirty decades.
 #include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Atomic replacement of files: whole or not at all, with the system's errors. Names of temporary files are
-// unique, recognisable, and distinguish a killed writer from a running one.
+// Atomic replacement of files; unique, recognisable temporary names that distinguish a killed from a running
+// writer.
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/temporary_folder.hpp"
@@ -111,7 +111,7 @@ class PartFile : public InFolder {
     std::ofstream(file) << "part";
     return file;
   }
-  // The temporary file of an ended process.
+  // From an ended process.
   fs::path left_by_the_dead(const fs::path& target) const {
     int name[2];
     EXPECT_EQ(::pipe(name), 0);
@@ -131,7 +131,7 @@ class PartFile : public InFolder {
   }
 };
 
-// Processes of two containers can have the same number.
+// Containers repeat process numbers.
 TEST_F(PartFile, F11NoTwoNamesAreOne) {
   std::set<fs::path> names;
   for (int k = 0; k < 1000; ++k) names.insert(part_beside(folder / "a.h5"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bracketed secant on smooth and on difficult functions.
+// The bracketed secant on smooth and difficult functions.
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(BracketedSecant, FindsRootsOfMonotoneFunctions) {
   // Terraces with steep edges.
   EXPECT_LE(evaluations([](double x) { return std::floor(x) + std::pow(x - std::floor(x), 20); }, 5.5, 1),
             60);
-  // No double is near enough: every second step halves, down to the last of 52 digits.
+  // Every second step halves, down to the last of 52 digits.
   EXPECT_LE(evaluations([](double x) { return x < 2 ? 1e-9 * x : 2e-9 + 1e9 * (x - 2); }, 1, 1), 110);
 }
 
@@ -48,12 +48,11 @@ TEST(BracketedSecant, TakesPowersAndFullContactByTheirLogarithms) {
   EXPECT_LE(by_logarithms(power, 1, 1e-3, nothing_known), 6);
   EXPECT_GT(evaluations(power, 1, 1e-3), 8);
   EXPECT_LE(by_logarithms([](double x) { return std::log1p(1e6 * x); }, 10, 1e-5, nothing_known), 10);
-  // Near full contact the slope vanishes at the root: a secant creeps.
+  // Near full contact the slope vanishes: a secant creeps.
   const auto near_full = [](double x) { return x < 1 ? 1 - std::pow(1 - x, 2.5) : 1; };
   EXPECT_LE(by_logarithms(near_full, 1 - 1e-6, .4, {1, 1}), 6);
   EXPECT_GT(evaluations(near_full, 1 - 1e-6, .4, BracketedSecant(1 - 1e-6, {0, 0}, {1, 1})), 12);
-  // Peaks sink fully before the ground between them is reached: two loads far apart, almost equal in the
-  // measured quantity.
+  // Peaks sink fully before the ground is reached: distant loads, almost equal values.
   const auto flat = [](double x) { return 1 + 1e-5 * std::log(x); };
   EXPECT_LE(by_logarithms(flat, flat(2), 1, nothing_known), 5);
   const auto sunk = [](double x) { return x < 1 ? 1 - .07 * std::pow(1 - x, 7) : 1; };
@@ -80,7 +79,7 @@ TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {
   }
 }
 
-// Two inexact, nearly equal values give no slope: the better value replaces the last.
+// Two inexact, nearly equal values give no slope.
 TEST(BracketedSecant, AValueInPlaceOfARougherOneKeepsTheSlope) {
   const auto next_of = [](bool instead) {
     BracketedSecant root(4);

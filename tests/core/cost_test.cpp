@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A limit on transforms stops a computation at a reproducible count.
+// A limit on transforms stops at a reproducible count.
 #include "engine/core/cost.hpp"
 
 #include <gtest/gtest.h>

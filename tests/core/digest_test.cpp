@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Equal content has equal digests, different content different ones.
+// Digests of equal and different content.
 #include "engine/core/digest.hpp"
 
 #include <gtest/gtest.h>

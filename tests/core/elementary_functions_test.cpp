@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions are correctly rounded: bit for bit as MPFR over wide ranges, at special values, near
-// exact results and ties, and under other rounding modes.
+// Correct rounding of elementary functions, against MPFR: wide ranges, special values, exact results, ties,
+// other rounding modes.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <gtest/gtest.h>
@@ -192,7 +192,7 @@ TEST(ElementaryFunctions, ExactResultsAreExact) {
 }
 
 TEST(ElementaryFunctions, TiesGoToEven) {
-  // (2^27 + 1)² = 2^54 + 2^28 + 1 is a tie between two doubles, as are the odd multiples.
+  // (2^27 + 1)² = 2^54 + 2^28 + 1 is a tie, as are the odd multiples.
   for (std::uint64_t k = 0; k < 200; ++k) {
     const double x = 0x1p27 + static_cast<double>(2 * k + 1);
     EXPECT_EQ(elementary::pow(x, 2), x * x) << x;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Increments of geometric plane waves against a 420-bit reference and bit-exact identities; limits of the
-// table.
+// Increments of geometric plane waves against a 420-bit reference and exact identities.
 #include "engine/core/arithmetic/exact_phase.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms of any length in lanes against the defining sum: smooth lengths, primes and products, partial
-// batches; the same bits in any batch.
+// Transforms of any length in lanes against the defining sum; the same bits in any batch.
 #include "engine/core/fourier/fourier_batch.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter in lanes against the filter by rows and columns, periodic and padded; streamed rows; memory.
+// The filter in lanes against rows and columns; streamed rows; memory.
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,6 @@ TEST_P(LaneFilter, IsTheFilter) {
   compare<float>(GetParam(), 5e-6);
 }
 
-// Streamed rows have the bits of whole fields.
 template <class Real>
 void row_by_row(const Shape& shape) {
   const Array<double> in = noise(shape);
@@ -161,7 +160,7 @@ TEST(FourierLaneFilter, HoldsAGridAndAHalfAtMostAndSingleIsHalf) {
     }
   }
   set_thread_count(0);
-  // The spectrum, a quarter of its size for the multiplier, a few rows and columns.
+  // The spectrum, a quarter for the multiplier, a few rows and columns.
   const std::int64_t grid = 256 * 192 * sizeof(double);
   EXPECT_GE(held[0], grid);
   EXPECT_LE(held[0], grid * 3 / 2);

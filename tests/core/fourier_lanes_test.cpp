@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms in lanes against the defining sum, forward and inverse, in both precisions.
+// Transforms in lanes against the defining sum.
 #include "engine/core/fourier/fourier_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,6 @@ TYPED_TEST(InLanes, LanesAreIndependent) {
   }
 }
 
-// Scalars pass through the same operations as lanes.
 TEST(LaneFourier, OneSignalAloneHasTheBitsOfALane) {
   constexpr int last = Lanes<double>::count - 1;
   for (const int n : lengths) {

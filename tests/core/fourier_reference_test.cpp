@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All transforms against double-precision FFTW: lengths 1 to 1100, one and two dimensions, both precisions.
+// Transforms of lengths 1 to 1100 in both precisions against double-precision FFTW.
 #include <fftw3.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::vector<double> noise(int n) {
 
 fftw_complex* raw(std::vector<Complex>& values) { return reinterpret_cast<fftw_complex*>(values.data()); }
 
-// ny rows of nx values to ny rows of nx/2 + 1 bins.
+// To nx/2 + 1 bins a row.
 std::vector<Complex> by_fftw(std::vector<double> values, int nx, int ny) {
   std::vector<Complex> bins(static_cast<std::size_t>(nx / 2 + 1) * static_cast<std::size_t>(ny));
   const fftw_plan plan = fftw_plan_dft_r2c_2d(ny, nx, values.data(), raw(bins), FFTW_ESTIMATE);
@@ -39,7 +39,7 @@ std::vector<Complex> by_fftw(std::vector<double> values, int nx, int ny) {
   return bins;
 }
 
-// Both errors grow at most with the root of the length.
+// Both errors grow at most as √length.
 double tolerance(double epsilon, double values) {
   return 8 * epsilon * std::sqrt(values) * std::log2(values + 2);
 }
@@ -85,7 +85,6 @@ class InEveryLane : public ::testing::Test {};
 using Precisions = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(InEveryLane, Precisions);
 
-// A different signal in every lane.
 TYPED_TEST(InEveryLane, ComplexSignalsOfEveryLengthWithoutALargePrime) {
   using Real = TypeParam;
   constexpr int lanes = Lanes<Real>::count;
@@ -132,7 +131,7 @@ TYPED_TEST(InEveryLane, ComplexSignalsOfEveryLengthWithoutALargePrime) {
   EXPECT_EQ(lengths, 463);
 }
 
-// Filters of rows and columns, as in contacts, forward and inverse.
+// As in contacts, forward and inverse.
 TYPED_TEST(InEveryLane, FiltersOfEveryPeriod) {
   using Real = TypeParam;
   const auto factor = [](int a, int b) { return 1 / (1.0 + 0.01 * a + 0.3 * b); };

@@ -127,7 +127,7 @@ TEST(Fourier, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Fourier, SameBitsWhereverTheRowsStand) {
-  // Rows of odd length start at every alignment; equal rows need equal bins.
+  // Rows of odd length start at every alignment.
   Field field(33, 8);
   const Field row = noise(33, 1);
   for (int j = 0; j < 8; ++j) std::copy(row.data(), row.data() + 33, field.row(j).begin());

@@ -37,7 +37,7 @@ TEST(Grid, NodesAndCells) {
   EXPECT_DOUBLE_EQ(grid.area(), 20e-12);
 }
 
-// Zero-width cells made the filling of holes loop for ever.
+// Zero-width cells: endless filling of holes.
 TEST(Grid, CellsHaveAWidth) {
   const double least = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(refusal(3, 2, least, 1),
@@ -98,7 +98,7 @@ TEST(BlockSum, OfKnownSeries) {
 
 TEST(BlockSum, KeepsItsDigits) {
   const std::vector<double> tenths(10000000, 0.1);
-  // At most 128 + 3 + 14 roundings per value; a running sum is wrong by 1.6e-4.
+  // At most 128 + 3 + 14 roundings; a running sum errs by 1.6e-4.
   EXPECT_NEAR(block_sum(tenths), 1e6, 145 * 0x1p-53 * 1e6);
   const Stream stream(1, "sum");
   std::vector<double> values(1000000);

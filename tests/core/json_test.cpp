@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON values: exact numbers, preserved order, invalid texts.
+// JSON: exact numbers, order, invalid texts.
 #include "engine/core/files/json.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops on threads: every block once, error of the lowest block, stops, counters.
+// Parallel loops: every block once, lowest error, stops, counters.
 #include "engine/core/parallel.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_P(Parallel, AFailureStopsTheLoop) {
                               throw std::runtime_error("no");
                             }),
                std::runtime_error);
-  // Each thread fails at most once per share.
+  // At most one failure per thread and share.
   EXPECT_LE(runs.load(), GetParam() * GetParam());
 }
 
@@ -128,7 +128,7 @@ TEST_P(Parallel, SeveralCallersAtOnce) {
   EXPECT_EQ(failures.load(), 3 * 200);
 }
 
-// Long blocks wake the helpers; many loops let them sleep between.
+// Long blocks wake the helpers; between loops they sleep.
 TEST_P(Parallel, HelpersComeBack) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     std::mutex mutex;

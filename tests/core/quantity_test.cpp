@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities as text: accepted forms, exact to the last bit, and refusals.
+// Quantities as text, exact to the last bit, and refusals.
 #include "engine/core/quantity.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(Quantity, OtherUnits) {
   EXPECT_EQ(parse_quantity_as("36 km/h", dimension::speed), 10.0);
 }
 
-// Definitions: lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
+// lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
 TEST(Quantity, F8UnitsOfScalesAndGaugesOfPresses) {
   const double pound = 0.45359237 * 9.80665, square_inch = 0.0254 * 0.0254;
   const auto force = [](const char* text) { return parse_quantity_as(text, dimension::force); };
@@ -130,7 +130,7 @@ TEST(Quantity, OldAndAngloAmericanUnitsByTheirDefinitions) {
   EXPECT_EQ(parse_quantity_as("1 lb", dimension::mass), 0.45359237);
 }
 
-// No prefixes k, m, a and no units d, h here: each name is a unit of its own.
+// Units of their own: no prefixes k, m, a; no units d, h.
 TEST(Quantity, NamesThatLookLikePrefixesAreUnitsOfTheirOwn) {
   EXPECT_EQ(parse_unit("kip").dimension, dimension::force);
   EXPECT_EQ(parse_unit("ksi").dimension, dimension::pressure);

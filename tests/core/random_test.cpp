@@ -19,7 +19,7 @@ TEST(Random, SplitMixOfPublishedSeeds) {
   EXPECT_EQ(splitmix64(1234567, 1), 3203168211198807973ULL);
 }
 
-// Phases of the Weierstrass–Mandelbrot surface of seed 1, in turns.
+// Phases of the Weierstrass–Mandelbrot surface, in turns.
 TEST(Random, PhasesOfSeedOne) {
   EXPECT_DOUBLE_EQ(unit_interval(splitmix64(1, 0)), 0.5665615751722809);
   EXPECT_DOUBLE_EQ(unit_interval(splitmix64(1, 1)), 0.74578175726270124);

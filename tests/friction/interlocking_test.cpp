@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interlocking: one inclined junction against closed forms and bisection; then inclines, saw-teeth and wavy
-// half-spaces, whose elastic energy supplies the work against the slopes.
+// Inclined junctions against closed forms and bisection; inclines, saw-teeth, and wavy half-spaces, whose
+// elastic energy supplies the work against slopes.
 #include "engine/friction/interlocking.hpp"
 #include "engine/core/constants.hpp"
 
@@ -24,7 +24,6 @@ Scene interlocking(Scene scene, double direction = 0) {
   return scene;
 }
 
-// Boxes of two fitting bodies; `height` of the lower one.
 Scene fitting(const Grid& grid, const std::function<double(int, int)>& height, Boundary boundary) {
   return scene_of(surface_of(grid, height),
                   surface_of(grid, [&](int i, int j) { return -height(grid.nx - 1 - i, j); }), 1.0, boundary);
@@ -89,7 +88,7 @@ TEST(InclinedJunction, IsTheGreatestForceThatTheLawAllows) {
               const JunctionLaw law({.tau0 = tau0, .alpha = alpha, .tau_max = cap});
               const InclinedJunction junction = inclined_junction(law, p, along, across);
               const double q = std::sqrt(1 + across * across / (1 + along * along));
-              // Allowed shears form an interval from zero; bisection finds its end.
+              // Bisection: allowed shears form an interval from zero.
               double allowed = 0, refused = 1e3;
               for (int halving = 0; halving < 100; ++halving) {
                 const double shear = 0.5 * (allowed + refused), normal = p + along * q * shear;
@@ -162,7 +161,7 @@ TEST(Interlocking, ASymmetricSawToothKeepsWhatIsOfSecondOrder) {
     return slope * std::min(k, tooth - k);
   };
   const State st = press(interlocking(fitting(grid, height, Boundary::periodic)), PressBy::pressure, 0.01);
-  // Two of sixteen nodes are a crest or a valley: level central difference.
+  // Level at crest and valley: two of sixteen nodes.
   const double flanks = 7.0 / 16 * (std::tan(phi + b) + std::tan(phi - b)) + 2.0 / 16 * alpha;
   const JunctionLaw law({.tau0 = 0, .alpha = alpha});
   EXPECT_NEAR(*law.on(st).mu, flanks, 1e-12);
@@ -207,7 +206,7 @@ TEST(Interlocking, WithoutContactThereIsNothing) {
   EXPECT_EQ(r.capped_fraction, 0);
 }
 
-// At a fixed approach, moved a cell each way: the work against the slopes is the gain of elastic energy.
+// Fixed approach, a cell each way: work against the slopes is the gain of elastic energy.
 TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
   const int n = 128;
   const Grid grid{n, n, 1, 1};
@@ -217,7 +216,7 @@ TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
       return amplitude * (std::cos(x + phase_x) * std::cos(y + phase_y) + 0.3 * std::cos(2 * x + y));
     });
   };
-  // Unlike bodies: the surface between them is not their mean.
+  // Unlike bodies: the interface is not their mean.
   const Surface lower = wave(0.3, 0.1, 0.02).with_material(test::elastic(1)),
                 upper = wave(1.1, 2.0, 0.01).with_material(test::elastic(3));
   const auto moved = [&](int cells) {
@@ -260,7 +259,7 @@ TEST(Interlocking, AStateThatDoesNotNameItHasNoFieldMade) {
   EXPECT_EQ(memory::held(), before);
 }
 
-// At the rim of the overlap, as of the tile, slopes are one-sided.
+// One-sided slopes at the rim of the overlap.
 TEST(Interlocking, JunctionsBesideGroundThatNothingFacesHaveTheirSlopes) {
   const Grid bar{8, 16, 0.8, 1.6};
   const Scene scene = scene_of(surface_of(bar, [](int i, int j) { return 0.01 * i + 0.02 * j; }),

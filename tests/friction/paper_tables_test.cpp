@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulations of Hanaor, Gan & Einav (2013): Weierstrass–Mandelbrot surfaces of 150 x 150 cells as box
-// elements on a rigid flat, against independently computed tables. Single cases to 1e-8, means over seeds
-// 1–20 to the last printed digit, and the definitions under which the trends must fail. Preset A: span 1, B:
-// span 3. Raw heights with stiffness 1/peak-to-valley replace unit peak-to-valley and E = 1.
+// Hanaor, Gan & Einav (2013): Weierstrass–Mandelbrot surfaces of 150 x 150 cells as box elements on a rigid
+// flat, against independently computed tables. Single cases to 1e-8, means over seeds 1–20 to the last
+// printed digit; definitions for which the trends fail. Preset A: span 1, B: span 3. Raw heights with
+// stiffness 1/peak-to-valley replace unit peak-to-valley and E = 1.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@
 namespace asperity::paper_tables_test {
 namespace {
 
-// raw: one length per preset, the mean peak-to-valley at D = 2.
+// raw: mean peak-to-valley of the preset at D = 2.
 enum class Scaling { peak_to_valley, six_sd, ten_ra, percentiles, raw };
 enum class Cap { none, yield, absolute };
 constexpr std::array ratios = {0.1, 1.0, 10.0, 100.0};
@@ -109,7 +109,7 @@ Statistics over_seeds(const std::function<double(int seed)>& value, int first = 
   return result;
 }
 
-// Within one unit of the last printed digit: "1.24" to 0.01, ".0354" to 0.0001.
+// To one unit of the last digit: "1.24" to 0.01, ".0354" to 0.0001.
 void expect_printed(double value, const std::string& printed, const std::string& what) {
   const auto point = printed.find('.');
   const auto decimals = point == std::string::npos ? 0 : static_cast<int>(printed.size() - point - 1);
@@ -151,7 +151,7 @@ TEST(PaperTables, SingleCases) {
   EXPECT_EQ(cases, 15);
 }
 
-// Table 3.1: definitions of the amplitude and trends, D 2.0 → 2.9.
+// Table 3.1: definitions of the amplitude, D 2.0 → 2.9.
 TEST(PaperTables, DefinitionsOfTheAmplitude) {
   struct Row {
     Scaling scaling;
@@ -470,7 +470,6 @@ TEST(PaperTables, PopulationBands) {
     }
 }
 
-// Means of seeds 1–20, D = 2.0 … 2.9.
 TEST(PaperTables, TrendsWithDimension) {
   for (const char preset : {'A', 'B'}) {
     double depth = 0, area = 0, spots = 0, secant = 1;
@@ -519,7 +518,6 @@ TEST(PaperTables, ControlsThatMustFail) {
     auto ratio = [&](auto quantity) {
       return over_seeds([&](int seed) { return quantity(2.9, seed) / quantity(2.0, seed); }).mean;
     };
-    // Scaled by rms height the area does not rise with D.
     EXPECT_LT(ratio([&](double D, int seed) {
                 return pressed(preset, D, seed, 0.01, Scaling::six_sd).area_fraction();
               }),
@@ -535,7 +533,6 @@ TEST(PaperTables, ControlsThatMustFail) {
                 return st.stiffness() * heights(preset, D, seed).peak_to_valley();
               }),
               1);
-    // An absolute cap of 2 τ0 breaks the ordering in r.
     EXPECT_GT(ratio([&](double D, int seed) { return mu_of(pressed(preset, D, seed), 100, Cap::absolute); }),
               ratio([&](double D, int seed) { return mu_of(pressed(preset, D, seed), 10, Cap::absolute); }));
   }

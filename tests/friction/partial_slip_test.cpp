@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere, boxes in closed form,
-// conditions on the tractions, refusals.
+// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere, boxes, tractions, refusals.
 #include "engine/friction/partial_slip.hpp"
 
 #include <cmath>
@@ -32,7 +31,7 @@ Scene tangential(Scene scene, std::optional<double> compliance_ratio = {}) {
   return scene;
 }
 
-// R = E* = 1: contact radius (3/4·1e-3)^(1/3), about 0.091, under a load of 1e-3.
+// R = E* = 1, load 1e-3: contact radius (3/4·1e-3)^(1/3), about 0.091.
 Scene sphere(int n, const Material& material = elastic(2)) {
   return tangential(Scene{paraboloid(n, 0.26).with_material(material), material, Boundary::free,
                           HalfSpaceOptions{}, Accuracy{}});
@@ -53,7 +52,7 @@ TEST(PartialSlip, TheStickRadiusOfASphereIsCattaneoAndMindlins) {
     const Pulled pulled(sphere(n));
     for (const auto& [ratio, radius] : {std::pair{0.2, 0.928318}, {0.5, 0.793701}, {0.9, 0.464159}}) {
       const PartialSlip slip = pulled.by(ratio);
-      // A node more or less around an outline of 2π c/h nodes.
+      // An outline of 2π c/h nodes is uncertain by one node.
       const double cells = std::sqrt(static_cast<double>(slip.stick_contacts()) / std::numbers::pi);
       EXPECT_NEAR(std::sqrt(slip.stick_fraction()), radius, 0.25 / cells) << n << " " << ratio;
       EXPECT_FALSE(slip.slides());
@@ -102,7 +101,7 @@ TEST(PartialSlip, UnlikeBodiesShareAsTheirCompliances) {
                    (2 / 4.0 + 1.75 / 8) / (1 / 2.0 + 0.75 / 4));
 }
 
-// A paraboloid on boxes: A ∝ δ and F ∝ δ², so the stick area is sqrt(1 − r) of the contact.
+// Paraboloid on boxes: A ∝ δ, F ∝ δ², stick area sqrt(1 − r) of the contact.
 TEST(PartialSlip, BoxesHaveAClosedForm) {
   const Pulled pulled(tangential(test::boxes(paraboloid(1024, 0.5), 1), 1.5));
   const double depth = std::sqrt(1e-3 / std::numbers::pi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slip angle for T = T0 + αN, the steps of the stage, jumps of friction, the right angle.
+// The slip angle for T = T0 + αN, steps, jumps of friction, the right angle.
 #include "engine/friction/tilt_stage.hpp"
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
   }
 }
 
-// One radian instead of one degree must not become a coefficient of 0.
+// One radian instead of one degree must not give a coefficient of 0.
 TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
   for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
     EXPECT_NE(error_of([&] {
@@ -111,7 +111,7 @@ TEST(SlipAngle, ALimitThatIsNoMultipleIsReached) {
 }
 
 TEST(SlipAngle, AJumpOfFrictionIsWhereItFails) {
-  // Real area falls by one node at N = 0.8, that is at acos 0.8.
+  // Real area falls by one node at N = 0.8: acos 0.8.
   const auto friction = [](double normal) { return normal > 0.8 ? 0.7 : 0.1; };
   const SlipAngle slip = slip_angle(friction, 1, 0.1 * degree, right);
   EXPECT_NEAR(slip.angle, std::acos(0.8), 1e-12);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Findings of Hanaor, Gan & Einav (2013), as means over eight specimen pairs of each kind: roughness,
-// dimension and real area on quartz against stress and events, with controls without the findings. Bands of
-// means come from an independent computation. 256² cells, shortest wave 16 µm: under-resolved on purpose;
-// ratios hold.
+// Findings of Hanaor, Gan & Einav (2013) as means over eight pairs: roughness, dimension and real area on
+// quartz against stress and events; controls without the findings. Bands from an independent computation.
+// 256² cells, shortest wave 16 µm: under-resolved on purpose; ratios hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +61,7 @@ void press(SpecimenPair& pair, double megapascals) {
   pair.release();
 }
 
-// About 24 integer steps in equal ratios from one cell to `last`, without duplicates.
+// About 24 integer steps in equal ratios, without duplicates.
 std::vector<int> steps_to(double last) {
   std::vector<int> steps;
   for (int k = 0; k < 24; ++k) {
@@ -126,7 +125,7 @@ const std::vector<Series>& all_of(Kind kind) {
   return all;
 }
 
-// Final over initial value of a quantity, mean over pairs.
+// Final over initial value, mean over pairs.
 double mean_ratio(Kind kind, std::vector<Found> Series::*which, double Found::*quantity) {
   double sum = 0;
   for (const Series& series : all_of(kind))

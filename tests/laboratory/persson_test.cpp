@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real contact area of self-affine surfaces against Persson (2001, J. Chem. Phys. 115, 3840), elastic and
-// with a hardness. Simulated κ = A E* h' / (A0 p̄) of 1.7 to 2.4 exceeds the theory's √(8/π) = 1.6.
+// Real contact area against Persson (2001, J. Chem. Phys. 115, 3840), elastic and with a hardness. Simulated
+// κ = A E* h' / (A0 p̄): 1.7 to 2.4; theory: √(8/π) = 1.6.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double slope = 0.1;  // h': E* h' = 0.1 with E* = 1
 
-// Hurst exponent 0.8, from the side of the tile to waves of 8 cells.
+// Hurst exponent 0.8 down to waves of 8 cells.
 Surface surface(std::uint64_t seed) {
   SelfAffineOptions options;
   options.grid = make_grid(512, 512, 512, 512);
@@ -43,7 +43,7 @@ TEST(Persson, ElasticAreaIsAnErrorFunction) {
     EXPECT_NEAR(std::erf(std::numbers::sqrt2 * share), area, 1e-6);
 }
 
-// A few hills of a tile carry a light load: tiles scatter, so means are compared.
+// Few hills carry a light load: single tiles scatter.
 constexpr std::uint64_t seeds = 4;
 
 TEST(Persson, SimulatedAreaOverLoadIsInTheKnownRange) {
@@ -85,8 +85,8 @@ TEST(Persson, CappedAreasOfTheTheory) {
   }
 }
 
-// Total areas differ by a quarter, as without a cap. In a real contact pressures spread less than the
-// theory's (E* h')²/4: fewer nodes reach the hardness.
+// Total areas differ by a quarter, as without a cap. Real pressures spread less than the theory's (E* h')²/4:
+// fewer nodes reach the hardness.
 TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
   for (const double pressure : {0.01, 0.02}) {
     constexpr double hardness = 0.1;
@@ -96,7 +96,7 @@ TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
       const State state = pressed(seed, pressure, hardness);
       touching += state.corrected_area_fraction() / seeds;
       capped += state.plastic_fraction() / seeds;
-      // The load is the sum over elastic and capped nodes.
+      // Elastic plus capped nodes.
       const PressureSplit split = state.split(hardness);
       EXPECT_NEAR((split.sum_below + hardness * static_cast<double>(split.above)) /
                       (pressure * static_cast<double>(state.geometry().grid().nodes())),

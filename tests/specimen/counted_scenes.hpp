@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two rough bodies on boxes and half-spaces with elasticity alone, on one thread so that the thread's
-// counters are complete.
+// Two rough bodies, elasticity alone, on one thread for complete counts.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacement and separation along a load history with plastic deformation.
+// Displacement and separation with plastic deformation.
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"

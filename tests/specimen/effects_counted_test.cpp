@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Only named effects are computed. Counted: transforms, peak bytes, buffers, stored memory and operator
-// applications, for every effect and pair of effects, on boxes and half-spaces. Every effect of the catalogue
-// needs a row of `effects`.
+// Only named effects are computed: transforms, peak bytes, buffers, stored memory and operator applications
+// of every effect and pair. Every effect of the catalogue needs a row of `effects`.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -36,7 +35,7 @@ struct Effect {
   const char* needs = nullptr;  // required effect
   Names excludes{};             // incompatible effects
   bool changes_the_normal_contact = false;
-  const char* line = nullptr;    // of the cost; none: a press does nothing for it
+  const char* line = nullptr;    // none: a press does nothing for it
   bool of_the_accuracy = false;  // not of the catalogue
 };
 
@@ -94,7 +93,7 @@ const Effect& effect_named(std::string_view name) {
   return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
 }
 
-// With required effects, without duplicates; empty if incompatible on this bench.
+// With required effects; empty if incompatible.
 Names completed(const Names& asked, const Bench& bench) {
   Names names;
   for (const std::string& name : asked) {
@@ -159,7 +158,7 @@ Counted count_once(const Scene& scene, const PressRequest& request) {
   return result;
 }
 
-// The second count; the first includes allocations cached for all contacts of one size.
+// The second count; the first fills caches.
 Counted count(const Scene& scene, const PressRequest& request = {PressBy::pressure, pressed, {}}) {
   count_once(scene, request);
   return count_once(scene, request);
@@ -174,7 +173,7 @@ TEST_F(EffectsCounted, EveryEffectThatIsComputedHasARow) {
         << known->name << " is computed, but nothing here counts what it does when it is not named";
 }
 
-// The same transforms, and the same bytes apart from the solver's input and output.
+// The same bytes apart from the solver's input and output.
 TEST_F(EffectsCounted, ABareHalfSpaceIsItsSolverAlone) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     SCOPED_TRACE(name(boundary));
@@ -221,7 +220,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
         SCOPED_TRACE(std::string(bench.name) + ": " + joined(named, " and "));
         const Counted found = count(with_effects(bare_scene(bench), named));
 
-        // One line per named effect; the sum is the total.
+        // The lines add up to the total.
         Names expected = {"elasticity"};
         for (const std::string& name : named)
           if (effect_named(name).line != nullptr) expected.emplace_back(effect_named(name).line);
@@ -260,7 +259,6 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
           EXPECT_EQ(found.press.bytes, without.press.bytes) << name;
           EXPECT_EQ(found.buffers, without.buffers) << name;
           EXPECT_EQ(found.planned, without.planned) << name;
-          // Only `tangential` stores something: the state before a pull.
           if (name != "tangential") {
             EXPECT_EQ(found.kept, without.kept) << name;
           }
@@ -276,7 +274,6 @@ TEST_F(EffectsCounted, OnlyAPullKeepsTheStateItStartsFrom) {
     const Counted bare = count(bare_scene(bench)),
                   pulled = count(with_effects(bare_scene(bench), {"tangential"}));
     const auto nodes = static_cast<std::int64_t>(48 * 48);
-    // Pressures and gaps of one state, only with `tangential`.
     EXPECT_EQ(bare.kept, 0) << bench.name;
     EXPECT_EQ(pulled.kept, 2 * 8 * nodes) << bench.name;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unread quantities of a state are never computed: transforms and bytes of the first and second reading of
-// each lazy quantity. A state outlives its contact.
+// Unread quantities are never computed: transforms and bytes of the first and second reading. A state
+// outlives its contact.
 #include <functional>
 #include <memory>
 #include <string>
@@ -95,7 +95,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   for (const LazyQuantity& quantity : lazy_quantities()) {
     SCOPED_TRACE(quantity.name);
     SpecimenPair pair(plastic_scene());
-    // The first reading fills the process's caches for this size.
+    // Fills the caches for this size.
     quantity.read(pair.press(under));
     SpecimenPair fresh(plastic_scene());
     const State state = fresh.press(under);
@@ -110,7 +110,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   }
 }
 
-// The other fields cost the same as on an unread state.
+// Other fields cost the same as unread.
 TEST_F(LazyState, ReadingOneWorksOutNoField) {
   const std::vector<LazyQuantity> all = lazy_quantities();
   for (const LazyQuantity& quantity : all) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a press and its remains on the bodies, against the plan.
+// Memory of a press and its remains, against the plan.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -19,7 +19,6 @@ using test::elastic;
 using test::random_surface;
 using test::scene_of;
 
-// Large grids once took two thirds more than planned.
 TEST(PlannedMemory, N9OfElementsIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 37}, {64, 64}, {251, 127}, {512, 512}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})

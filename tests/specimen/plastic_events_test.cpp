@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events on a rough pair with plastic memory: plastic deformation, repeated presses; only yield changes a
-// stored surface.
+// Events on a rough pair: plastic deformation and repeated presses; only yield changes a stored surface.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -132,7 +131,7 @@ TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
     EXPECT_EQ(pair.press(pressure(megapascals)).plastic_volume(), 0);
     EXPECT_EQ(pair.lower().digest(), lower.digest());
   }
-  // A slightly greater load skips the memory of earlier loads; still no yield.
+  // Slightly greater: skips the memory of earlier loads.
   EXPECT_LT(pair.press(pressure(100 * (1 + 1e-15))).plastic_volume(), 1e-6 * first);
 }
 
@@ -150,12 +149,12 @@ TEST(PlasticEvents, ALongerDwellUnderTheSameLoadTakesMoreAndAShorterOneNothing) 
   const double first = pair.press({PressBy::pressure, 100 * megapascal, 600.0}).plastic_volume();
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 1e-3 * first);
-  // Both are known now; a greater load for a shorter time is not.
+  // Both known now; not a greater load for a shorter time.
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 200 * megapascal, 600.0}).plastic_volume(), first);
 }
 
-// Off the lattice the upper body's share is mapped between nodes, but the pair's total loss stays in place.
+// The upper body's share is mapped between nodes, but the pair's total loss stays in place.
 TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
   for (const double hardening : {std::numeric_limits<double>::infinity(), 8e13})
     for (const double degrees : {37.0, 10.0, 45.0}) {
@@ -165,12 +164,12 @@ TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
       ASSERT_GT(first.plastic_volume(), 0);
       for (int event = 0; event < 3; ++event) {
         pair.release();
-        // Slightly greater, to skip the memory of earlier loads.
+        // Skips the memory of earlier loads.
         const State again = pair.press(pressure(100 * (1 + (event + 1) * 1e-15)));
         EXPECT_LT(again.plastic_volume() / first.plastic_volume(), 1e-6) << degrees << " deg, " << hardening;
         EXPECT_NEAR(again.area_fraction(), first.area_fraction(), 1e-3) << degrees << " deg, " << hardening;
       }
-      // After a new placement each body uses its own frame again.
+      // After a placement each body uses its own frame.
       pair.rotate(-degrees * std::numbers::pi / 180);
       EXPECT_EQ(hardness_of(pair).upper_here, nullptr);
       EXPECT_GT(pair.press(pressure(100)).plastic_volume(), 0.1 * first.plastic_volume());
@@ -307,7 +306,7 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
   const Surface before = pair.upper();
   const State state = pair.press(pressure(60));
   EXPECT_GT(state.plastic_volume(), 0.05 * first);
-  // Never raised: the increment is mapped, not the heights.
+  // The increment is mapped, not the heights.
   for (std::size_t k = 0; k < before.heights().size(); ++k)
     EXPECT_LE(pair.upper().heights()[k], before.heights()[k]);
   EXPECT_NEAR(volume_lost(before, pair.upper()) / state.plastic_volume(), 0.5, 1e-6);
@@ -316,7 +315,7 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  Field tilted = body.heights();  // no warning for a body that continues across the rim
+  Field tilted = body.heights();  // periodic continuation
   const double height = range(tilted.values()).span();
   for (int i = 0; i < body.grid().nx; ++i)
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An effect of zero strength changes no bit on half-spaces and boxes, but appears in the plan, the effects
-// that ran, and the cost if a press works for it. A limit beyond all pressures is another problem for the
-// solver: equal within the tolerance. Every such effect needs a row of `powerless`.
+// An effect of zero strength changes no bit, but appears in plan, effects and cost. A limit beyond all
+// pressures changes results within the tolerance only. Every such effect needs a row of `powerless`.
 #include <functional>
 #include <optional>
 
@@ -164,7 +163,7 @@ TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
   }
 }
 
-// Level bodies have no slopes; rate zero means no growth.
+// No slopes, no growth.
 TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
   const JunctionLaw law({.tau0 = 0.013, .alpha = 0.21, .tau_max = 0.015});
   for (const Bench& bench : benches) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running protocols: the same states as presses by hand; failed and stopped events.
+// Protocols run like presses by hand; failed and stopped events.
 #include "engine/specimen/protocol_run.hpp"
 
 #include <numbers>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lateral effects on the bench: shear under load, growth of slip as a stage is raised, junctions at rest,
-// slopes.
+// Lateral effects on the bench: shear, growth of slip on a tilting stage, rest, slopes.
 #include "engine/specimen/slip_growth.hpp"
 
 #include <cmath>
@@ -107,7 +106,7 @@ TEST(SlipGrowth, GrowsToAllOfTheContactWhereTheSpecimenSlides) {
   }
 }
 
-// With alpha alone, pull over sliding force is tan θ / α, and shares follow the remaining load.
+// With alpha alone, pull over sliding force is tan θ / α; shares follow the remaining load.
 TEST(SlipGrowth, IsThatOfAContactAtTheLoadOfTheAngle) {
   Scene scene = test::boxes(random_surface(40, 40, 1), 3.0);
   scene.effects = partial;
@@ -188,10 +187,10 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   const auto incline = [&](double sign) {
     return test::surface_of(grid, [=](int i, int) { return sign * slope * 0.1 * i; });
   };
-  // Turned over, the upper body rises the other way and fits.
+  // Turned over, the upper body fits.
   Scene scene = scene_of(incline(1), incline(1), 1.0);
   scene.effects.set(InterlockingOptions{});
-  // Free placements turn by 0 or 180 deg; half of them would not fit.
+  // Half of the free placements, 0 or 180 deg, would not fit.
   const SpecimenPair pair(scene);
   const JunctionLaw law({.tau0 = 0, .alpha = 0.2});
   const State st = SpecimenPair(pair).press({PressBy::pressure, 0.1, {}});
@@ -205,7 +204,7 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   EXPECT_GT(fits, 0);
 }
 
-// Slopes above the friction slide at the first step, without an error of the stage.
+// Sliding at the first step is no error of the stage.
 TEST(TiltInterlocking, ASlopeThatPushesSlipsAtOnce) {
   const Grid grid{24, 10, 2.4, 0.5};
   const auto incline = test::surface_of(grid, [](int i, int) { return 0.03 * i; });

@@ -140,7 +140,7 @@ TEST(SpecimenPair, ACopyGoesItsOwnWay) {
 }
 
 TEST(SpecimenPair, AFailedCallLeavesItAsItWas) {
-  // After a half turn these two are a plane, without a default stiffness.
+  // After a half turn, a plane without a default stiffness.
   const Surface ramp = row_of({0, 1, 2}).with_material(test::elastic(1));
   SpecimenPair pair(scene_of(ramp, row_of({2, 1, 0}).with_material(test::elastic(1)), {}, Boundary::free));
   const State before = pair.press(pressure(0.1));
@@ -165,7 +165,7 @@ TEST(SpecimenPair, AFlatIsAPlaneOfZeros) {
 }
 
 TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
-  // The deformed flat has its own frame and turns with the placement.
+  // The deformed flat turns with the placement.
   const Surface lower = random_surface(9, 9, 1).with_material(test::elastic(1));
   SpecimenPair pair(scene_of(lower, test::elastic(1)));
   pair.rotate(quarter);

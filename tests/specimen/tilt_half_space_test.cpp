@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tilt stage on a half-space contact: solved at probe pressures, extrapolated down to the weight.
+// The tilt stage on a half-space: probe pressures, extrapolated to the weight.
 #include <cmath>
 #include <numbers>
 
@@ -62,7 +62,7 @@ TEST(TiltHalfSpace, TheAngleDoesNotDependOnAWeightBelowTheProbes) {
   EXPECT_NEAR(raise(pair, law, light).angle, raise(pair, law, heavy).angle, 1e-12);
 }
 
-// A single spot, area ~ load^(2/3): by Hertz the weight is held at mu = 0.1943.
+// Single spot, area ~ load^(2/3): Hertz gives mu = 0.1943 at the weight.
 TEST(TiltHalfSpace, ALoneSpotIsSolvedUnderTheWeight) {
   for (const double size : {1e-3, 2e-4, 1e-4}) {
     Scene scene{sphere_surface({Grid{64, 64, size, size}, 1e-2, SphereShape::paraboloid})
@@ -115,7 +115,7 @@ TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
     const TiltResult result = raise(pair, law, options);
     ASSERT_EQ(result.at_weight.size(), 2U);
     EXPECT_NEAR(result.at_weight[0].pressure, pressure, 1e-6 * pressure);
-    // At slip, friction under the remaining normal force is the holding force.
+    // Holding force: friction under the remaining normal force.
     SpecimenPair copy = pair;
     const State state = copy.press({PressBy::pressure, pressure * std::cos(result.angle), {}});
     const FrictionResult friction = law.on(state);
@@ -146,8 +146,7 @@ TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {
   EXPECT_NE(result.note.find("the probe pressure was raised to"), std::string::npos);
 }
 
-// Eq. (1) of the source paper with a liquid: junctions carry the capillary force, but friction is divided by
-// the weight.
+// Eq. (1) of the source paper with a liquid: junctions carry the capillary force; μ is per weight.
 TEST(TiltHalfSpace, WhatTheBodiesAttractEachOtherByRaisesTheAngleAndIsTold) {
   Scene scene = on_quartz().scene();
   const TiltResult dry = raise(SpecimenPair(scene), law, stage({30 * megapascal}));

@@ -120,7 +120,7 @@ TEST(TiltTrials, ASpecimenThatNeverSlipsIsSaidPlainly) {
 }
 
 TEST(TiltTrials, SpecimenAreaTurnsWeightIntoPressure) {
-  // Nine tiles with nine times the mass: the same experiment.
+  // Nine tiles with nine times the mass.
   TiltTrialOptions large = light();
   large.specimen_area = 9;
   large.stage.mass = 0.09;

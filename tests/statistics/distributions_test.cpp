@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Student's t, F and normal distribution against values to twenty digits (incomplete beta function with 50
-// digits, by bracketing) and closed forms.
+// Student's t, F and normal distribution against closed forms and twenty digits (incomplete beta function
+// with 50 digits).
 #include "engine/statistics/distributions.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joins by equal cells, shared columns, unmatched rows; SI; text.
+// Joins, unmatched rows; SI; text.
 #include "engine/statistics/table_operations.hpp"
 
 #include <gtest/gtest.h>

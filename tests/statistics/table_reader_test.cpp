@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables in every form written by loggers and spreadsheets; refusals by line and column.
+// Tables from loggers and spreadsheets; refusals by line and column.
 #include "engine/statistics/table_reader.hpp"
 
 #include <cmath>
@@ -113,7 +113,6 @@ std::vector<std::string> warnings_of(const std::string& text, const TableForm& f
   return warnings.all;
 }
 
-// The numbers are read; the head keeps the unit.
 TEST(TableReader, AnUnknownUnitStaysInTheHead) {
   EXPECT_EQ(csv("x [s],T [degC]\n1,20\n"), "x [s],T [degC]\n1,20\n");
   EXPECT_EQ(warnings_of("x [s],T [degC],U [mV]\n1,20,3\n"),
@@ -129,7 +128,7 @@ TEST(TableReader, AnUnknownUnitStaysInTheHead) {
             "time [s],T [\xC2\xB0"
             "C]\n1,20.5\n");
   EXPECT_EQ(csv("T,U\n[K],[V]\n20,1\n"), "T [K],U [V]\n20,1\n");
-  // By the new name and by the name in the file.
+  // By the new name and the file's name.
   EXPECT_EQ(csv("Temp [degC]\n20\n", with([](TableForm& f) { f.names = {{"T", "Temp"}}; })), "T\n20\n");
   EXPECT_EQ(csv("time,T\ns,degC\n1,20\n", with([](TableForm& f) {
                   f.units = {{"T", "1"}};
@@ -171,7 +170,7 @@ TEST(TableReader, BytesOfWindowsAreItsCharacters) {
   EXPECT_EQ(csv("n,note\n1,\x81\xE4\n"), "n,note\n1,\xEF\xBF\xBD\xC3\xA4\n");
 }
 
-// Local time steps back an hour in autumn; only the key distinguishes this step from unordered rows.
+// Only the key distinguishes the autumn clock change from unordered rows.
 TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
   const TableForm winter = with([](TableForm& f) { f.steps_back = StepsBack::winter_time; });
   const std::string quarters =
@@ -326,7 +325,7 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "line 3, column 2 (b): \"#VALUE!\" is no nu");
   EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
   EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
-  // Lines above a table resemble a table with one column.
+  // Looks like a table with one column.
   EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
             "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
             "skip=");
@@ -342,7 +341,6 @@ TEST(TableReader, QuotedCellsGoOnOverLines) {
   EXPECT_EQ(csv("a\tb\n1\t\"x\ny\"\n2\tz\n"), table);
   EXPECT_EQ(read(utf16("a,b\n1,\"x\ny\"\n2,z\n", true)).csv(), table);
   EXPECT_EQ(csv("a,b\r\r\n1,\"x\r\r\ny\"\r\r\n2,z\r\r\n"), table);
-  // Separators, doubled quotes, # and empty lines belong to the cell.
   const std::string all = "n,words,more\n1,\"x, \"\"y\"\"\n\n# no comment; z\",\"u\nv\"\n2,w,w\n";
   EXPECT_EQ(csv(all), all);
   EXPECT_EQ(csv("words,n\n\"x\ny\",1\n"), "words,n\n\"x\ny\",1\n");
@@ -375,14 +373,14 @@ TEST(TableReader, AQuoteThatIsClosedNowhereOrFarBelowIsRefused) {
   EXPECT_EQ(csv("a,b\n1,2\n\"measured\nby Li\"\n"), "a,b\n1,2\n");
 }
 
-// The reader looks once for a following row, not at each quote: minutes otherwise.
+// One search for a following row, not one per quote: minutes otherwise.
 TEST(TableReader, ManyQuotesAreGoneOverOnce) {
   std::string quotes = "a,b\n";
   for (int k = 0; k < 200000; ++k) quotes += "\"\n";
   EXPECT_NE(refusal(quotes).find("line 2: there is 1 cell under 2 heads"), std::string::npos);
 }
 
-// Lines above a table with another separator look like rows.
+// Another separator: looks like rows.
 TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
   EXPECT_EQ(
       refusal("Logger X\nSerial 5\nload [kN],time [s]\n1.5,0\n2.5,1\n"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Budgets of models with known truth: coverage and width of the interval, shares of the parts, refusals.
+// Budgets of models with known truth: coverage and width, shares, refusals.
 #include "engine/study/budget.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,7 @@ namespace asperity {
 namespace {
 namespace budget_test {
 
-// A plausible experiment: scatter over seeds, a scattering discretisation error of order 1 to 2, uncertain
-// inputs of a slightly curved model.
+// Scatter over seeds, a scattering discretisation error of order 1 to 2, uncertain inputs, slight curvature.
 struct Experiment {
   double scatter, of_cells, order, cells_scatter;
   std::vector<double> slopes, curvatures, truth;
@@ -80,7 +79,7 @@ BudgetAsk ask_of(const Trial& trial) {
   };
 }
 
-// Half the width of the interval, given every error's law.
+// Given every error's law.
 double known_half_width(const Trial& trial) {
   const Experiment& e = trial.experiment;
   const double n = static_cast<double>(trial.request.replicates);
@@ -137,7 +136,7 @@ BudgetRequest three_parts() {
   return r;
 }
 
-// Scatter ±.3 in turn; .9 on the coarse grid and .3 on the fine one; .09 and .009 by tolerance.
+// Scatter ±.3; .9 on the coarse grid, .3 on the fine one; .09 and .009 by tolerance.
 double known_answer(const BudgetRequest& r, const BudgetSetting& run) {
   const double of_cells = run.cells == 0 ? .9 : .3;
   const double of_solver = 90 * r.tolerances[run.tolerance];
@@ -160,7 +159,7 @@ double u_of(const Budget& budget, const std::string& name) {
 
 TEST(Budget, SharesAreThosePutIn) {
   const Budget b = known_budget(three_parts());
-  // The change of -.6 times 1/(2^p - 1), whose deviation over p from 1 to 2 is .18616.
+  // -.6 times 1/(2^p - 1), whose deviation over p from 1 to 2 is .18616.
   EXPECT_NEAR(u_of(b, "sampling"), .3 * std::sqrt(6.0 / 5) / std::sqrt(6), 1e-12);
   EXPECT_NEAR(u_of(b, "cells"), .6 * .18616, 1e-5);
   EXPECT_NEAR(u_of(b, "solver"), .081 / 9 / std::sqrt(3.0), 1e-12);
@@ -186,7 +185,7 @@ TEST(Budget, HalvingAPartCostsWhatItsRunsTake) {
       EXPECT_EQ(part.halving, "18 more replicates");
       EXPECT_NEAR(*part.halving_seconds, 18 * 1.25, 1e-12);
     } else if (part.name == "cells") {
-      // Order 1.5: 2^(2/3) as many cells a side; time with their square.
+      // Order 1.5: 2^(2/3) as many cells a side; time ~ cells².
       EXPECT_EQ(part.halving, "cells = 204");
       EXPECT_NEAR(*part.halving_seconds, 6 * (204.0 / 128) * (204.0 / 128), 1e-9);
     } else if (part.name == "hardness") {
@@ -295,7 +294,7 @@ TEST(Budget, WithoutAPolynomialTheInputsAreOneRow) {
   EXPECT_FALSE(b.warnings.empty());
 }
 
-// The tip removes 4 % per unit of its radius; noise of 0.3.
+// The tip removes 4 % per radius unit; noise 0.3.
 TEST(Budget, TipAndNoiseOfAnInstrumentAreParts) {
   BudgetRequest r;
   r.replicates = 6;
@@ -312,7 +311,7 @@ TEST(Budget, TipAndNoiseOfAnInstrumentAreParts) {
   const auto part = [&](const std::string& name) {
     return *std::ranges::find(b.parts, name, &BudgetPart::name);
   };
-  // 1/(2^p - 1) of p from 1 to 2: mean 0.58, scatter 0.19.
+  // 1/(2^p - 1): mean 0.58, scatter 0.19.
   EXPECT_NEAR(part("tip").uncertainty, 0.4 * 0.19, 0.01);
   EXPECT_NEAR(part("noise").uncertainty, 0.3, 0.1);
   EXPECT_NEAR(b.value, 10 - 0.4 + 0.58 * 0.4, 0.3);
@@ -344,7 +343,7 @@ TEST(Budget, RoughFitIsSaidOnce) {
   EXPECT_EQ(text.find(sentence, first + 1), std::string::npos) << text;
 }
 
-// The first batch measures the time; the others hold all runs known by then.
+// The first batch measures the time.
 TEST(Budget, RunsComeInBatches) {
   BudgetRequest r;
   r.replicates = 5;
@@ -375,7 +374,7 @@ TEST(Budget, RunsComeInBatches) {
 
 // --- one specimen
 
-// Discretisation errors of rough faces: random, proportional to the cell width, with a drift.
+// As on rough faces: random ~ cell width, with a drift.
 TEST(Budget, OfOneSpecimenHoldsErrorsOfCellsThatAreChance) {
   const int count = sanitized ? 60 : 500;
   for (const double drift : {0.0, 1.0}) {
@@ -432,7 +431,7 @@ TEST(Budget, OfOneSpecimenIsWideWhereNoGridBetweenIsTaken) {
 
 using InputTrial = std::function<std::vector<UncertainInput>(const Stream&)>;
 
-// Intervals that contain 0, the sum of the inputs.
+// Intervals that contain the sum of the inputs, 0.
 int held_of(const InputTrial& trial, const std::vector<InputCorrelation>& correlations = {}) {
   int held = 0;
   for (std::uint64_t k = 0; k < 400; ++k) {

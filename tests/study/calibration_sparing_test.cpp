@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations of expensive models: number of parameter sets, agreement with a full fit, model noise,
-// progress.
+// Calibrations of expensive models: parameter sets, agreement with a full fit, model noise, progress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 namespace asperity::calibration_sparing_test {
 namespace {
 
-// Roughness of `rows` presses, Ra = first (1 - stress/(stress + hardness)), with scatter.
+// Ra = first (1 - stress/(stress + hardness)), with scatter.
 constexpr double true_first = 1.2, true_hardness = 0.9;
 double roughness_of(double first, double hardness, double stress) {
   return first * hardness / (stress + hardness);
@@ -147,7 +146,7 @@ TEST(SparingCalibration, WhatIsNotDeterminedIsGivenNoNumber) {
   EXPECT_NE(found.verdict.find("the product a b"), std::string::npos) << found.verdict;
 }
 
-// Real area on 32 x 32 cells: steps of 1/1024 or coarser; stiffness and factor act as a product.
+// Real area in steps of 1/1024 or coarser; stiffness and factor act as a product.
 struct CountedNodes {
   double nodes = 1024;
   CalibrationRows rows;
@@ -171,7 +170,7 @@ CountedNodes counted_nodes(std::uint64_t seed, double scatter, double nodes = 10
   return made;
 }
 
-// Starts, bounds and difference steps that make Jacobian columns look independent.
+// Jacobian columns look independent from these starts, bounds and steps.
 const std::vector<std::vector<CalibrationParameter>> starts_of_product = {
     {{"E", 1, {}, {}}, {"f", 1, {}, {}}},
     {{"E", 1, 0.1, 10.0}, {"f", 1, 0.1, 1.0}},
@@ -200,14 +199,12 @@ TEST(SparingCalibration, StepsOfTheModelTellNoProductApart) {
               ++fits;
               products += found.verdict.find("only the product E f = 1.") != std::string::npos ? 1 : 0;
             } catch (const Error& error) {
-              // An early end caused by steps refuses the whole fit.
               EXPECT_EQ(error.code(), ErrorCode::not_converged) << error.what();
             }
           }
   EXPECT_GE(products, 0.85 * fits) << fits;
 }
 
-// Determined parameters keep their number despite the steps.
 TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CountedNodes made = counted_nodes(seed, 0.03);
@@ -233,7 +230,6 @@ TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   }
 }
 
-// Optimal product with a factor at its bound: the rows do not push against the bound.
 TEST(SparingCalibration, BoundGivesNoNumberToHalfAProduct) {
   Presses made = presses(3);
   const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
@@ -270,7 +266,7 @@ TEST(SparingCalibration, DerivativesAreAskedForInOneBatch) {
   };
   const Calibration found = calibrate(made.rows, batch, begin, sparing, Monitor::silent());
   EXPECT_EQ(std::ranges::count(batches, 28U),
-            2);  // two parameters of fourteen rows, at the start and the end
+            2);  // two parameters, fourteen rows, start and end
   EXPECT_EQ(found.calls, static_cast<std::int64_t>(14 * (batches.size() + 2)));
 }
 
@@ -281,7 +277,7 @@ class Shares final : public Monitor {
   std::vector<double> shares;
 };
 
-// A fit much longer than forecast: the share still rises, with room for the profile.
+// Much longer than forecast: the share still rises.
 TEST(SparingCalibration, ProgressMovesToTheEnd) {
   Presses made = presses(9);
   Shares shares;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations against known answers: a certified problem, coverage over many experiments of the tilt law tan
-// θ = α + τ0 c (tests/reference/uncertainty_calibration.csv), undetermined parameters, refusals.
+// Calibrations: a certified problem, coverage for the tilt law tan θ = α + τ0 c
+// (tests/reference/uncertainty_calibration.csv), undetermined parameters, refusals.
 #include "engine/study/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ bool warns(const Calibration& of, const std::string& part) {
   return std::ranges::any_of(of.warnings, [&](const std::string& text) { return says(text, part); });
 }
 
-// Angles of specimens with real areas c, each measured `repeats` times.
+// Specimens with real areas c, each measured `repeats` times.
 struct Experiment {
   CalibrationRows rows;
   std::vector<double> c;
@@ -105,7 +105,7 @@ int coverage_sets() {
   return given != nullptr ? std::max(1, std::atoi(given)) : 150;
 }
 
-// A row of tests/reference/uncertainty_calibration.csv, results by `method`.
+// A row of tests/reference/uncertainty_calibration.csv for `method`.
 struct Kind {
   std::size_t specimens = 0;
   double ratio = 0, between = 0, correlation = 0, width = 0;
@@ -157,7 +157,7 @@ TEST(Calibration, WidthsOfIntervalsAreThoseOfTheReference) {
     EXPECT_NEAR(found.median_width() / kind.width, 1, 0.08) << kind.specimens << " " << kind.ratio;
   }
   for (const Kind& kind : reference_kinds("specimen means t(m-2)")) {
-    if (kind.specimens < 6) continue;  // a median over one degree of freedom scatters widely
+    if (kind.specimens < 6) continue;  // a median over one degree of freedom scatters
     Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, 60, CalibrationBasis::specimens);
     EXPECT_EQ(found.by_specimens, found.sets);
     EXPECT_NEAR(found.median_width() / kind.width, 1, 0.25) << kind.specimens << " " << kind.ratio;
@@ -180,7 +180,6 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
 }
 
 TEST(Calibration, FewSpecimensHideTheirScatter) {
-  // More specimens show the same scatter more often.
   const Coverage few = coverage_of(3, 4, 0.1, coverage_sets()),
                  many = coverage_of(12, 4, 0.1, coverage_sets());
   EXPECT_LT(few.by_specimens, many.by_specimens);
@@ -237,7 +236,7 @@ TEST(Calibration, ProfileEndsWhereTheSumOfSquaresMeetsTheCut) {
   const Calibration found = calibrate({misra_y}, misra, start);
   const CalibratedParameter& b2 = found.parameters[1];
   for (const double end : {*b2.profile_low, *b2.profile_high}) {
-    // Given b2, the best b1 has a closed form.
+    // b1 has a closed form.
     double top = 0, bottom = 0, sum = 0;
     for (std::size_t k = 0; k < misra_x.size(); ++k) {
       const double g = 1 - std::exp(-end * misra_x[k]);
@@ -267,7 +266,6 @@ TEST(Calibration, ProfileOfAStraightModelIsItsLinearisedInterval) {
 }
 
 TEST(Calibration, CurvedModelIsToldAndItsProfileIsLopsided) {
-  // Poorly known rate: the interval is longer upwards.
   const std::vector<double> x = {1, 2, 3, 4, 5, 6}, y = {0.55, 0.95, 0.85, 1.15, 0.9, 1.05};
   const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
     return saturating(x[row], q);
@@ -303,7 +301,7 @@ TEST(Calibration, CallsOfTheModelAreCountedAndFewForALaw) {
   EXPECT_LE(calls / 14, 30);  // parameter sets
 }
 
-// --- what rows do not determine
+// --- undetermined parameters
 
 TEST(Calibration, OneRealAreaDeterminesTheSumAlone) {
   Experiment made = experiment(1, 1, 0, 5, 14);
@@ -321,7 +319,6 @@ TEST(Calibration, OneRealAreaDeterminesTheSumAlone) {
   EXPECT_TRUE(says(found.verdict, "`load` is 5 N and the specimen is specimen 1 in all rows"))
       << found.verdict;
   EXPECT_TRUE(says(found.verdict, "whether specimens scatter cannot be seen")) << found.verdict;
-  // Up to the scatter of fourteen rows.
   double mean = 0;
   for (const double y : made.rows.y) mean += y / 14;
   EXPECT_NEAR(found.fitted[0], mean, 1e-9);
@@ -481,7 +478,7 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
               1e-6);
 }
 
-// Nearly equal real areas determine a sum; noise often drives a parameter to its bound.
+// Nearly equal real areas determine a sum only.
 TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   int at_bound = 0;
   for (const double ratio : {1.01, 1.05, 1.1, 1.3})
@@ -504,7 +501,7 @@ TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   EXPECT_GT(at_bound, 40);
 }
 
-// The other parameter's profile lets the bounded one move: S at its ends, by a fit.
+// S at the ends, by a fit of the bounded parameter.
 TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
   const Experiment made = experiment(6, 4, 0, 3);
   const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
@@ -602,7 +599,7 @@ TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
       warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
 }
 
-// One parameter; the faces differ by a factor of 1 - d and 1 + d.
+// Faces differ by a factor of 1 - d and 1 + d.
 TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
   constexpr double d = 0.1, u = 1e-9;
   const std::vector<CalibrationParameter> start = {{"q", 1, {}, {}}};
@@ -626,14 +623,13 @@ TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
     EXPECT_TRUE(says(found.verdict, "a mean over 2 replicates, whose scatter makes 100 % of u² of q"));
     return *found.parameters[0].standard_error;
   };
-  // Variances: 2 q² d² for a single face, q² d² for the mean over both.
+  // Variances: 2 q² d² for one face, q² d² for both.
   EXPECT_NEAR(error_of_q({}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "A", "A", "A"}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "A", "B", "B"}), 2 * d * std::sqrt(2 / 2.0 + 1), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "B", "C", "D"}), 2 * d * std::sqrt(2 / 4.0 + 1), 1e-7);
 }
 
-// The model knows other faces of the same kind.
 TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
   constexpr int sets = 60;
   const auto held = [](std::size_t faces) {
@@ -730,7 +726,7 @@ TEST(Calibration, ModelWithoutAValueNamesRowAndParameters) {
 }
 
 TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
-  // The first step from a poor start leaves the domain of the logarithm.
+  // Beyond the first step the logarithm is undefined.
   const std::vector<double> x = {1, 2, 3, 4, 5, 6};
   CalibrationRows rows;
   for (const double v : x) rows.y.push_back(std::log(0.5 * v) + (v == 3 ? 0.01 : 0));
@@ -742,7 +738,7 @@ TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
 }
 
 TEST(Calibration, NoisyModelNeedsLargerSteps) {
-  // At a tolerance of 1e-5, differences of 1e-3 see the noise, those of 0.1 hardly.
+  // Tolerance 1e-5: differences of 1e-3 see the noise, of 0.1 hardly.
   const Experiment made = experiment(6, 4, 0, 3);
   const CalibrationModel noisy = [&](std::span<const double> q, std::size_t row) {
     const double exact = q[0] + q[1] * made.c[row];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closed forms against printed numbers and each other: work equals stored energy, Hertz friction is
-// continuous in its cap, and a cap out of reach is no cap.
+// Closed forms against printed numbers and each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +47,7 @@ TEST(Exact, WorkDoneIsEnergyStored) {
   const BoxParaboloid box = box_paraboloid_at_approach(3, 7, 0.1);
   EXPECT_NEAR(work(0.1, [](double d) { return box_paraboloid_at_approach(3, 7, d).load; }) / box.energy, 1,
               1e-7);
-  // p̄ dδ of a wave, by Simpson's rule in √p̄, at half the pressure of full contact.
+  // ∫ p̄ dδ by Simpson's rule in √p̄, at half the pressure of full contact.
   const double full = one_wave(0.01, 1, 1, 1).full_pressure;
   const WavyContact half = one_wave(0.01, 1, 1, full / 2);
   constexpr int steps = 4000;
@@ -140,8 +139,8 @@ TEST(Exact, FarScalesKeepTheirDigits) {
   EXPECT_THROW(one_wave(1e-200, 1e200, 1, 1), Error);
 }
 
-// Digits of a sum in 140 decimals. One row of the file (D = 2.99, node 75, 75) has a misprinted digit and is
-// skipped; the generator's tests contain its value.
+// Digits of a sum in 140 decimals. The row D = 2.99, node 75, 75 has a misprinted digit; the generator's
+// tests contain its value.
 TEST(Exact, GoldenHeightsToTheLastDigit) {
   std::ifstream file(std::string(ASPERITY_TEST_DATA) + "/wm_heights.csv");
   ASSERT_TRUE(file);
@@ -161,7 +160,7 @@ TEST(Exact, GoldenHeightsToTheLastDigit) {
     options.span = span;
     options.phases = WavePhases::golden;
     const double found = weierstrass_mandelbrot_height(options, i, j);
-    // The table is for decimal D; doubles represent some D only to 4e-16.
+    // The table is for decimal D, some doubles only to 4e-16.
     if (D * 4 == std::floor(D * 4))
       EXPECT_EQ(found, height) << line;
     else

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chart of a study: a line per method, rings around the front, marks at the rim for rows without an
-// error.
+// Charts: a line per method, rings around the front, rim marks for rows without an error.
 #include "engine/study/study_chart.hpp"
 
 #include <gtest/gtest.h>

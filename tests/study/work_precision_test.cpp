@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The course of a study on the test's clock: runs, repeats, order, budget, failures, stops.
+// The course of a study: runs, order, budget, failures, stops.
 #include "engine/study/work_precision.hpp"
 
 #include <gtest/gtest.h>
@@ -162,7 +162,7 @@ TEST_F(Study, MinusNoughtIsNotNought) {
 // --- the budget
 
 TEST_F(Study, ABudgetIsQuotedAndObeyed) {
-  // One run takes 0.004, 0.016, 0.066, 0.26, 1.05 s; with the first run four times this time.
+  // 0.004, 0.016, 0.066, 0.26, 1.05 s a run; with the first run four times.
   const StudyRequest request{{way_of_cells("grid", {64, 128, 256, 512, 1024})}, 1.0, 3, 2.0};
   const StudyResult result = run(request);
   EXPECT_LE(result.total_seconds, 2.0);
@@ -187,7 +187,7 @@ TEST_F(Study, WithoutABudgetTheQuoteSaysWhatItTakes) {
 }
 
 TEST_F(Study, TheTruthHasTheFirstCallOnTheBudget) {
-  // The truth takes 1.05 s; the most expensive settings make room.
+  // The truth takes 1.05 s.
   const StudyResult result = run({{way_of_cells("grid", {64, 128, 256, 512})}, cells(1024), 5, 2.0});
   EXPECT_TRUE(result.truth);
   EXPECT_EQ(result.rows[0].end, StudyRow::End::measured);
@@ -214,7 +214,7 @@ TEST_F(Study, ATruthThatFailsIsAnError) {
 }
 
 TEST_F(Study, RunsThatGrowSlowerThanTheBudgetAreCutShort) {
-  // After the first runs everything takes ten times as long.
+  // Ten times as long after the first runs.
   work.takes = [](const Knobs&, int call) { return call < 2 ? 0.1 : 1.0; };
   const StudyResult result = run({{way_of_cells("grid", {64, 128})}, 1.0, 5, 4.5});
   EXPECT_LE(result.total_seconds, 4.5 + 1.0);
@@ -230,7 +230,7 @@ TEST_F(Study, AnUnknownKnobIsForecastByItsGrowth) {
   work.answer = [](const Knobs&, int) { return StudyAnswer{1.0, ""}; };
   const StudyWay way = make_way(
       "terms", {{"terms", {std::int64_t{10}, std::int64_t{20}, std::int64_t{40}, std::int64_t{80}}, true}});
-  // 0.01, 0.04, 0.16, 0.64 s a run; with one timed run twice this time.
+  // 0.01, 0.04, 0.16, 0.64 s a run; with one timed run twice.
   const StudyResult result = run({{way}, 1.0, 1, 0.5});
   EXPECT_EQ(result.rows[2].end, StudyRow::End::measured);
   EXPECT_EQ(result.rows[3].end, StudyRow::End::left_out);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quality of discretisation error estimates on seeds without tuning, against exact answers (Hertz,
-// Westergaard) or eight times the cells a side (self-affine, capped, blasted, fractal; free and periodic;
-// light to heavy). Most discretisation error is random, so an estimate cannot know its sign and size.
-// Required: the true error is within three estimates. Estimates above three true errors are bounded
-// separately for the area fraction, whose error is not random, and for estimates from a finer grid.
+// Discretisation error estimates on seeds without tuning, against exact answers (Hertz, Westergaard) or eight
+// times the cells a side. Most of the error is random; required is a true error within three estimates.
+// Estimates above three true errors are bounded for the area fraction (not random) and for estimates from a
+// finer grid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,7 +106,7 @@ struct Surveys {
              Values exact = {}) {
     if (exact.empty()) {
       const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
-      // An approach counts from the first touch, also between the nodes of this grid.
+      // The first touch is between the nodes on this grid, too.
       const double rise = rise_between_nodes(fine.geometry().combined(), boundary == Boundary::periodic);
       exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
                {"area_fraction", fine.corrected_area_fraction()},
@@ -237,8 +236,8 @@ const Surveys& surveys() {
   return all;
 }
 
-// The first touch dominates and is known: 94 % within three estimates, 75 to 81 % within a factor of three;
-// 100 % from the finer grid.
+// Dominated by the known first touch. Within three estimates: 94 %; within a factor of three: 75 to 81 %;
+// from the finer grid 100 %.
 TEST(DiscretisationEstimates, OfAPrescribedApproach) {
   Surveys survey;
   for (const std::uint64_t seed : {309, 310, 311, 312}) add_at_approach(survey, seed);
@@ -258,8 +257,8 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
     EXPECT_GE(survey.covered(quantity), 0.9) << quantity;
   for (const char* quantity : {"separation", "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.covered(quantity), 0.85) << quantity;
-  // 98, 87 and 82 %. Mostly random errors, here of the energy: 54 %. Two errors from equal normal laws agree
-  // within a factor of three in 59 %.
+  // 98, 87 and 82 %; energy 54 %, mostly random: two errors from equal normal laws agree within a factor of
+  // three in 59 %.
   EXPECT_GE(survey.within("area_fraction"), 0.9);
   EXPECT_GE(survey.within("approach"), 0.85);
   EXPECT_GE(survey.within("corrected_area_fraction"), 0.8);
@@ -269,7 +268,7 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
 TEST(DiscretisationEstimates, FromAFinerGridAreSharp) {
   const Survey& survey = surveys().finer;
   survey.print();
-  // Above and below. Measured: 100, 93, 98, 97, 96, 93, 100 and 100 %.
+  // Measured: 100, 93, 98, 97, 96, 93, 100 and 100 %.
   for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
                                "mean_gap", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.within(quantity), 0.9) << quantity;

@@ -50,7 +50,7 @@ AdhesiveAnswer under(const AdhesiveProblem& problem, double load, const Adhesive
   return adhere_at_pressure(problem, load / problem.contact.grid.area(), start, Monitor::silent());
 }
 
-// Largest pull, by bisection to 0.1 % of 2πwR; each load starts from zero load.
+// By bisection to 0.1 % of 2πwR; each load starts from zero.
 double pull_off(const AdhesiveProblem& problem) {
   const AdhesiveAnswer rest = under(problem, 0);
   double held = 0.5, lost = 1.1;

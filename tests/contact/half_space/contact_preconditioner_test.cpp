@@ -123,8 +123,8 @@ class SmoothField {
   std::vector<double> divisors_;
 };
 
-// In double precision. A sweep sets nodes of one chessboard colour to the mean of their neighbours (not
-// across the seam of an odd periodic side). Swept is the residual minus its smooth field.
+// In double precision: sweeps set one chessboard colour to the mean of the neighbours (not across the seam of
+// an odd periodic side), for the residual minus its smooth field.
 Field defined(const Field& r, const Mask& free, double aspect, Boundary boundary, int sweeps) {
   const int nx = r.nx(), ny = r.ny();
   const bool wraps_x = boundary == Boundary::periodic && nx % 2 == 0;
@@ -276,7 +276,7 @@ TEST(ContactPreconditioner, ANewFreeSetForgetsTheOld) {
   for (std::size_t k = 0; k < a.size(); ++k) ASSERT_EQ(a[k], b[k]) << k;
 }
 
-// The first tile contains values a thousand times larger at the row below the second, shorter tile.
+// The first tile is a thousand times larger at the row below the shorter second one.
 TEST(ContactPreconditioner, ATileTakesNothingFromTheTileBefore) {
   constexpr int nx = 128, sweeps = 8;
   set_thread_count(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presses by approach and flattening: Hertz, consistency with the load, the limits of periodic tile and cap,
-// grids of any shape.
+// Presses by approach and flattening: Hertz, the corresponding load, limits of periodic tile and cap, any
+// grid.
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(ApproachSolve, HertzForceFollowsTheApproach) {
         1e-6);
     const HalfSpaceAnswer answer = by_approach(problem, .1);
     EXPECT_NEAR(answer.mean_pressure * 25, 19.233304448, 1e-3 * 19.233304448);
-    // 511 nodes miss the top of the sphere: the approach counts from the highest node.
+    // 511 nodes miss the top: the approach counts from the highest node.
     EXPECT_NEAR(answer.approach, .1, 1e-6 * .1);
     EXPECT_NEAR(answer.peak_pressure, 4.591613212, 3e-3 * 4.591613212);
     EXPECT_LE(answer.certificate.worst(), 1e-6);
@@ -281,7 +281,6 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
         EXPECT_EQ(flat.contacts, static_cast<std::int64_t>(problem.grid.nodes())) << scene;
         EXPECT_LE(flat.iterations, 60) << scene;
         if (boundary == Boundary::free) continue;
-        // At most the load of elastic full contact, more than a tenth of this load.
         HalfSpaceProblem elastic = problem;
         elastic.yield = {};
         EXPECT_LE(flat.mean_pressure, pressure_of_full_contact(elastic).value() * (1 + 1e-9)) << scene;
@@ -305,7 +304,7 @@ TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
   }
 }
 
-// All nodes but the lowest are at the cap: one load, many approaches.
+// All but the lowest nodes at the cap: one load, many approaches.
 TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   for (const std::uint64_t seed : {8U, 3U}) {
     SelfAffineOptions options;
@@ -368,7 +367,6 @@ TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad)
   EXPECT_EQ(near.mean_pressure, flat.mean_pressure);
 }
 
-// Without a hardness, or with one too small for rounding to matter.
 TEST(FlatteningSolve, V1_FullContactThatIsSeenTakesTheLeastLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();

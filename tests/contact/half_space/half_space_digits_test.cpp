@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digits of half-space contacts: flats, lightest loads, and pressures close to the hardness, where hardly a
-// node fixes the offset. Tolerances name the measured error.
+// Half-space digits on flats, at the lightest loads, and close to the hardness, where hardly a node fixes the
+// offset. Tolerances name the measured error.
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -246,8 +246,7 @@ TEST_P(CloseToHardness, NoNodeIsLeftWithinRoundingOfABound) {
     }
 }
 
-// The last nodes to yield fix the approach. Closest to the hardness a single node is below the cap and
-// follows its own compliance.
+// The last nodes to yield fix the approach; closest to the hardness a single node follows its own compliance.
 TEST_P(CloseToHardness, TheApproachRisesSteadilyToItsEnd) {
   HalfSpaceProblem problem = rough_problem(32, GetParam(), 3, 1e-9);
   const double cap = problem.yield.cap = .05;
@@ -387,8 +386,7 @@ TEST_P(Flattening, TheLeastSharesAreMet) {
 INSTANTIATE_TEST_SUITE_P(Boundaries, Flattening, testing::Values(Boundary::periodic, Boundary::free),
                          [](const auto& boundary) { return std::string(name(boundary.param)); });
 
-// Nearly all nodes are just at the limit when pressed again: after a snap to the limit the others must
-// rebalance the load.
+// Nearly all nodes are at the limit: after a snap the others must rebalance the load.
 TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Grid grid = make_grid(24, 47, 24, 624);

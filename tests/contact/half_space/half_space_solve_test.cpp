@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space contact against dense sums and closed forms (Hertz, punch, Westergaard, bi-sinusoid), its cost
-// in transforms, and difficult loads.
+// Half-space contact against dense sums and closed forms (Hertz, punch, Westergaard, bi-sinusoid); cost;
+// difficult loads.
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 
 #include <gtest/gtest.h>
@@ -291,7 +291,7 @@ TEST(HalfSpaceSolve, GapOfYieldedGroundIsWhatItGaveWay) {
     }
 }
 
-// Pairs of transforms of the finest grid, nested grids included.
+// Nested grids included.
 TEST(HalfSpaceSolve, TakesFewTransforms) {
   for (const int n : {256, 512})
     for (const double load : {.005, .03})
@@ -378,7 +378,7 @@ TEST(HalfSpaceSolve, RefusesALoadTheHardnessCannotCarry) {
   const HalfSpaceAnswer nearly = solve(problem, std::nextafter(2.0, 0.0));
   EXPECT_TRUE(nearly.converged);
 }
-// Twelve of sixteen nodes carry the load exactly, all at the cap.
+// Twelve of sixteen nodes at the cap.
 TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   Field h(4, 4, 1.0);
   for (int i = 0; i < 4; ++i) h(i, 0) = -50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves recalled from a store: the same bits as computed; every number of the problem is in the key.
+// Solves recalled from a store have the same bits; the key contains every number.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Projection on bounds and load: the load to a few ulps, the bounds to the bit, impossible loads; loads of
-// lines.
+// Projection on bounds (exact) and load (a few ulps); loads of lines.
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presses from a similar press as initial guess: the same answer for fewer transforms, also from a useless
-// guess.
+// Presses from a similar press: the same answer for fewer transforms, also from a useless guess.
 #include <gtest/gtest.h>
 
 #include <cmath>

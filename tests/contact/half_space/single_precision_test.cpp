@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space solves with transforms in single precision: attainable tolerance, agreement with double
-// precision, memory.
+// Half-space solves in single precision: tolerance, agreement with double precision, memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +57,6 @@ TEST_P(SinglePrecision, MeetsEachToleranceAndAgreesWithDouble) {
   }
 }
 
-// Also after a double-precision solve large enough to round its steps.
 TEST_P(SinglePrecision, GapsAreDouble) {
   for (const auto& [n, single] : {std::pair(48, true), std::pair(256, false)}) {
     const HalfSpaceProblem problem = rough_problem(n, GetParam(), 2);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of a contact in slabs, in one process, against the whole grid. Several processes:
-// tests/scripts/runner/spread.sh.
+// Contacts in slabs, one process. Several: tests/scripts/runner/spread.sh.
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 #include <gtest/gtest.h>
