@@ -95,7 +95,6 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
     EXPECT_NE(state.chosen()->text().find(", with the outline between the nodes, it comes to "),
               std::string::npos)
         << state.chosen()->text();
-    // The outline's error estimate.
     const DiscretisationEstimate estimate = discretisation_estimate(state, "corrected_area_fraction");
     EXPECT_NEAR(estimate.margin * estimate.relative(), state.outline()->doubt, 1e-12);
     EXPECT_GE(state.chosen()->error, state.outline()->doubt);
@@ -103,7 +102,7 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
   }
 }
 
-// On cells as wide as the dents: 1.2 to 2.6 times the requested error.
+// Cells as wide as the dents give 1.2 to 2.6 times the requested error.
 TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   const PressRequest request{PressBy::pressure, 1e7, {}};
   for (const char* of : {"corrected_area_fraction", "approach"}) {
@@ -135,7 +134,6 @@ TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
 }
 
 TEST(AccuracyChoice, AnOutlineNeedsACorrectedAreaAndAKnownLaw) {
-  // Without a requested area, only the energy.
   const State energy = SpecimenPair(asking(rough(128), rigid_material(), Boundary::periodic, 0.3, {"energy"}))
                            .press({PressBy::pressure, 1e7, {}});
   EXPECT_FALSE(energy.outline());
@@ -440,7 +438,7 @@ TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
   EXPECT_EQ(pair.lower().digest(), digest);
   EXPECT_FALSE(pair.under_load());
   {
-    // Not enough memory for nine times as much.
+    // Enough memory for the press, but not for nine times as much.
     Scene bare = scene;
     bare.accuracy.estimate = Accuracy::Estimate::none;
     memory::set_limit(memory::held() + 2 * SpecimenPair(bare).plan().bytes_peak());
@@ -525,7 +523,7 @@ Surface waves(int nx, int ny, std::uint64_t seed = 1) {
   return self_affine_surface(o).with_material(material);
 }
 
-// Single precision saves no steps, hence no choice.
+// Single precision saves no steps, so the precision is not chosen.
 TEST(AccuracyChoice, EitherPrecisionTakesAsManySteps) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const std::uint64_t seed : {1, 2, 3})

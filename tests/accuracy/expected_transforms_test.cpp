@@ -52,7 +52,7 @@ struct Contact {
   Plan plan;
 };
 
-// The values of all controls for one state.
+// The values of each control for the same state.
 double value_of(const State& state, PressBy by) {
   switch (by) {
     case PressBy::pressure:
@@ -178,7 +178,7 @@ TEST(ExpectedTransforms, ThatAreTriedAreNotCounted) {
   EXPECT_EQ(cost::transforms(), before);
 }
 
-// The closing load of a step is ~ 1/cell.
+// The closing load of a step is proportional to 1/cell.
 TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   Scene scene = rough(192, 192);
   Field steps = scene.lower.heights();
@@ -251,7 +251,7 @@ TEST(PlanOfAPress, RefusesWhatAPressRefuses) {
             error_of([&] { test::press(contact.scene, PressBy::pressure, -1); }));
   EXPECT_NE(error_of([&] { contact.plan_of(PressBy::flatten, 2); }).find("`flatten` is 2"),
             std::string::npos);
-  // Only the solve finds the limit.
+  // Only the solve finds the limit: the plan contains the guess.
   const Plan plan = contact.plan_of(PressBy::approach, 1e6);
   EXPECT_EQ(plan.transforms, contact.plan.transforms);
   EXPECT_NE(plan.text().find("cannot be reached"), std::string::npos) << plan.text();

@@ -190,7 +190,7 @@ TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   scene = adhering(1);
   scene.accuracy.estimate = Accuracy::Estimate::coarser;
   EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
-  scene.effects.find<AdhesionOptions>()->work = 0;  // then there is nothing to compute
+  scene.effects.find<AdhesionOptions>()->work = 0;
   scene.effects.set(PlasticityOptions{1.0});
   EXPECT_EQ(refused(scene), "");
 }

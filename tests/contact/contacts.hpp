@@ -65,7 +65,7 @@ inline State press(const Scene& scene, PressBy by, double value) {
   return ready(scene)->press({by, value, {}});
 }
 
-// Empty without an Error.
+// Text of the Error; empty without an Error.
 inline std::string error_of(const std::function<void()>& call) {
   try {
     call();

@@ -14,8 +14,8 @@
 namespace asperity::layer_multiplier_test {
 namespace {
 
-// u = U(z) sin qx, w = W(z) cos qx, σ_xz = T(z) sin qx, σ_zz = S(z) cos qx in plane strain, t = 1 and E/(1 −
-// ν²) = 1: four linear equations from the base, z = 0; fourth-order Runge-Kutta.
+// Plane strain, t = 1, E/(1−ν²) = 1: u = U(z) sin qx, w = W(z) cos qx, σ_xz = T(z) sin qx, σ_zz = S(z) cos qx
+// give four linear equations from the base, z = 0; fourth-order Runge-Kutta.
 using Through = std::array<double, 4>;
 
 Through surface_from(Through y, double q, double poisson) {

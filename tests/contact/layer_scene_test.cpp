@@ -86,7 +86,6 @@ TEST(LayerScene, BoundsHoldWhatATighterSolveFinds) {
       EXPECT_LE(std::abs(loose.energy() - tight.energy()), e.energy + f.energy);
       EXPECT_LE(std::abs(loose.mean_gap() - tight.mean_gap()), e.mean_gap + f.mean_gap);
       EXPECT_LE(std::abs(loose.peak_pressure() - tight.peak_pressure()), e.peak_pressure + f.peak_pressure);
-      // The bounds are tight.
       EXPECT_LT(e.energy, 0.05 * loose.energy());
       EXPECT_LT(e.approach, 0.05 * loose.approach());
       EXPECT_LT(f.energy, 1e-8 * loose.energy());

@@ -133,7 +133,6 @@ TEST(LayerContact, OnAThickLayerIsThatOfAHalfSpace) {
     EXPECT_EQ(found.contacts, expected.contacts);
     for (std::size_t k = 0; k < found.pressure.size(); ++k)
       EXPECT_NEAR(found.pressure[k], expected.pressure[k], 1e-6 * expected.peak_pressure);
-    // Plus uniform compression.
     const double compression = 20 * uniform_share(0.3) * 0.01;
     EXPECT_NEAR(found.approach, expected.approach + compression, 1e-8 * found.approach);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The area inside an outline between the nodes: Hertz circles, invariance, missing outlines. Coverage on
-// rough surfaces: tests/accuracy.
+// The area inside an outline between the nodes: Hertz circles, invariance, contacts without an outline.
+// Coverage on rough surfaces: tests/accuracy.
 #include "engine/contact/outline_area.hpp"
 
 #include <algorithm>

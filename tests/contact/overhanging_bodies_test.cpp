@@ -93,7 +93,6 @@ void expect_nothing_off_the_overlap(const State& state, const std::string& what)
   EXPECT_NEAR(block_sum(pressure->values()) * state.grid().cell_area(), state.load(), 1e-9 * state.load());
   EXPECT_NEAR(state.pressure() * state.grid().area(), state.load(), 1e-12 * state.load());
   EXPECT_TRUE(state.converged()) << state.residual();
-  // Nodes in contact overlap within the tolerance.
   EXPECT_NEAR(state.mean_gap(), gaps / static_cast<double>(facing),
               std::max(1e-9, 2 * state.residual()) * state.geometry().peak_to_valley());
   const double yielded = state.plastic_volume() / (static_cast<double>(facing) * state.grid().cell_area());

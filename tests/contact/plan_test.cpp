@@ -119,7 +119,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
   EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
 }
 
-// Half the planned memory to the planned memory, within a mebibyte.
+// A half-space takes at most the planned memory and at least half of this, within a mebibyte.
 TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
                                                {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};

@@ -84,7 +84,6 @@ TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(soft))), 0.25);
   EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(soft), rough.with_material(stiff))), 0.75);
   EXPECT_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(stiff))), 0.5);
-  // Rigid bodies need no moduli.
   Scene rigid = scene_of(rough.with_material(stiff), rough.with_material(soft), {}, Boundary::free);
   rigid.elasticity = RigidOptions{};
   EXPECT_EQ(share(rigid), 0.5);

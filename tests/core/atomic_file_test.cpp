@@ -131,7 +131,7 @@ class PartFile : public InFolder {
   }
 };
 
-// Containers repeat process numbers.
+// Processes of two containers can have the same number.
 TEST_F(PartFile, F11NoTwoNamesAreOne) {
   std::set<fs::path> names;
   for (int k = 0; k < 1000; ++k) names.insert(part_beside(folder / "a.h5"));

@@ -79,7 +79,7 @@ TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {
   }
 }
 
-// Two inexact, nearly equal values give no slope.
+// Two inexact, nearly equal values give no slope: the better value replaces the last.
 TEST(BracketedSecant, AValueInPlaceOfARougherOneKeepsTheSlope) {
   const auto next_of = [](bool instead) {
     BracketedSecant root(4);

@@ -63,13 +63,13 @@ struct OfOne {
   const char* name;
   double (*ours)(double);
   int (*reference)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
-  double low, high;    // domain
+  double low, high;
   double least = -60;  // binary exponent of the smallest arguments
   double greatest = 12;
   int samples = 6000;
 };
 
-// Functions computed by MPFR need few samples.
+// Functions computed by MPFR: a few samples check the call.
 const std::vector<OfOne> functions = {
     {"sin", elementary::sin, mpfr_sin, -1e300, 1e300, -40, 16},
     {"cos", elementary::cos, mpfr_cos, -1e300, 1e300, -40, 16},

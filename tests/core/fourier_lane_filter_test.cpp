@@ -47,7 +47,7 @@ void compare(const Shape& shape, double tolerance) {
   Array<double> expected(in.size()), out(in.size());
   FourierFilter(shape.nx, shape.ny, shape.period_x, shape.period_y).apply(in, expected, factors_of);
   FourierLaneFilter<Real> filter(shape.nx, shape.ny, shape.period_x, shape.period_y, factors_of);
-  for (int repeat = 0; repeat < 2; ++repeat) filter.apply(in, out);  // reuses the work space
+  for (int repeat = 0; repeat < 2; ++repeat) filter.apply(in, out);  // second run on used work space
   for (std::size_t k = 0; k < in.size(); ++k) ASSERT_NEAR(out[k], expected[k], tolerance) << k;
   Array<double> same = in;
   filter.apply(same, same);

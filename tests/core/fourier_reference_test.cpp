@@ -30,7 +30,7 @@ std::vector<double> noise(int n) {
 
 fftw_complex* raw(std::vector<Complex>& values) { return reinterpret_cast<fftw_complex*>(values.data()); }
 
-// To nx/2 + 1 bins a row.
+// ny rows of nx values to ny rows of nx/2 + 1 bins.
 std::vector<Complex> by_fftw(std::vector<double> values, int nx, int ny) {
   std::vector<Complex> bins(static_cast<std::size_t>(nx / 2 + 1) * static_cast<std::size_t>(ny));
   const fftw_plan plan = fftw_plan_dft_r2c_2d(ny, nx, values.data(), raw(bins), FFTW_ESTIMATE);

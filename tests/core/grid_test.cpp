@@ -37,7 +37,7 @@ TEST(Grid, NodesAndCells) {
   EXPECT_DOUBLE_EQ(grid.area(), 20e-12);
 }
 
-// Zero-width cells: endless filling of holes.
+// With zero-width cells the filling of holes would not end.
 TEST(Grid, CellsHaveAWidth) {
   const double least = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(refusal(3, 2, least, 1),

@@ -139,7 +139,6 @@ TEST_P(Parallel, HelpersComeBack) {
         const std::lock_guard lock(mutex);
         seen.insert(std::this_thread::get_id());
       }
-      // Each block waits until all run.
       ++waiting;
       while (waiting.load() < GetParam()) std::this_thread::yield();
     });

@@ -281,7 +281,7 @@ TEST(PaperTables, PresetB) {
   }
 }
 
-// Section 4: μ/μ(D = 2) at r = 0.1, 1, 10, 100, and sd where printed.
+// Section 4: μ/μ(D = 2) at r = 0.1, 1, 10, 100; sd if printed.
 TEST(PaperTables, FrictionRatios) {
   struct Row {
     char preset;
@@ -518,6 +518,7 @@ TEST(PaperTables, ControlsThatMustFail) {
     auto ratio = [&](auto quantity) {
       return over_seeds([&](int seed) { return quantity(2.9, seed) / quantity(2.0, seed); }).mean;
     };
+    // Scaled by rms height the area does not rise with D.
     EXPECT_LT(ratio([&](double D, int seed) {
                 return pressed(preset, D, seed, 0.01, Scaling::six_sd).area_fraction();
               }),
@@ -533,6 +534,7 @@ TEST(PaperTables, ControlsThatMustFail) {
                 return st.stiffness() * heights(preset, D, seed).peak_to_valley();
               }),
               1);
+    // An absolute cap of 2 τ0 breaks the ordering in r.
     EXPECT_GT(ratio([&](double D, int seed) { return mu_of(pressed(preset, D, seed), 100, Cap::absolute); }),
               ratio([&](double D, int seed) { return mu_of(pressed(preset, D, seed), 10, Cap::absolute); }));
   }

@@ -54,7 +54,7 @@ TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
   }
 }
 
-// One radian instead of one degree must not give a coefficient of 0.
+// A step of 1 rad instead of 1 deg must not give a coefficient of 0.
 TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
   for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
     EXPECT_NE(error_of([&] {
@@ -62,7 +62,6 @@ TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
               }).find("above the angle of slip of 26.5651 deg: no step would be held"),
               std::string::npos)
         << step;
-  // A step as wide as the angle holds.
   EXPECT_EQ(slip_angle(line(0, 0), 1, degree, right).held, 0);
   EXPECT_GT(slip_angle(line(0, 0.5), 1, std::atan(0.5) * (1 - 1e-12), right).held, 0);
 }

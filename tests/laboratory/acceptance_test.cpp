@@ -88,7 +88,6 @@ double area_per_load(const Surface& surface, bool yielding = false) {
   return state.corrected_area_fraction() / state.pressure();
 }
 
-// Measurements of one specimen.
 struct Found {
   double Ra, amplitude, excess, area_per_load;
 };
@@ -97,7 +96,7 @@ Found measure(const Surface& surface) {
   return {r.Ra, r.amplitude, excess(surface), area_per_load(surface)};
 }
 
-// Each stress on a virgin pair; each event.
+// After each stress on a virgin pair, and after each event.
 struct Series {
   std::vector<Found> stress, event;
 };

@@ -43,7 +43,7 @@ TEST(Persson, ElasticAreaIsAnErrorFunction) {
     EXPECT_NEAR(std::erf(std::numbers::sqrt2 * share), area, 1e-6);
 }
 
-// Few hills carry a light load: single tiles scatter.
+// Few hills carry a light load, so tiles scatter: means are compared.
 constexpr std::uint64_t seeds = 4;
 
 TEST(Persson, SimulatedAreaOverLoadIsInTheKnownRange) {
@@ -96,7 +96,7 @@ TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
       const State state = pressed(seed, pressure, hardness);
       touching += state.corrected_area_fraction() / seeds;
       capped += state.plastic_fraction() / seeds;
-      // Elastic plus capped nodes.
+      // The load is the sum over elastic and capped nodes.
       const PressureSplit split = state.split(hardness);
       EXPECT_NEAR((split.sum_below + hardness * static_cast<double>(split.above)) /
                       (pressure * static_cast<double>(state.geometry().grid().nodes())),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two rough bodies, elasticity alone, on one thread for complete counts.
+// Two rough bodies on boxes and half-spaces, elasticity alone, on one thread for complete counts.
 #pragma once
 
 #include <algorithm>

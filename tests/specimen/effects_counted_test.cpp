@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Only named effects are computed: transforms, peak bytes, buffers, stored memory and operator applications
-// of every effect and pair. Every effect of the catalogue needs a row of `effects`.
+// Only named effects are computed: the tests count transforms, peak bytes, buffers, stored memory and
+// operator applications for every effect and pair. Every effect of the catalogue needs a row of `effects`.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -31,11 +31,11 @@ using namespace counted;
 struct Effect {
   const char* name;
   std::function<void(Scene&)> add;
-  bool of_boxes = true;         // computed for box elements too
-  const char* needs = nullptr;  // required effect
-  Names excludes{};             // incompatible effects
+  bool of_boxes = true;  // computed for box elements too
+  const char* needs = nullptr;
+  Names excludes{};
   bool changes_the_normal_contact = false;
-  const char* line = nullptr;    // none: a press does nothing for it
+  const char* line = nullptr;    // in the cost; none: a press does nothing for it
   bool of_the_accuracy = false;  // not of the catalogue
 };
 
@@ -117,8 +117,8 @@ Scene with_effects(Scene scene, const Names& names) {
 
 struct Counted {
   Cost press;
-  std::vector<std::pair<std::string, Cost>> by_effect;  // as the state reports it
-  std::int64_t kept = 0;                                // held after the state was destroyed
+  std::vector<std::pair<std::string, Cost>> by_effect;
+  std::int64_t kept = 0;  // held after the state was destroyed
   std::size_t buffers = 0;
   std::int64_t planned = 0;
   int iterations = 0;
@@ -158,7 +158,7 @@ Counted count_once(const Scene& scene, const PressRequest& request) {
   return result;
 }
 
-// The second count; the first fills caches.
+// Returns the second count; the first includes filled caches.
 Counted count(const Scene& scene, const PressRequest& request = {PressBy::pressure, pressed, {}}) {
   count_once(scene, request);
   return count_once(scene, request);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unread quantities are never computed: transforms and bytes of the first and second reading. A state
-// outlives its contact.
+// Unread quantities are never computed: the tests count transforms and bytes of the first and second reading.
+// A state outlives its contact.
 #include <functional>
 #include <memory>
 #include <string>
@@ -110,7 +110,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   }
 }
 
-// Other fields cost the same as unread.
+// Reading one field computes no other.
 TEST_F(LazyState, ReadingOneWorksOutNoField) {
   const std::vector<LazyQuantity> all = lazy_quantities();
   for (const LazyQuantity& quantity : all) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a press and its remains, against the plan.
+// Memory of a press and of the deformed bodies, against the plan.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -97,7 +97,6 @@ TEST(PlasticEvents, APressFlattensBothBodiesByWhatItReports) {
   const double lower_loss = volume_lost(lower, pair.lower()), upper_loss = volume_lost(upper, pair.upper());
   EXPECT_NEAR((lower_loss + upper_loss) / state.plastic_volume(), 1, 1e-9);
   EXPECT_NEAR(lower_loss / upper_loss, 1, 1e-9);
-  // The state keeps its bodies.
   EXPECT_EQ(state.geometry().lower().digest(), lower.digest());
 }
 
@@ -131,7 +130,7 @@ TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
     EXPECT_EQ(pair.press(pressure(megapascals)).plastic_volume(), 0);
     EXPECT_EQ(pair.lower().digest(), lower.digest());
   }
-  // Slightly greater: skips the memory of earlier loads.
+  // A slightly greater load is not covered by the memory of earlier loads.
   EXPECT_LT(pair.press(pressure(100 * (1 + 1e-15))).plastic_volume(), 1e-6 * first);
 }
 
@@ -149,7 +148,7 @@ TEST(PlasticEvents, ALongerDwellUnderTheSameLoadTakesMoreAndAShorterOneNothing) 
   const double first = pair.press({PressBy::pressure, 100 * megapascal, 600.0}).plastic_volume();
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 1e-3 * first);
-  // Both known now; not a greater load for a shorter time.
+  // Both loads are known now; a greater load for a shorter time is not.
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 200 * megapascal, 600.0}).plastic_volume(), first);
 }
@@ -164,7 +163,7 @@ TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
       ASSERT_GT(first.plastic_volume(), 0);
       for (int event = 0; event < 3; ++event) {
         pair.release();
-        // Skips the memory of earlier loads.
+        // Not covered by the memory of earlier loads.
         const State again = pair.press(pressure(100 * (1 + (event + 1) * 1e-15)));
         EXPECT_LT(again.plastic_volume() / first.plastic_volume(), 1e-6) << degrees << " deg, " << hardening;
         EXPECT_NEAR(again.area_fraction(), first.area_fraction(), 1e-3) << degrees << " deg, " << hardening;
@@ -235,7 +234,7 @@ TEST(PlasticEvents, TheSofterBodyLosesMore) {
   SpecimenPair pair(scene);
   const Surface lower = pair.lower(), upper = pair.upper();
   pair.press(pressure(100));
-  // Three times as hard.
+  // Hardness ratio 3.
   const double odds = std::exp(1.5 * (9 - 1.0 / 9));
   EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), odds, 1e-6 * odds);
 }
@@ -315,7 +314,7 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  Field tilted = body.heights();  // periodic continuation
+  Field tilted = body.heights();  // continues across the rim: no warning
   const double height = range(tilted.values()).span();
   for (int i = 0; i < body.grid().nx; ++i)
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;

@@ -123,7 +123,6 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectChangesNoBitAndIsShown) {
       EXPECT_EQ(a.stiffness(), b.stiffness());
       EXPECT_EQ(one.lower().digest(), other.lower().digest());
       EXPECT_EQ(one.upper().digest(), other.upper().digest());
-      // An event later, after a turn.
       one.place(7);
       other.place(7);
       EXPECT_EQ(one.press(request).digest(), other.press(request).digest());
@@ -163,7 +162,7 @@ TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
   }
 }
 
-// No slopes, no growth.
+// Level bodies have no slopes; rate zero means no growth.
 TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
   const JunctionLaw law({.tau0 = 0.013, .alpha = 0.21, .tau_max = 0.015});
   for (const Bench& bench : benches) {

@@ -151,7 +151,6 @@ TEST(TiltRest, RaisesTheAngleByWhatTau0Grew) {
   EXPECT_GT(after.angle, raise(plain, law, light()).angle);
   EXPECT_NE(after.note.find("at rest for 600 s, tau0 grew by a factor of 1.57071"), std::string::npos)
       << after.note;
-  // No rest, no effect.
   EXPECT_EQ(raise(ageing, law, light()).angle, raise(plain, law, light()).angle);
 }
 
@@ -190,7 +189,7 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   // Turned over, the upper body fits.
   Scene scene = scene_of(incline(1), incline(1), 1.0);
   scene.effects.set(InterlockingOptions{});
-  // Half of the free placements, 0 or 180 deg, would not fit.
+  // Free placements turn by 0 or 180 deg; only one of these fits.
   const SpecimenPair pair(scene);
   const JunctionLaw law({.tau0 = 0, .alpha = 0.2});
   const State st = SpecimenPair(pair).press({PressBy::pressure, 0.1, {}});

@@ -140,7 +140,7 @@ TEST(SpecimenPair, ACopyGoesItsOwnWay) {
 }
 
 TEST(SpecimenPair, AFailedCallLeavesItAsItWas) {
-  // After a half turn, a plane without a default stiffness.
+  // A half turn would give a plane, without a default stiffness.
   const Surface ramp = row_of({0, 1, 2}).with_material(test::elastic(1));
   SpecimenPair pair(scene_of(ramp, row_of({2, 1, 0}).with_material(test::elastic(1)), {}, Boundary::free));
   const State before = pair.press(pressure(0.1));
@@ -202,7 +202,6 @@ TEST(SpecimenPair, AnOverhangIsWarnedOf) {
   EXPECT_EQ(pair.plan().overlap, turned.overlap_fraction());
   pair.rotate(-1.5 * quarter);
   EXPECT_EQ(pair.press(pressure(1)).digest(), home);
-  // A flat has no rim.
   SpecimenPair flat(scene_of(random_surface(12, 12, 1), rigid_material(), 3.0, Boundary::free));
   flat.rotate(0.5 * quarter);
   EXPECT_EQ(flat.press(pressure(1)).overlap_fraction(), 1);

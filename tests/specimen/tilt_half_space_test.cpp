@@ -176,7 +176,6 @@ TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
   EXPECT_TRUE(plastic.probes.at(0).yields);
   EXPECT_GT(*plastic.area_per_load, *elastic.area_per_load);
   EXPECT_EQ(pair.lower().digest(), before);
-  // No yield: no note.
   scene.effects.set(PlasticityOptions{1e12, std::numeric_limits<double>::infinity()});
   EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(told), std::string::npos);
 }

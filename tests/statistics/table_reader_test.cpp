@@ -66,7 +66,6 @@ TEST(TableReader, FormsOfOneTable) {
     EXPECT_EQ(csv(utf16(text, true)), wanted) << "UTF-16: " << text;
   }
   EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", false)), wanted);
-  // No byte order mark.
   EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", true).substr(2)), wanted);
   EXPECT_EQ(csv("Machine 7\nOperator Li\ntime [s],load [kN]\n0,1.5\n900.5,2.25\n",
                 with([](TableForm& f) { f.skip = 2; })),
@@ -380,7 +379,7 @@ TEST(TableReader, ManyQuotesAreGoneOverOnce) {
   EXPECT_NE(refusal(quotes).find("line 2: there is 1 cell under 2 heads"), std::string::npos);
 }
 
-// Another separator: looks like rows.
+// Lines above a table with another separator look like rows.
 TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
   EXPECT_EQ(
       refusal("Logger X\nSerial 5\nload [kN],time [s]\n1.5,0\n2.5,1\n"),

@@ -79,7 +79,7 @@ BudgetAsk ask_of(const Trial& trial) {
   };
 }
 
-// Given every error's law.
+// Half width from known error laws.
 double known_half_width(const Trial& trial) {
   const Experiment& e = trial.experiment;
   const double n = static_cast<double>(trial.request.replicates);
@@ -374,7 +374,7 @@ TEST(Budget, RunsComeInBatches) {
 
 // --- one specimen
 
-// As on rough faces: random ~ cell width, with a drift.
+// As on rough faces: random errors proportional to the cell width, plus a drift.
 TEST(Budget, OfOneSpecimenHoldsErrorsOfCellsThatAreChance) {
   const int count = sanitized ? 60 : 500;
   for (const double drift : {0.0, 1.0}) {
@@ -431,7 +431,7 @@ TEST(Budget, OfOneSpecimenIsWideWhereNoGridBetweenIsTaken) {
 
 using InputTrial = std::function<std::vector<UncertainInput>(const Stream&)>;
 
-// Intervals that contain the sum of the inputs, 0.
+// Counts the intervals that contain 0, the sum of the inputs.
 int held_of(const InputTrial& trial, const std::vector<InputCorrelation>& correlations = {}) {
   int held = 0;
   for (std::uint64_t k = 0; k < 400; ++k) {

@@ -236,7 +236,7 @@ TEST(Calibration, ProfileEndsWhereTheSumOfSquaresMeetsTheCut) {
   const Calibration found = calibrate({misra_y}, misra, start);
   const CalibratedParameter& b2 = found.parameters[1];
   for (const double end : {*b2.profile_low, *b2.profile_high}) {
-    // b1 has a closed form.
+    // For given b2, b1 has a closed form.
     double top = 0, bottom = 0, sum = 0;
     for (std::size_t k = 0; k < misra_x.size(); ++k) {
       const double g = 1 - std::exp(-end * misra_x[k]);
@@ -501,7 +501,7 @@ TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   EXPECT_GT(at_bound, 40);
 }
 
-// S at the ends, by a fit of the bounded parameter.
+// S at the ends comes from a fit of the bounded parameter.
 TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
   const Experiment made = experiment(6, 4, 0, 3);
   const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
@@ -726,7 +726,7 @@ TEST(Calibration, ModelWithoutAValueNamesRowAndParameters) {
 }
 
 TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
-  // Beyond the first step the logarithm is undefined.
+  // The first step from a poor start leaves the domain of the logarithm.
   const std::vector<double> x = {1, 2, 3, 4, 5, 6};
   CalibrationRows rows;
   for (const double v : x) rows.y.push_back(std::log(0.5 * v) + (v == 3 ? 0.01 : 0));
@@ -738,7 +738,7 @@ TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
 }
 
 TEST(Calibration, NoisyModelNeedsLargerSteps) {
-  // Tolerance 1e-5: differences of 1e-3 see the noise, of 0.1 hardly.
+  // At a tolerance of 1e-5, differences of 1e-3 see the noise, differences of 0.1 hardly.
   const Experiment made = experiment(6, 4, 0, 3);
   const CalibrationModel noisy = [&](std::span<const double> q, std::size_t row) {
     const double exact = q[0] + q[1] * made.c[row];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A function with given answers and times, on a clock of its own.
+// A function with given answers and times and its own clock.
 #pragma once
 
 #include <cmath>

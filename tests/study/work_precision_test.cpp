@@ -162,7 +162,7 @@ TEST_F(Study, MinusNoughtIsNotNought) {
 // --- the budget
 
 TEST_F(Study, ABudgetIsQuotedAndObeyed) {
-  // 0.004, 0.016, 0.066, 0.26, 1.05 s a run; with the first run four times.
+  // A run takes 0.004, 0.016, 0.066, 0.26, 1.05 s, a setting four runs.
   const StudyRequest request{{way_of_cells("grid", {64, 128, 256, 512, 1024})}, 1.0, 3, 2.0};
   const StudyResult result = run(request);
   EXPECT_LE(result.total_seconds, 2.0);
@@ -230,7 +230,7 @@ TEST_F(Study, AnUnknownKnobIsForecastByItsGrowth) {
   work.answer = [](const Knobs&, int) { return StudyAnswer{1.0, ""}; };
   const StudyWay way = make_way(
       "terms", {{"terms", {std::int64_t{10}, std::int64_t{20}, std::int64_t{40}, std::int64_t{80}}, true}});
-  // 0.01, 0.04, 0.16, 0.64 s a run; with one timed run twice.
+  // A run takes 0.01, 0.04, 0.16, 0.64 s, a setting two runs.
   const StudyResult result = run({{way}, 1.0, 1, 0.5});
   EXPECT_EQ(result.rows[2].end, StudyRow::End::measured);
   EXPECT_EQ(result.rows[3].end, StudyRow::End::left_out);
@@ -254,7 +254,7 @@ TEST_F(Study, AStopKeepsWhatWasMeasured) {
   EXPECT_EQ(result.rows[0].runs.size(), 2U);
   EXPECT_EQ(result.rows[1].runs.size(), 1U);
   EXPECT_EQ(result.rows[1].error, 0.25);
-  EXPECT_EQ(work.recorded.size(), 5U);  // every returned call is recorded
+  EXPECT_EQ(work.recorded.size(), 5U);
 }
 
 TEST_F(Study, EveryCallIsRecordedOnce) {

@@ -43,7 +43,6 @@ Scene scene_on(const Surface& surface, int n, Boundary boundary, double hardness
   return scene;
 }
 
-// Ratios of the estimate to the true error.
 class Survey {
  public:
   explicit Survey(std::string from) : from_(std::move(from)) {}

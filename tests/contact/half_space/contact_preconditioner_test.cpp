@@ -69,7 +69,7 @@ Field applied(ContactPreconditioner& preconditioner, const Field& r) {
 }
 
 // Smooth field C r and its transpose: hats about 32 nodes apart (free boundary: from rim to rim) times the
-// residual beneath, divided by the free nodes beneath plus 3 % of all.
+// residual beneath, divided by the free nodes beneath plus 3 % of the nodes beneath.
 class SmoothField {
  public:
   SmoothField(int nx, int ny, Boundary boundary, const Mask& free)
@@ -276,7 +276,7 @@ TEST(ContactPreconditioner, ANewFreeSetForgetsTheOld) {
   for (std::size_t k = 0; k < a.size(); ++k) ASSERT_EQ(a[k], b[k]) << k;
 }
 
-// The first tile is a thousand times larger at the row below the shorter second one.
+// In the first tile, the row below the end of the shorter second tile has values a thousand times larger.
 TEST(ContactPreconditioner, ATileTakesNothingFromTheTileBefore) {
   constexpr int nx = 128, sweeps = 8;
   set_thread_count(1);

@@ -58,7 +58,7 @@ TEST(ApproachSolve, WorksUnderHardening) {
   problem.yield.hardening = .05 / problem.grid.hx();
   const double approach = solve(problem, .03).approach;
   EXPECT_NEAR(by_approach(problem, approach).mean_pressure, .03, 1e-6);
-  // Yield: beyond full contact.
+  // With yield the approach continues past full contact.
   const Range span = range(problem.heights->values());
   EXPECT_NEAR(by_approach(problem, 2 * span.max).approach, 2 * span.max, 1e-7);
 }
@@ -155,13 +155,13 @@ TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
     EXPECT_EQ(error.code(), ErrorCode::infeasible);
     EXPECT_NE(error.sentence().find("full contact"), std::string::npos) << error.what();
   }
-  // Yield: uniform pressure.
+  // With yield the pressure is uniform.
   problem.yield.hardening = 1e14;
   const HalfSpaceAnswer answer = by_approach(problem, 1e-6);
   EXPECT_NEAR(answer.mean_pressure, 2e7 + 1e8, 1e-6 * 1.2e8);
 }
 
-// Regression: the load search failed here.
+// Regression: this random scene failed.
 TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
   HalfSpaceProblem problem = problem_from(
@@ -265,7 +265,6 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
   EXPECT_NEAR(solve(problem, full).approach, approach_of_full_contact(problem), 1e-8 * problem.rms);
 }
 
-// All is flat: a linear contact.
 TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double yield : {1e-3, .02, 1.0})
@@ -347,7 +346,7 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   }
 }
 
-// Rounding hides closed gaps at a hardness far above the least load of full contact: the solver uses up to
+// With a hardness far above the least load of full contact, rounding hides closed gaps: the solver uses up to
 // twice an insufficient load and reports it.
 TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);

@@ -218,7 +218,6 @@ TEST(PeriodicCompliance, AnInverseWithSpringsIsThatOfTheSum) {
   }
 }
 
-// p̂ by direct summation.
 TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
   const int n = 16;
   const Field p = noise(n, n, 1);
@@ -382,7 +381,7 @@ TEST(LoveKernel, IsEven) {
     }
 }
 
-// Uses the other integration.
+// The turned rectangle uses the other integration.
 TEST(LoveKernel, ATurnedRectangleGivesTheSame) {
   for (const double aspect : {1.0, 0.125, 3.0})
     for (const int i : {0, 1, 2, 7, 150})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space digits on flats, at the lightest loads, and close to the hardness, where hardly a node fixes the
-// offset. Tolerances name the measured error.
+// Accuracy to the last digits on flats, at the lightest loads and close to the hardness, where hardly a node
+// fixes the offset. Tolerances name the measured error.
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -126,7 +126,7 @@ TEST_P(FreeFlat, MeetsItsCertificateWithoutLimit) {
         if (answer.pressure.size() < 1000) {
           HalfSpaceProblem measured = problem;
           measured.rms = pressure * std::sqrt(problem.grid.area());
-          EXPECT_LT(dense_violation(measured, answer), 5 * tolerance) << which;  // measured 0.9 of it
+          EXPECT_LT(dense_violation(measured, answer), 5 * tolerance) << which;  // measured 0.9 of this bound
         }
       }
 }
@@ -164,7 +164,7 @@ Scene light_scene(Boundary boundary, const std::optional<PlasticityOptions>& pla
   return scene;
 }
 
-// Displacement per newton of one node: K of one cell.
+// Displacement per newton at a single node: K for a single cell.
 double sinking_of_one_node(const Scene& scene) {
   const Grid& grid = scene.lower.grid();
   HalfSpaceProblem problem =
@@ -258,7 +258,7 @@ TEST_P(CloseToHardness, TheApproachRisesSteadilyToItsEnd) {
   }
   Field one(32, 32);
   one(0, 0) = 32 * 32;
-  const double compliance = dense_displacement(problem, one)[0];  // of one node
+  const double compliance = dense_displacement(problem, one)[0];  // single node
   const double end = solve(problem, (1 - 1e-6) * cap).approach + 1e-6 * cap * compliance;
   for (const double short_of : {1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
     const double approach = solve(problem, (1 - short_of) * cap).approach;

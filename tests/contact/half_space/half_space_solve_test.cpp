@@ -41,7 +41,7 @@ TEST(HalfSpaceSolve, MeetsEveryConditionByDenseSums) {
         const double pressure = part * problem.modulus * problem.rms / problem.grid.hx() * .3;
         const HalfSpaceAnswer answer = solve(problem, pressure);
         EXPECT_TRUE(answer.converged);
-        // Complementarity is an average.
+        // Complementarity is an average: one node may exceed the tolerance.
         EXPECT_LT(dense_violation(problem, answer), 1e-7)
             << tile.nx << " x " << tile.ny << " " << name(boundary) << " " << part << " " << answer.solver;
       }
@@ -291,7 +291,7 @@ TEST(HalfSpaceSolve, GapOfYieldedGroundIsWhatItGaveWay) {
     }
 }
 
-// Nested grids included.
+// In transform pairs of the finest grid, nested grids included.
 TEST(HalfSpaceSolve, TakesFewTransforms) {
   for (const int n : {256, 512})
     for (const double load : {.005, .03})
@@ -342,7 +342,7 @@ TEST(HalfSpaceSolve, OneNodeCarriesTheLeastLoads) {
 }
 TEST(HalfSpaceSolve, EqualPeaksShareEqually) {
   Field h(64, 64, -1.0);
-  h(10, 20) = h(42, 52) = 0;  // symmetric
+  h(10, 20) = h(42, 52) = 0;  // half a tile apart: symmetric
   const HalfSpaceProblem problem = problem_of(make_grid(64, 64, 1, 1), h, Boundary::periodic);
   const HalfSpaceAnswer answer = solve(problem, 1e-4);
   EXPECT_EQ(answer.contacts, 2);
