@@ -139,8 +139,8 @@ TEST(Exact, FarScalesKeepTheirDigits) {
   EXPECT_THROW(one_wave(1e-200, 1e200, 1, 1), Error);
 }
 
-// Digits of a sum in 140 decimals. The row D = 2.99, node 75, 75 has a misprinted digit; the generator's
-// tests contain its value.
+// Digits of a sum in 140 decimals. The row D = 2.99, node 75, 75 has a misprinted digit and is skipped; the
+// generator's tests contain its value.
 TEST(Exact, GoldenHeightsToTheLastDigit) {
   std::ifstream file(std::string(ASPERITY_TEST_DATA) + "/wm_heights.csv");
   ASSERT_TRUE(file);
@@ -160,7 +160,7 @@ TEST(Exact, GoldenHeightsToTheLastDigit) {
     options.span = span;
     options.phases = WavePhases::golden;
     const double found = weierstrass_mandelbrot_height(options, i, j);
-    // The table is for decimal D, some doubles only to 4e-16.
+    // The table is for decimal D; some doubles differ by 4e-16.
     if (D * 4 == std::floor(D * 4))
       EXPECT_EQ(found, height) << line;
     else

@@ -378,7 +378,7 @@ TEST(HalfSpaceSolve, RefusesALoadTheHardnessCannotCarry) {
   const HalfSpaceAnswer nearly = solve(problem, std::nextafter(2.0, 0.0));
   EXPECT_TRUE(nearly.converged);
 }
-// Twelve of sixteen nodes at the cap.
+// Twelve of sixteen nodes at the cap carry the load exactly.
 TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   Field h(4, 4, 1.0);
   for (int i = 0; i < 4; ++i) h(i, 0) = -50;

@@ -160,7 +160,7 @@ TEST(SinglePrecisionOf, AnOperatorIsTheOperatorRounded) {
   EXPECT_LE(apart(u.values(), v.values()), 1e-6 * most(u.values()));
   EXPECT_LE(apart(u.values(), w.values()), 1e-14 * most(u.values()));
 
-  // Rounds only on request.
+  // A double-precision operator rounds only on request.
   for (int time = 0; time < 2; ++time) {
     exact.apply_rounded([&](int j, double*) { return p.row(j).data(); },
                         [&](int j, const double* row) { std::copy_n(row, n, w.row(j).data()); }, {});
