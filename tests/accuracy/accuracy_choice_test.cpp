@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells chosen for an error: the choice, its error and cost, the bodies on other cells, and the contact after
-// a choice that fails. Other seeds are compared with finer grids in tests/accuracy/distributions.
+// Cells chosen for a requested error: choice, error, cost, failures. Other seeds:
+// tests/accuracy/distributions.
 #include "engine/accuracy/accuracy_choice.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(AccuracyChoice, IsCheaperThanTheDefaultOnTheCellsGiven) {
   SpecimenPair pair(asking(surface, rigid_material(), Boundary::periodic, 0.01));
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   const double cells = static_cast<double>(state.chosen()->nx) / 512;
-  // Transforms of the cells chosen, in those of 512 x 512.
+  // In transforms of 512 x 512 cells.
   const double weight = cells * cells * std::log2(state.chosen()->nx) / 9;
   const double chosen_cost = state.cost().total.transforms * weight;
   EXPECT_LT(chosen_cost, 0.5 * by_default.cost().total.transforms);
@@ -95,7 +95,6 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
     EXPECT_NE(state.chosen()->text().find(", with the outline between the nodes, it comes to "),
               std::string::npos)
         << state.chosen()->text();
-    // What the estimate says is that of the outline.
     const DiscretisationEstimate estimate = discretisation_estimate(state, "corrected_area_fraction");
     EXPECT_NEAR(estimate.margin * estimate.relative(), state.outline()->doubt, 1e-12);
     EXPECT_GE(state.chosen()->error, state.outline()->doubt);
@@ -103,7 +102,7 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
   }
 }
 
-// Bead-blasted ground on cells as wide as its dents was off by 1.2 to 2.6 times the request.
+// Cells as wide as the dents give 1.2 to 2.6 times the requested error.
 TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   const PressRequest request{PressBy::pressure, 1e7, {}};
   for (const char* of : {"corrected_area_fraction", "approach"}) {
@@ -117,7 +116,7 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
   }
 }
 
-// Two cells a shortest wave lose the highest peak: 64 cells were 6.8 % off and "met" 3 %.
+// Two cells a shortest wave lose the highest peak: 64 cells have an error of 6.8 %.
 TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
   SelfAffineOptions o;
   o.grid = Grid{512, 512, 1e-3, 1e-3};
@@ -135,12 +134,10 @@ TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
 }
 
 TEST(AccuracyChoice, AnOutlineNeedsACorrectedAreaAndAKnownLaw) {
-  // Not asked for: the energy alone.
   const State energy = SpecimenPair(asking(rough(128), rigid_material(), Boundary::periodic, 0.3, {"energy"}))
                            .press({PressBy::pressure, 1e7, {}});
   EXPECT_FALSE(energy.outline());
   EXPECT_EQ(energy.chosen()->text().find("outline"), std::string::npos);
-  // Known of boxes, too: the share of the tile above a plane.
   Scene boxes = asking(rough(128), rigid_material(), Boundary::periodic, 0.3);
   boxes.elasticity = BoxOptions{};
   const State of_boxes = SpecimenPair(boxes).press({PressBy::indentation, 0.1, {}});
@@ -169,7 +166,6 @@ TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
   EXPECT_EQ(state.chosen()->source, "generated again");
 }
 
-// Between the nodes of a map no heights are known, so its own cells are the finest.
 TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
   Scene scene = asking(measured(rough(64, 3)).with_material(test::elastic_to_yield()), rigid_material(),
                        Boundary::periodic, 0.001);
@@ -184,7 +180,7 @@ TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
   EXPECT_FALSE(best.chosen()->met());
 }
 
-// A sphere of 10 mm on a tile of 1 mm under 1 uN touches by one node of any grid up to 4096 cells.
+// One node in contact on any grid up to 4096 cells.
 TEST(AccuracyChoice, NamesTheCellsItWouldNeed) {
   const Surface sphere = sphere_surface({Grid{128, 128, 1e-3, 1e-3}, 0.01, SphereShape::paraboloid})
                              .with_material(test::elastic_to_yield());
@@ -228,7 +224,7 @@ TEST(AccuracyChoice, NamesTheRequestedQuantitiesWithTheirError) {
 }
 
 TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
-  // 64 waves: every node of 64 cells stands on a crest, and all coarse grids see a flat.
+  // 64 cells have every node on a crest: coarse grids see a flat.
   const Surface waves =
       sine_surface({Grid{512, 512, 1, 1}, 1e-4, 1.0 / 64, 2}).with_material(test::elastic_to_yield());
   SpecimenPair pair(asking(waves, rigid_material(), Boundary::periodic, 0.1, {"area_fraction", "energy"}));
@@ -237,7 +233,7 @@ TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
   EXPECT_EQ(state.chosen()->tried.front().note, "the heights were not carried");
 }
 
-// 64 cells were 1.5 % off: a contact 13 cells wide. The truth is of 2048 cells.
+// Contact 13 cells wide: 1.5 % error on 64 cells. Reference: 2048 cells.
 TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
   const Surface ball =
       sphere_surface({Grid{1024, 1024, 1e-3, 1e-3}, 0.03, SphereShape::sphere}).with_material([] {
@@ -255,7 +251,7 @@ TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
   }
 }
 
-// A grid by itself proves nothing: none under 32 cells, nor under 64 for what is not an area.
+// Coarser grids are too few to compare.
 TEST(AccuracyChoice, CoarseCellsAreNotBelievedAlone) {
   for (const auto& [of, fewest] : {std::pair{"corrected_area_fraction", 32}, std::pair{"energy", 64}}) {
     SpecimenPair pair(asking(rough(256, 5, 8), rigid_material(), Boundary::periodic, 0.9, {of}));
@@ -442,7 +438,7 @@ TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
   EXPECT_EQ(pair.lower().digest(), digest);
   EXPECT_FALSE(pair.under_load());
   {
-    // Enough for the press and not for nine times as much.
+    // Enough memory for the press, but not for nine times as much.
     Scene bare = scene;
     bare.accuracy.estimate = Accuracy::Estimate::none;
     memory::set_limit(memory::held() + 2 * SpecimenPair(bare).plan().bytes_peak());
@@ -454,7 +450,7 @@ TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
   EXPECT_FALSE(pair.under_load());
   EXPECT_GT(pair.press({PressBy::pressure, 1e7, {}}).plastic_volume(), 0);
   EXPECT_NE(pair.lower().digest(), digest);
-  // What yielded is interpolated and does not yield again.
+  // Interpolated plastic volume does not yield again.
   pair.release();
   const State again = pair.press({PressBy::pressure, 0.5e7, {}});
   EXPECT_LT(discretisation_estimate(again, "area_fraction").relative(), 0.5);
@@ -485,7 +481,6 @@ TEST(AccuracyChoice, PlasticBodiesYieldOnTheCellsChosen) {
   EXPECT_LT(again.plastic_volume(), 1e-6 * state.plastic_volume());
 }
 
-// The combined heights at nodes that two grids share.
 double off_at_shared_nodes(const Field& coarse, const Field& fine) {
   const int step = fine.nx() / coarse.nx();
   double worst = 0;
@@ -528,7 +523,7 @@ Surface waves(int nx, int ny, std::uint64_t seed = 1) {
   return self_affine_surface(o).with_material(material);
 }
 
-// Why no precision is chosen: single saves no step, and costs none.
+// Single precision saves no steps, so the precision is not chosen.
 TEST(AccuracyChoice, EitherPrecisionTakesAsManySteps) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const std::uint64_t seed : {1, 2, 3})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies and scenes that ask for an error: self-affine ground of E* = 1 GPa on a tile of one metre, by its
-// generator or as measured.
+// Scenes with a requested error: self-affine surfaces, E* = 1 GPa, tile of 1 m.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +39,7 @@ inline Scene asking(Surface lower, UpperBody upper, Boundary boundary, double er
   return scene;
 }
 
-// The same heights, without what a generator knows.
+// The same heights without their generator.
 inline Surface measured(const Surface& surface) {
   return Surface(surface.grid(), surface.heights(), surface.traits());
 }

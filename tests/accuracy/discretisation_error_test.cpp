@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Estimates of the error of the grid: where the answer is known, where nothing was asked for, and at the
-// ends (too few cells, prescribed quantities, no limit). Their distribution over many scenes is in
-// tests/accuracy.
+// Discretisation error estimates: known answers and extremes. For distributions see
+// tests/accuracy/distributions.
 #include "engine/accuracy/discretisation_error.hpp"
 
 #include <gtest/gtest.h>
@@ -81,8 +80,8 @@ TEST(RiseBetweenNodes, NothingIsKnownPastARim) {
   Field z(5, 5);
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 5; ++i) z(i, j) = -i - 0.1 * (j - 2.2) * (j - 2.2);
-  EXPECT_NEAR(rise_between_nodes(z, false), 0.1 * 0.2 * 0.2, 1e-12);  // along the rim alone
-  // Beside nodes without a body over them, which hold the lowest height.
+  EXPECT_NEAR(rise_between_nodes(z, false), 0.1 * 0.2 * 0.2, 1e-12);  // along the rim only
+  // Next to uncovered nodes (lowest height).
   Field turned(7, 7);
   for (int j = 0; j < 7; ++j)
     for (int i = 0; i < 7; ++i) turned(i, j) = i < 3 ? -100 : -(i - 2.7) * (i - 2.7) - (j - 3.1) * (j - 3.1);
@@ -133,7 +132,7 @@ TEST(DiscretisationEstimate, WhatIsPrescribedHasNone) {
   const State by_approach = pressed(scene, {PressBy::approach, by_pressure.approach(), {}});
   EXPECT_EQ(discretisation_estimate(by_approach, "approach").error, 0);
   EXPECT_GT(discretisation_estimate(by_approach, "pressure").error, 0);
-  // A fraction of a peak-to-valley that is itself of this grid.
+  // The peak-to-valley depends on the grid.
   const State by_indentation = pressed(scene, {PressBy::indentation, by_pressure.indentation(), {}});
   EXPECT_EQ(discretisation_estimate(by_indentation, "indentation").error, 0);
   EXPECT_GT(discretisation_estimate(by_indentation, "approach").relative(), 1e-3);
@@ -161,7 +160,7 @@ TEST(DiscretisationEstimate, FullContactAndNoLoad) {
 }
 
 TEST(DiscretisationEstimate, BodiesAsTheyLie) {
-  // Two rough bodies, one of them turned: the coarser grids see every second node of both as they lie.
+  // Coarser grids take every second node of both bodies.
   Scene scene = half_space(rough(64, 1), Boundary::periodic);
   scene.upper = rough(64, 2).with_material(elastic(1e9));
   check_accuracy(scene);
@@ -185,7 +184,7 @@ TEST(DiscretisationEstimate, PlasticBodiesRememberOnCoarserGrids) {
     EXPECT_GT(estimate.error, 0);
     EXPECT_LT(estimate.relative(), 1);
   }
-  // All nodes already harder than any pressure: nothing yields on any grid.
+  // No yield: all nodes harder than any pressure.
   NodeMemory memory;
   memory.lower = std::make_shared<const Field>(64, 64, 1e12);
   const ContactGeometry hard(scene, LatticeIsometry(64, 64), {{std::string(hardness_memory), memory}});
@@ -247,7 +246,6 @@ TEST(EstimateFromAFinerGrid, HertzErrorsAreWithinAFactorOfThree) {
   }
 }
 
-// A paraboloid whose top is on a node, and another whose top is between nodes.
 TEST(DiscretisationEstimate, OfAPrescribedApproachFollowsTheFirstTouch) {
   for (const double off_node : {0.0, 0.4}) {
     constexpr int n = 64;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a press is said to take before it is made: of each control, of tiles on which the press itself is
-// tried and of larger ones, and that nothing is counted, met or changed by it. How often it holds, over
-// random scenes, is in tests/stability/properties/explain.cpp.
+// Expected transforms of a press, for each control, on small tiles (trial press) and large tiles. Accuracy:
+// tests/stability/properties/explain.cpp.
 #include "engine/accuracy/expected_transforms.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +52,7 @@ struct Contact {
   Plan plan;
 };
 
-// The value of each control that brings one and the same state.
+// The values of each control for the same state.
 double value_of(const State& state, PressBy by) {
   switch (by) {
     case PressBy::pressure:
@@ -123,7 +122,7 @@ TEST(ExpectedTransforms, OfFewerCellsAreWithinAFactorOfTwoByEachControl) {
   }
 }
 
-// The second trial has all the work given, and the first a part.
+// The first trial gets a part of the work, the second all.
 TEST(ExpectedTransforms, TakeAboutTheWorkGiven) {
   const Contact contact(rough(512, 512));
   const Grid& grid = contact.scene.lower.grid();
@@ -150,7 +149,7 @@ TEST(ExpectedTransforms, OfATrialThatIsLeftAreMore) {
   EXPECT_NEAR(expected.transforms, 3 * left_after, 1e-9 * taken);
 }
 
-// A press that a limit has no room for is told all the same, with its memory.
+// Estimated even without memory for the press.
 TEST(ExpectedTransforms, AreTriedWithinALimitOfMemory) {
   struct Limit {
     explicit Limit(std::int64_t bytes) { memory::set_limit(bytes); }
@@ -179,7 +178,7 @@ TEST(ExpectedTransforms, ThatAreTriedAreNotCounted) {
   EXPECT_EQ(cost::transforms(), before);
 }
 
-// A step closes under a load that goes as one over the cell: fewer cells under the same load are past it.
+// The closing load of a step is proportional to 1/cell.
 TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   Scene scene = rough(192, 192);
   Field steps = scene.lower.heights();
@@ -190,7 +189,7 @@ TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   traits.periodic = true;
   scene.lower = Surface(scene.lower.grid(), std::move(steps), traits);
   const Contact contact(scene);
-  // Between the load that closes the step on cells twice as wide, some 2e8 Pa, and that on these, 4e8 Pa.
+  // Closing loads: 2e8 Pa on doubled cells, 4e8 Pa on these.
   const double pressure = 2.4e8;
   const State state = test::press(scene, PressBy::pressure, pressure);
   ASSERT_LT(state.area_fraction(), 1);
@@ -200,7 +199,7 @@ TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   EXPECT_GT(said, 0.5 * taken);
 }
 
-// N9: by flattening it holds what seeking the load takes, too.
+// By flattening, the memory includes the load search.
 TEST(PlanOfAPress, NamesTheControl) {
   const Contact contact(rough(128, 128));
   EXPECT_NE(contact.plan.text().find("  transforms    40 expected of a press by `pressure`, a rough guess; "),
@@ -252,7 +251,7 @@ TEST(PlanOfAPress, RefusesWhatAPressRefuses) {
             error_of([&] { test::press(contact.scene, PressBy::pressure, -1); }));
   EXPECT_NE(error_of([&] { contact.plan_of(PressBy::flatten, 2); }).find("`flatten` is 2"),
             std::string::npos);
-  // What only the solve finds is told, and the number is the guess.
+  // Only the solve finds the limit: the plan contains the guess.
   const Plan plan = contact.plan_of(PressBy::approach, 1e6);
   EXPECT_EQ(plan.transforms, contact.plan.transforms);
   EXPECT_NE(plan.text().find("cannot be reached"), std::string::npos) << plan.text();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies on thrice the cells lie as they did: the nodes of the contact are every third node of the finer
-// ones, for every turn and shift; generated surfaces show what lies between the nodes, others are
-// interpolated.
+// Bodies on thrice the cells keep their pose for every turn and shift. Generated surfaces are sampled between
+// the nodes, others interpolated.
 #include "engine/accuracy/finer_heights.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +34,7 @@ Surface measured(const Surface& surface) {
   return Surface(surface.grid(), surface.heights(), surface.traits());
 }
 
-// Of the combined heights, over their span.
+// Combined heights over their span.
 double off_at_shared_nodes(const Scene& scene, const Pose& pose) {
   const ContactGeometry geometry(scene, pose);
   const Field& given = geometry.combined();
@@ -92,7 +91,7 @@ TEST(FinerHeights, FreeBodiesLieAsTheyDid) {
 }
 
 TEST(FinerHeights, TurnedOffTheLatticeAboutTheSamePlace) {
-  // Planes, which bilinear interpolation passes through exactly on either grid.
+  // Bilinear interpolation is exact for planes.
   Field plane(32, 32);
   for (int j = 0; j < 32; ++j)
     for (int i = 0; i < 32; ++i) plane(i, j) = 0.01 * i + 0.003 * j;
@@ -108,7 +107,7 @@ TEST(FinerHeights, TurnedOffTheLatticeAboutTheSamePlace) {
   for (int j = 0; j < 32; ++j)
     for (int i = 0; i < 32; ++i) {
       const double given = geometry.combined()(i, j);
-      // One without a body over it has no height on either grid.
+      // Uncovered nodes have no height.
       ASSERT_EQ(std::isnan(fine(3 * i, 3 * j)), std::isnan(given)) << i << " " << j;
       if (std::isnan(given)) continue;
       ++covered;

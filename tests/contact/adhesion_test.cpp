@@ -91,8 +91,8 @@ TEST(Adhesion, BodiesDrawnApartHoldLongerThanBodiesBroughtTogether) {
   EXPECT_LT(leaving.load(), coming.load());
 }
 
-// Along a sweep each state follows from the turns before it. Pulled further apart and let back it lies
-// between the two branches: the nodes at the rim of the contact hold both ways.
+// Hysteresis along a sweep: after a return from further apart the state is between both branches, because
+// nodes at the rim are bistable.
 TEST(Adhesion, TurnsGoneThroughBeforeTellTheBranch) {
   const auto contact = ready(adhering(0.01, 0.02));
   const auto at = [&](std::vector<double> turns) {
@@ -110,7 +110,6 @@ TEST(Adhesion, TurnsGoneThroughBeforeTellTheBranch) {
   EXPECT_EQ(contact->press({PressBy::load, -0.01, {}}).preload(), std::vector<double>{0});
 }
 
-// The turn that is kept changes no bit.
 TEST(Adhesion, DrawnFromTheSameTurnTwiceTheSecondTimeIsCheaperAndTheSame) {
   const PressRequest request{PressBy::approach, -0.05, {}, {0.05}};
   const auto contact = ready(adhering(0.01, 0.02));
@@ -123,7 +122,6 @@ TEST(Adhesion, DrawnFromTheSameTurnTwiceTheSecondTimeIsCheaperAndTheSame) {
             ready(adhering(0.01, 0.02))->press({PressBy::load, -0.01, {}, {0.05}}).digest());
 }
 
-// Of such states no bound is known, and none is given.
 TEST(Adhesion, ErrorsAreInfiniteWhereNothingIsBounded) {
   const State state = press(adhering(0.01), PressBy::approach, 0.01);
   const AlgebraicError& error = state.algebraic_error();
@@ -135,7 +133,7 @@ TEST(Adhesion, ErrorsAreInfiniteWhereNothingIsBounded) {
   EXPECT_EQ(state.text().find("±"), std::string::npos) << state.text();
   EXPECT_EQ(state.text().find("inf"), std::string::npos) << state.text();
   const State loaded = press(adhering(0.01), PressBy::load, -0.01);
-  EXPECT_LE(*loaded.algebraic_error().load, 1e-14 * 0.01);  // what was asked for
+  EXPECT_LE(*loaded.algebraic_error().load, 1e-14 * 0.01);  // requested load
 }
 
 TEST(Adhesion, CapillarityBesideItHasACostOfItsOwn) {
@@ -192,7 +190,7 @@ TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   scene = adhering(1);
   scene.accuracy.estimate = Accuracy::Estimate::coarser;
   EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
-  scene.effects.find<AdhesionOptions>()->work = 0;  // then there is nothing to compute
+  scene.effects.find<AdhesionOptions>()->work = 0;
   scene.effects.set(PlasticityOptions{1.0});
   EXPECT_EQ(refused(scene), "");
 }

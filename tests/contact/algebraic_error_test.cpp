@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bounds on the algebraic error: that they hold against solves to the last digits, in random scenes and for
-// pressures that were never solved, and that they are near enough to the truth to be worth reading.
+// Bounds on the algebraic error: valid for any feasible pressures, and tight.
 #include "engine/contact/algebraic_error.hpp"
 
 #include <algorithm>
@@ -36,7 +35,6 @@ struct Trial {
 
 State press(const Trial& trial) { return ready(trial.scene)->press(trial.request); }
 
-// Draws of one scene, in the order in which they are asked for.
 class Draws {
  public:
   explicit Draws(std::uint64_t scene) : stream_(scene, "scenes of bounds") {}
@@ -49,8 +47,8 @@ class Draws {
   std::uint64_t next_ = 0;
 };
 
-// Ten kinds of scene in turn, 8² to 48² nodes, square or not, smooth or white heights of a slope about 0.1,
-// loads from a thousandth of what flattens them to all of it.
+// Ten kinds of scene: 8² to 48² nodes, smooth or white heights of slope about 0.1, loads from a thousandth of
+// full contact to full contact.
 Trial trial_of(std::uint64_t scene) {
   Draws draw(scene);
   const int nx = 8 + draw.below(41), ny = draw.below(3) == 0 ? 8 + draw.below(41) : nx;
@@ -110,7 +108,6 @@ struct Compared {
   double value, exact, bound, bound_of_exact;
 };
 
-// Every quantity of a state that has a bound, beside the same of a reference.
 std::vector<Compared> compare(const State& st, const State& exact) {
   const AlgebraicError &e = st.algebraic_error(), &f = exact.algebraic_error();
   std::vector<Compared> all = {
@@ -153,7 +150,7 @@ TEST(AlgebraicError, BoundsHoldAgainstSolvesToTheLastDigitsInAHundredRandomScene
     trial.scene.accuracy.tolerance = 1e-13;
     const State exact = press(trial);
     for (const Compared& c : compare(st, exact))
-      // The reference is exact within its own bound, and the two numbers within their last digit.
+      // The reference has its own bound; both round in the last digit.
       EXPECT_LE(std::abs(c.value - c.exact), c.bound + c.bound_of_exact + 2 * epsilon * std::abs(c.value))
           << c.name << " in scene " << scene;
     const NodeBracket contacts = st.algebraic_error().contact_bracket;
@@ -203,7 +200,6 @@ TEST(AlgebraicError, WhatRoundingLeavesIsSmall) {
   }
 }
 
-// The bounds know nothing of how pressures were found: any that are feasible will do.
 TEST(AlgebraicError, HoldsForPressuresThatWereNeverSolved) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     const HalfSpaceProblem problem = rough_problem(32, boundary, 5, 1e-13);
@@ -214,7 +210,6 @@ TEST(AlgebraicError, HoldsForPressuresThatWereNeverSolved) {
       double sum = 0;
       for (std::size_t k = 0; k < answer.pressure.size(); ++k) {
         double& p = answer.pressure[k];
-        // Some of it on nodes that do not touch.
         p = p * (1 + amount * noise.normal(k)) + (noise.uniform(k + 5000) < 0.1 ? 0.01 * amount : 0.0);
         p = std::max(0.0, p);
         sum += p;
@@ -237,18 +232,16 @@ TEST(AlgebraicError, HoldsForPressuresThatWereNeverSolved) {
       EXPECT_LE(std::abs(answer.peak_pressure - exact.peak_pressure), error.peak_pressure) << amount;
       EXPECT_LE(error.contacts.low, exact.contacts) << amount;
       EXPECT_GE(error.contacts.high, exact.contacts) << amount;
-      // The approach that goes with them is off, too.
       answer.approach *= 1 + 0.1 * amount;
       const SolutionError moved = half_space_error(problem, answer, here);
       EXPECT_LE(std::abs(answer.approach - exact.approach), moved.approach) << amount;
-      if (amount <= 1e-3) {  // pressure where gaps are wide tells through its work: a square root
+      if (amount <= 1e-3) {  // pressure at wide gaps enters through its work: a square root
         EXPECT_LE(moved.approach, std::sqrt(amount) * exact.approach);
       }
     }
   }
 }
 
-// Two plateaus, the higher one all at the cap: any approach between them carries the same load.
 TEST(AlgebraicError, AnApproachThatTheLoadDoesNotFixIsBracketed) {
   const Surface steps = test::surface_of(make_grid(16, 16, 16e-6, 16e-6),
                                          [](int i, int j) { return i < 4 && j < 4 ? 5e-6 : 0.0; });
@@ -260,7 +253,7 @@ TEST(AlgebraicError, AnApproachThatTheLoadDoesNotFixIsBracketed) {
   const auto solver = ready(scene);
   const State half = solver->press({PressBy::approach, 2.5e-6, {}});
   ASSERT_EQ(half.contacts(), 16);
-  // All that 16 nodes carry: a last bit more would need a seventeenth.
+  // One ulp more needs a seventeenth node.
   const double all = 1e6 * 16 / 256;
   EXPECT_NEAR(half.pressure(), all, 1e-12 * all);
   const State st = solver->press({PressBy::pressure, all, {}});

@@ -68,8 +68,7 @@ TEST(Capillarity, TheJunctionsCarryItsPullBesideTheLoad) {
   EXPECT_EQ(state.cost().by_effect.back().first, "capillarity");
 }
 
-// A liquid of long range holds a sphere with 4πRγ cos θ (McFarlane & Tabor 1950), here in the limit of
-// Derjaguin, Muller & Toporov: a Tabor number of 0.05.
+// 4πRγ cos θ (McFarlane & Tabor 1950) at a Tabor number of 0.05, in the limit of Derjaguin, Muller & Toporov.
 TEST(Capillarity, HoldsASphereWithTheForceOfItsMeniscus) {
   const int n = 96;
   const double size = 8, tension = 0.01, angle = std::numbers::pi / 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The effects a scene can name, and how the others are refused.
+// The effects of a scene by name.
 #include "engine/contact/scene/known_effects.hpp"
 
 #include <algorithm>

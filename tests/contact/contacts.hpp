@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small contacts for the tests of this floor: surfaces from lists of heights, scenes with a given
-// stiffness, and random heights by key.
+// Small contacts for the tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +24,7 @@ inline Surface surface_of(const Grid& grid, const std::function<double(int, int)
   return Surface(grid, std::move(z));
 }
 
-// One row of cells of 1 m x 1 m.
+// Cells of 1 m x 1 m.
 inline Surface row_of(const std::vector<double>& heights) {
   const auto n = static_cast<int>(heights.size());
   return surface_of(Grid{n, 1, static_cast<double>(n), 1.0},
@@ -50,7 +49,7 @@ inline Scene scene_of(Surface lower, UpperBody upper, std::optional<double> stif
   return Scene{std::move(lower), std::move(upper), boundary, BoxOptions{stiffness}, Accuracy{}};
 }
 
-// Boxes of this stiffness under a rigid flat.
+// Under a rigid flat.
 inline Scene boxes(Surface lower, double stiffness) {
   return scene_of(std::move(lower), rigid_material(), stiffness);
 }
@@ -66,7 +65,7 @@ inline State press(const Scene& scene, PressBy by, double value) {
   return ready(scene)->press({by, value, {}});
 }
 
-// The text of the Error that `call` throws; empty when it throws none.
+// Text of the Error; empty without an Error.
 inline std::string error_of(const std::function<void()>& call) {
   try {
     call();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The effect creep: how hardness falls with dwell, and what it needs.
+// Creep: hardness falls with dwell.
 #include "engine/contact/effects/creep.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Histograms: known counts, normalisation, the edges of the bins.
+// Histograms: known counts, normalisation, bin edges.
 #include "engine/contact/distribution.hpp"
 
 #include <cmath>

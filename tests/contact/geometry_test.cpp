@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Combined heights of two bodies as they lie over each other.
+// Combined heights of two bodies.
 #include "engine/contact/bodies/geometry.hpp"
 
 #include "tests/contact/contacts.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The compliance of a layer wave by wave: against the equations of elasticity integrated through its
-// thickness, against its limits, and to the last digits against sixty-digit arithmetic.
+// Compliance of a layer against integrated elasticity, limits, and sixty-digit arithmetic.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,8 +14,8 @@
 namespace asperity::layer_multiplier_test {
 namespace {
 
-// u = U(z) sin qx, w = W(z) cos qx, σ_xz = T(z) sin qx, σ_zz = S(z) cos qx in plane strain, t = 1 and
-// E/(1 − ν²) = 1: four linear equations from the base, z = 0, by Runge and Kutta's fourth order.
+// Plane strain, t = 1, E/(1−ν²) = 1: u = U(z) sin qx, w = W(z) cos qx, σ_xz = T(z) sin qx, σ_zz = S(z) cos qx
+// give four linear equations from the base, z = 0; fourth-order Runge-Kutta.
 using Through = std::array<double, 4>;
 
 Through surface_from(Through y, double q, double poisson) {
@@ -42,9 +41,9 @@ Through surface_from(Through y, double q, double poisson) {
   return y;
 }
 
-// What the surface sinks under a pressure cos qx without shear.
+// Displacement under a pressure cos qx without shear.
 double integrated_compliance(double q, double poisson, LayerBase base) {
-  const bool bonded = base == LayerBase::bonded;  // else the shear is 0 at the base, and it may slide
+  const bool bonded = base == LayerBase::bonded;  // else frictionless: no shear
   const Through one = surface_from(bonded ? Through{0, 0, 1, 0} : Through{1, 0, 0, 0}, q, poisson);
   const Through two = surface_from({0, 0, 0, 1}, q, poisson);
   const double determinant = one[2] * two[3] - two[2] * one[3];
@@ -99,7 +98,7 @@ TEST(LayerShare, OfLongWavesIsThatOfAWinklerFoundation) {
                    uniform = uniform_share(poisson);
       EXPECT_NEAR(bonded, uniform, 1e-6 * uniform) << poisson << " " << x;
     }
-    // It gives way sideways: t (1 − ν²)/E, more than a uniform pressure.
+    // Sideways expansion: t (1 − ν²)/E.
     EXPECT_NEAR(2 * (layer_share(x, 0.3, LayerBase::frictionless) / x), 1, 1e-6);
     if (x < 1e-100) continue;
     const double cubic = 2.0 / 3 * x * x * x;
@@ -132,7 +131,7 @@ TEST(ComplianceMultiplier, FindsTheSoftestWave) {
   EXPECT_EQ(ComplianceMultiplier{}.greatest_from(0.5), 4);
 }
 
-// A wave of pressure on cells that are not square, of an even and an odd count.
+// Oblong cells, even and odd counts.
 TEST(LayerCompliance, TakesEachWaveByItself) {
   for (const auto& [nx, ny] : {std::pair{16, 24}, {15, 11}, {1, 8}}) {
     const double aspect = 1.7;

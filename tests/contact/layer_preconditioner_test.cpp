@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The preconditioner on a layer: near the inverse of the compliance for every wave, exact where the grid is
-// transformed as it is, and symmetric on the free set where nothing is carried past its edge.
+// Preconditioner on a layer: near the inverse for every wave (exact unpadded), symmetric on the free set.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A layer in a scene: what is refused, what the plan says, and the quantities of a state that hold its
-// uniform compression, with their bounds.
+// A layer in a scene: refusals, plan, quantities with uniform compression.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,13 +47,13 @@ TEST(LayerScene, InFullContactHasExactApproachAndEnergy) {
   EXPECT_NEAR(state.energy(), energy, 1e-9 * energy);
   EXPECT_NEAR(state.stiffness(), 1 / uniform(), 1e-9 / uniform());
   EXPECT_NEAR(state.flatten(), 1, 1e-9);
-  // The surface as it lies: pressed flat, and down by the approach from the crest.
+  // Flat, and lowered by the approach from the crest.
   const Field under = *state.field("displacement");
   EXPECT_NEAR(under(0, 0), state.approach(), 1e-9 * state.approach());
 }
 
 TEST(LayerScene, SpendsTheWorkOfThePressAsEnergy) {
-  // Work is the integral of load over approach: Simpson's rule between two loads.
+  // Work ∫ load dδ by Simpson's rule.
   const Scene scene = [] {
     Scene s = scene_on_layer(noise(24, 3));
     s.accuracy.tolerance = 1e-11;
@@ -87,7 +86,6 @@ TEST(LayerScene, BoundsHoldWhatATighterSolveFinds) {
       EXPECT_LE(std::abs(loose.energy() - tight.energy()), e.energy + f.energy);
       EXPECT_LE(std::abs(loose.mean_gap() - tight.mean_gap()), e.mean_gap + f.mean_gap);
       EXPECT_LE(std::abs(loose.peak_pressure() - tight.peak_pressure()), e.peak_pressure + f.peak_pressure);
-      // And mean something.
       EXPECT_LT(e.energy, 0.05 * loose.energy());
       EXPECT_LT(e.approach, 0.05 * loose.approach());
       EXPECT_LT(f.energy, 1e-8 * loose.energy());
@@ -137,7 +135,6 @@ TEST(LayerScene, RefusesByName) {
   Scene pulled = scene_on_layer();
   pulled.effects.set(TangentialOptions{});
   names(refused(pulled), {"`tangential` is not computed on a layer"});
-  // What lacks a material is refused where half-spaces are.
   names(test::error_of([] { test::ready(scene_on_layer(wave())); }), {"the lower body", "no material"});
 }
 

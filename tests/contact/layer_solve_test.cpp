@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts on a layer solved from their heights: against a dense solution of the same few nodes, against the
-// limits of a half-space and of a Winkler foundation, and that every way of asking finds the same contact.
+// Contacts on a layer against a dense solution and the limits of half-space and Winkler foundation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,11 +28,11 @@ HalfSpaceAnswer at_approach(const HalfSpaceProblem& problem, double approach) {
   return solve_at_approach(problem, approach, Monitor::silent());
 }
 
-// Row after row, the compliance between nodes of a grid in m/Pa: a sum over the waves that it carries.
+// m/Pa, row by row: a sum over the waves of the grid.
 std::vector<double> dense_compliance(const Grid& grid, double modulus, const ElasticLayer& layer) {
   const int n = static_cast<int>(grid.nodes());
   const double two_pi = 2 * std::numbers::pi;
-  std::vector<double> between(grid.nodes());  // of nodes so far apart
+  std::vector<double> between(grid.nodes());  // by distance between nodes
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
       double sum = layer.thickness * uniform_share(layer.poisson) / modulus;
@@ -60,9 +59,8 @@ std::vector<double> dense_compliance(const Grid& grid, double modulus, const Ela
   return all;
 }
 
-// 0 <= p <= cap with a gap that is 0 between the bounds, >= 0 at 0 and <= 0 at the cap, where bodies come
-// `approach` together: Gauss and Seidel's sweeps, projected. K is positive definite, but for the mean
-// where K(0) is 0; short of full contact that is fixed all the same.
+// Projected Gauss-Seidel sweeps: 0 <= p <= cap; gap 0 between the bounds, >= 0 at 0, <= 0 at the cap. K is
+// positive definite, except for the mean if K(0) = 0; the mean is still unique short of full contact.
 std::vector<double> projected_sweeps(const std::vector<double>& compliance, const Field& h, double approach,
                                      double cap) {
   const std::size_t n = h.size();
@@ -88,7 +86,7 @@ struct Small {
   int nx, ny;
   double size_y;
   ElasticLayer layer;
-  double cap;  // of the peak pressure without one; infinite: none
+  double cap;  // of the peak pressure without a cap; infinite: none
 };
 
 TEST(LayerContact, IsThatOfADenseSolution) {
@@ -135,7 +133,6 @@ TEST(LayerContact, OnAThickLayerIsThatOfAHalfSpace) {
     EXPECT_EQ(found.contacts, expected.contacts);
     for (std::size_t k = 0; k < found.pressure.size(); ++k)
       EXPECT_NEAR(found.pressure[k], expected.pressure[k], 1e-6 * expected.peak_pressure);
-    // And sinks as a whole besides.
     const double compression = 20 * uniform_share(0.3) * 0.01;
     EXPECT_NEAR(found.approach, expected.approach + compression, 1e-8 * found.approach);
   }
@@ -261,8 +258,7 @@ TEST(LayerContact, OnLongCellsIsSolved) {
   }
 }
 
-// Its volume stays, so that a uniform pressure moves nothing: full contact ends the approach as on a
-// half-space.
+// Constant volume: a uniform pressure moves nothing.
 TEST(LayerContact, OnAnIncompressibleLayerComesNoNearerThanFullContact) {
   HalfSpaceProblem problem = rough_problem(32, Boundary::periodic, 2, 1e-8);
   const double full = approach_of_full_contact(problem);
@@ -272,13 +268,13 @@ TEST(LayerContact, OnAnIncompressibleLayerComesNoNearerThanFullContact) {
   EXPECT_NEAR(at_approach(problem, 0.5 * full).approach, 0.5 * full, 1e-15);
   problem.share = wave_share({0.3, 0.4, LayerBase::bonded});
   EXPECT_TRUE(at_approach(problem, 1.01 * full).converged);
-  // And all at the hardness, as far as that compresses.
+  // Compression at the hardness.
   problem.yield.cap = 0.01;
   const double most = range(problem.heights->values()).span() + uniform_compliance(problem) * 0.01;
   EXPECT_NE(test::error_of([&] { at_approach(problem, 1.01 * most); }).find("hardness"), std::string::npos);
 }
 
-// To long waves such a layer is so stiff that heights matter at a billion times its modulus.
+// Heights matter at a billion times the modulus: the layer is stiff to long waves.
 TEST(LayerContact, OfUnequalHeightsIsMeasuredByThem) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 9, 1e-6);
   problem.share = wave_share({1e-4, 0.5, LayerBase::bonded});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The area within an outline between the nodes: Hertz's circles that lie anyhow on the cells, what turning,
-// shifting and other units leave as it is, and where there is no such outline. How often its doubt holds on
-// rough ground is in tests/accuracy.
+// The area inside an outline between the nodes: Hertz circles, invariance, contacts without an outline.
+// Coverage on rough surfaces: tests/accuracy.
 #include "engine/contact/outline_area.hpp"
 
 #include <algorithm>
@@ -30,7 +29,7 @@ Scene half_space(const Surface& lower, Boundary boundary) {
   return scene;
 }
 
-// A paraboloid of radius `radius` on n x n cells of a tile of 1 m, its top `x` and `y` cells from the middle.
+// On n x n cells of a tile of 1 m; top `x` and `y` cells from the middle.
 Surface ball(int n, double radius, double x, double y) {
   return surface_of(Grid{n, n, 1, 1}, [=](int i, int j) {
     const double a = (i - n / 2 - x) / n, b = (j - n / 2 - y) / n;
@@ -74,7 +73,7 @@ TEST(OutlineArea, TheDoubtFallsFasterThanTheCells) {
                             4.0 / 3 * modulus * a * a * a / 10))
         ->doubt;
   };
-  EXPECT_NEAR(doubt(24) / doubt(96), 6.8, 0.9);  // as cells to the power 1.38
+  EXPECT_NEAR(doubt(24) / doubt(96), 6.8, 0.9);  // ~ cells^1.38
 }
 
 TEST(OutlineArea, TurnedShiftedAndInOtherUnitsItIsTheSame) {
@@ -102,7 +101,7 @@ TEST(OutlineArea, TurnedShiftedAndInOtherUnitsItIsTheSame) {
 }
 
 TEST(OutlineArea, ANodeThatLetsGoMovesItLittle) {
-  // A pressure that falls to nothing at a node takes the outline through it, and not a cell away at once.
+  // The outline passes through a node of zero pressure, not a cell away.
   Field p(16, 16), g(16, 16);
   for (int j = 0; j < 16; ++j)
     for (int i = 0; i < 16; ++i) {
@@ -123,7 +122,7 @@ TEST(OutlineArea, ThereIsNoneWithoutAnEdge) {
   const Grid grid{16, 16, 1, 1};
   EXPECT_FALSE(outline_area(Field(16, 16), Field(16, 16, 1.0), grid, modulus, true));
   EXPECT_FALSE(outline_area(Field(16, 16, 1.0), Field(16, 16), grid, modulus, true));
-  // The left half of a tile touches up to its rim: one edge along the middle, two where it wraps.
+  // The left half touches: one edge, two with wrapping.
   Field p(16, 16), g(16, 16, 1e-9);
   for (int j = 0; j < 16; ++j)
     for (int i = 0; i < 8; ++i) {
@@ -133,7 +132,7 @@ TEST(OutlineArea, ThereIsNoneWithoutAnEdge) {
   EXPECT_TRUE(outline_area(p, g, grid, modulus, false));
   const double open = outline_area(p, g, grid, modulus, false)->doubt,
                closed = outline_area(p, g, grid, modulus, true)->doubt;
-  // As the edges to the power 0.62, by another number where it wraps.
+  // ~ edges^0.62; the factor differs with wrapping.
   EXPECT_NEAR(closed / open, 0.13 / 0.20 * std::pow(2, 0.62), 0.05);
 }
 
@@ -164,8 +163,7 @@ TEST(State, AnOutlineGivesTheCorrectedAreaAndNothingElse) {
   EXPECT_EQ(with.digest(), state.digest());
 }
 
-// A paraboloid under a plane at 64 places: boxes touch on a disc. Counted nodes miss its area by .33 % (root
-// mean square), the outline by .12 %.
+// Boxes touch on a disc, 64 positions. Root mean square error: counted nodes 0.33 %, outline 0.12 %.
 TEST(OutlineArea, OfBoxesIsTheShareAboveAPlane) {
   const int n = 64, places = 8;
   const double radius = 0.31, stiffness = 7, disc = std::numbers::pi * radius * radius;

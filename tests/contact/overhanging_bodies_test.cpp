@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// B1: on a free boundary a turned upper body does not cover all of the lower one. Where nothing faces the
-// ground there is no pressure and no gap, whatever is prescribed and however bodies give way.
+// Outside the overlap of turned bodies there is no pressure and no gap.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -30,7 +29,7 @@ Material metal(double hardness) {
   return material;
 }
 
-// A rough dome, so that bodies touch away from the middle too.
+// Contacts away from the middle, too.
 Surface dome(const Grid& grid, std::uint64_t seed, double rms = 2e-7) {
   SelfAffineOptions options;
   options.grid = grid;
@@ -67,7 +66,6 @@ struct Turned {
   State press(PressBy by, double value) const { return solver->press({by, value, {}}); }
 };
 
-// What must hold of any state.
 void expect_nothing_off_the_overlap(const State& state, const std::string& what) {
   SCOPED_TRACE(what);
   const Field& h = state.geometry().combined();
@@ -95,7 +93,6 @@ void expect_nothing_off_the_overlap(const State& state, const std::string& what)
   EXPECT_NEAR(block_sum(pressure->values()) * state.grid().cell_area(), state.load(), 1e-9 * state.load());
   EXPECT_NEAR(state.pressure() * state.grid().area(), state.load(), 1e-12 * state.load());
   EXPECT_TRUE(state.converged()) << state.residual();
-  // The mean counts what the tolerance lets nodes in contact overlap by.
   EXPECT_NEAR(state.mean_gap(), gaps / static_cast<double>(facing),
               std::max(1e-9, 2 * state.residual()) * state.geometry().peak_to_valley());
   const double yielded = state.plastic_volume() / (static_cast<double>(facing) * state.grid().cell_area());
@@ -120,7 +117,7 @@ TEST(OverhangingBodies, NothingPressesWhereNothingFacesInAnyControl) {
         if (model >= 3) scene.elasticity = HalfSpaceOptions{};
         if (model == 1) scene.effects.set(capped);
         if (model == 2 || model == 4) scene.effects.set(hardening);
-        if (grid.nx == grid.ny && angle == 90) continue;  // on the lattice: it covers
+        if (grid.nx == grid.ny && angle == 90) continue;  // lattice turn: full cover
         const Turned turned(scene, angle * degree);
         const std::string what = std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " at " +
                                  std::to_string(angle) + ", model " + std::to_string(model);
@@ -132,13 +129,13 @@ TEST(OverhangingBodies, NothingPressesWhereNothingFacesInAnyControl) {
       }
 }
 
-// 96 kN/mm² on bodies of 77 GPa: all that faces touches, and no more.
+// 96 kN/mm² on bodies of 77 GPa: the whole overlap touches.
 TEST(OverhangingBodies, NoLoadIsGreatEnoughToReachGroundThatNothingFaces) {
   const Grid grid{32, 32, 1e-3, 1e-3};
   for (const double pressure : {1e9, 1e11, 1e15}) {
     const State state =
         Turned(two_domes(grid, HalfSpaceOptions{}, 1e-7), 45 * degree).press(PressBy::pressure, pressure);
-    // An octagon of the square that the nodes span, 31 of 32 cells a side.
+    // An octagon of the square between the nodes, 31 of 32 cells a side.
     EXPECT_NEAR(state.overlap_fraction(), 2 * (std::sqrt(2.0) - 1) * std::pow(31.0 / 32, 2), 0.02);
     EXPECT_LE(state.contacts(), state.geometry().facing());
     EXPECT_NEAR(block_sum(state.field("pressure")->values()) / 1024, pressure, 1e-7 * pressure);
@@ -146,7 +143,6 @@ TEST(OverhangingBodies, NoLoadIsGreatEnoughToReachGroundThatNothingFaces) {
       EXPECT_EQ(state.contacts(), state.geometry().facing());
     }
   }
-  // Flats, too.
   const Surface flat = surface_of(grid, [](int, int) { return 0.0; }).with_material(metal(1e9));
   Scene scene{flat, flat, Boundary::free, HalfSpaceOptions{}, Accuracy{}};
   for (const double pressure : {1.0, 1e9}) {
@@ -156,7 +152,7 @@ TEST(OverhangingBodies, NoLoadIsGreatEnoughToReachGroundThatNothingFaces) {
   }
 }
 
-// Bars of 1 mm by 4 mm that cross: on 1 mm² they face each other, as two tiles of that square do.
+// Crossed bars of 1 mm by 4 mm overlap on 1 mm².
 class CrossedBars : public ::testing::TestWithParam<int> {};
 
 TEST_P(CrossedBars, CarryAsTheirCommonSquareDoes) {
@@ -205,7 +201,7 @@ TEST_P(CrossedBars, CarryAsTheirCommonSquareDoes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, CrossedBars, ::testing::Range(0, 4));
 
-// A mean pressure over the tile that the overlap cannot carry is refused with the share that it has.
+// The error names the overlap's share.
 TEST(OverhangingBodies, TheHardnessIsThatOfTheOverlap) {
   const Grid bar{8, 32, 1e-3, 4e-3};
   Scene scene{dome(bar, 3), dome(bar, 4), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
@@ -220,7 +216,6 @@ TEST(OverhangingBodies, TheHardnessIsThatOfTheOverlap) {
   }
 }
 
-// What yields stays on the overlap of each body, and the same press again takes nothing.
 TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
   const Grid grid{32, 32, 1e-3, 1e-3};
   for (const bool half_space : {false, true})
@@ -254,8 +249,6 @@ TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
     }
 }
 
-// Bounds are of the contact that is there: a tighter solve lies within them, and no node off the overlap
-// counts.
 TEST(OverhangingBodies, CertificatesAreOfTheOverlap) {
   const Grid grid{48, 48, 1e-3, 1e-3};
   for (const PressBy by : {PressBy::pressure, PressBy::approach}) {
@@ -274,14 +267,13 @@ TEST(OverhangingBodies, CertificatesAreOfTheOverlap) {
   }
 }
 
-// What the lower body does where nothing faces it: it sinks with the rest.
 TEST(OverhangingBodies, GroundThatNothingFacesSinksWithTheRest) {
   const Grid grid{24, 24, 1e-3, 1e-3};
   const Turned turned(two_domes(grid, HalfSpaceOptions{}, 1e-10), 45 * degree);
   const State state = turned.press(PressBy::pressure, 5e7);
   const auto u = state.field("displacement"), p = state.field("pressure");
   const double modulus = std::get<HalfSpaceOperator>(turned.plan.elasticity).modulus, cell = grid.hx();
-  // Far enough from every node that presses, each is as a point load: u = p h²/(π E* r).
+  // Far from pressed nodes: point loads, u = p h²/(π E* r).
   double by_points = 0;
   for (int j = 0; j < 24; ++j)
     for (int i = 0; i < 24; ++i)
@@ -318,7 +310,6 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
       EXPECT_NEAR(all.approach(), part.approach(), 1e-5 * std::abs(part.approach()));
       EXPECT_NEAR(all.attraction(), part.attraction(), 1e-5 * part.attraction());
       EXPECT_NEAR(all.load(), part.load(), 1e-5 * part.attraction());
-      // All that faces touches.
       EXPECT_NEAR(all.mean_gap(), 0, 1e-9 * all.geometry().peak_to_valley());
       EXPECT_NEAR(part.mean_gap(), 0, 1e-9 * part.geometry().peak_to_valley());
       EXPECT_NEAR(all.energy(), part.energy(), 1e-4 * part.energy());
@@ -332,7 +323,6 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
   }
 }
 
-// The same press on other cells is of the overlap as well.
 TEST(OverhangingBodies, EstimatesGoOverTheOverlap) {
   const Grid grid{32, 32, 1e-3, 1e-3};
   for (const bool half_space : {false, true}) {
@@ -370,7 +360,7 @@ TEST(OverhangingBodies, ThePlanSaysOnWhichShareTheyFaceEachOther) {
 TEST(OverhangingBodies, BodiesThatDoNotMeetAreRefused) {
   const Grid line{1, 64, 1e-6, 1e-3};
   const Surface body = surface_of(line, [](int, int j) { return j * 1e-9; }).with_material(metal(1e9));
-  // 64 nodes in a line across another: between the nodes of both.
+  // 64 nodes in a line across another.
   Scene scene{body, body, Boundary::free, BoxOptions{1e12}, Accuracy{}};
   EXPECT_NE(error_of([&] { Turned(scene, 90 * degree); }).find("no node of one body lies over the other"),
             std::string::npos);

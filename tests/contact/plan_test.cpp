@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a plan holds for a scene of box elements, how it explains itself, and what it refuses.
+// The plan of a scene: contents, explanations, refusals.
 #include "engine/contact/plan.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ TEST(Plan, DefaultStiffnessIsModulusOverPeakToValley) {
   const Surface lower = row_of({0, 1, 3, 8}).with_material(elastic(70e9, 0.33));
   const double modulus = 70e9 / (1 - 0.33 * 0.33);
   EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, rigid_material()))).stiffness, modulus / 8);
-  // Two bodies: 1/E* is the sum of both compliances, and the peak-to-valley is that of both together.
+  // 1/E* is the sum of both compliances; the peak-to-valley is the pair's.
   const Surface upper = row_of({0, 0, 0, 4}).with_material(elastic(95e9, 0.08));
   const double both = 1 / (1 / modulus + (1 - 0.08 * 0.08) / 95e9);
   EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, upper))).stiffness, both / 7);
@@ -82,7 +82,7 @@ TEST(Plan, EqualHeightsNeedAStiffness) {
             "all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness; give "
             "`stiffness` in "
             "Pa/m");
-  // Two rough bodies that fit into each other are a plane as well.
+  // Two bodies that fit together are a plane.
   EXPECT_NE(error_of([&] {
               plan_of(scene_of(row_of({0, 1, 3}).with_material(elastic(1)),
                                row_of({0, 2, 3}).with_material(elastic(1))));
@@ -119,8 +119,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
   EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
 }
 
-// N9: a half-space takes no more than the plan says, and no less than half of it, a mebibyte apart. What has
-// no period of the lanes' transforms, or hardly any nodes, took up to eight times as much.
+// A half-space takes at most the planned memory and at least half of this, within a mebibyte.
 TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
                                                {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};
@@ -137,7 +136,7 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
         constexpr std::int64_t apart = 1 << 20;
         const auto pressed = [&] { return test::press(scene, PressBy::pressure, 1e8).cost().total.bytes; };
         std::int64_t taken = pressed();
-        // Where the machine is busy, one of the threads that are counted may do all the work.
+        // On a busy machine, one thread may do all the work.
         for (int again = 0; again < 4 && plan.bytes_peak() > 2 * taken + apart; ++again)
           taken = std::max(taken, pressed());
         EXPECT_LE(taken, plan.bytes_peak()) << nx << " x " << ny << (hardens ? ", hardening" : "");
@@ -145,7 +144,6 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
       }
 }
 
-// N9: nor does a press by flattening, by its approach or by its load, take more than is said beside that.
 TEST(Plan, N9MemoryOfAFlatteningIsNotExceeded) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const bool hardens : {false, true})

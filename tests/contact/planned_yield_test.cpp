@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which loads are known to leave ground as it is once others were carried.
+// Loads that cause no yield after earlier loads.
 #include "engine/contact/planned_yield.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The effect plasticity: what a plan reads from the materials, and what an event takes from each body.
+// Plasticity: the plan from the materials, and the plastic volume of each body.
 #include "engine/contact/effects/plasticity.hpp"
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST(Plasticity, TheSofterBodyLimitsThePressureAndTakesTheGreaterShare) {
   EXPECT_FALSE(yield.hardens());
 }
 
-// P7: shares of the approach that J2 plasticity below the surface gives, by the ratio of the hardnesses.
+// Shares of the approach from J2 plasticity below the surface.
 TEST(Plasticity, TheShareOfTheHarderBodyFallsSmoothlyToNothing) {
   const auto of_harder = [](double ratio) { return lower_plastic_share(ratio * 1e9, 1e9); };
   EXPECT_EQ(of_harder(1), 0.5);
@@ -67,13 +67,12 @@ TEST(Plasticity, TheShareOfTheHarderBodyFallsSmoothlyToNothing) {
     EXPECT_NEAR(share + lower_plastic_share(1e9, ratio * 1e9), 1, 1e-15) << ratio;
     before = share;
   }
-  // Any pair of numbers that two materials may have.
   for (const double hard : {1e-300, 1e-3, 1.0, 1e9, 1e300})
     for (const double soft : {1e-300, 1e-3, 1.0, 1e9, 1e300})
       EXPECT_EQ(lower_plastic_share(hard, soft), hard > soft ? 0 : hard < soft ? 1 : 0.5);
 }
 
-// P7: of one hardness and one Poisson's ratio, the strain below the faces goes as 1/E.
+// The strain below the faces is proportional to 1/E.
 TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   Material stiff = metal(1e9), soft = metal(1e9);
   stiff.young = 210e9;
@@ -85,11 +84,10 @@ TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(soft))), 0.25);
   EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(soft), rough.with_material(stiff))), 0.75);
   EXPECT_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(stiff))), 0.5);
-  // Nothing elastic, no moduli.
   Scene rigid = scene_of(rough.with_material(stiff), rough.with_material(soft), {}, Boundary::free);
   rigid.elasticity = RigidOptions{};
   EXPECT_EQ(share(rigid), 0.5);
-  // Boxes of a stiffness of their own need no modulus, and use one where both are there.
+  // A given stiffness needs no modulus, but the moduli set the shares.
   Scene boxes = rigid;
   boxes.elasticity = BoxOptions{1e12};
   EXPECT_DOUBLE_EQ(share(boxes), 0.25);
@@ -99,7 +97,6 @@ TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   EXPECT_EQ(share(boxes), 0.5);
 }
 
-// P8: the plan says by what the bodies share.
 TEST(Plasticity, ThePlanSaysWhoTakesWhatAndByWhat) {
   const auto sentence = [](const Scene& scene) {
     std::string text;
@@ -177,7 +174,7 @@ TEST(Plasticity, OptionsOutOfRangeAreNamed) {
 TEST(Plasticity, EachBodyLosesItsShareWhereItLay) {
   const Grid grid{6, 6, 6, 6};
   const Surface lower = surface_of(grid, [](int i, int j) { return i + 10.0 * j; }).with_material(metal(1e9));
-  // Of one hardness, and a third of the other's modulus: a quarter of what yields.
+  // Three times the modulus: a quarter of the plastic volume.
   Material stiff = metal(1e9);
   stiff.young = 3 * *metal(1e9).young;
   const Surface upper = surface_of(grid, [](int i, int j) { return 0.5 * i * j; }).with_material(stiff);
@@ -193,14 +190,13 @@ TEST(Plasticity, EachBodyLosesItsShareWhereItLay) {
   const auto above = pose.lattice().to_upper(LatticeIsometry::Node{4, 1});
   const Surface& upper_after = std::get<Surface>(after.upper);
   EXPECT_DOUBLE_EQ(upper_after.height(above.i, above.j), upper.height(above.i, above.j) - 0.2);
-  // Nothing else moved, to the bit.
   int moved = 0;
   for (int j = 0; j < 6; ++j)
     for (int i = 0; i < 6; ++i)
       moved +=
           (after.lower.height(i, j) != lower.height(i, j)) + (upper_after.height(i, j) != upper.height(i, j));
   EXPECT_EQ(moved, 4);
-  // The faces meet as the gap says: what the pair lost together is w.
+  // The pair's total loss is w.
   Scene then = scene;
   then.lower = after.lower;
   then.upper = after.upper;
@@ -245,7 +241,7 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   EXPECT_EQ((*after.hardness.lower)(0, 0), 1e9);
   const auto above = pose.lattice().to_upper(LatticeIsometry::Node{3, 3});
   EXPECT_EQ((*after.hardness.upper)(above.i, above.j), 1.5e9);
-  // Put down elsewhere, the hard node of each meets soft ground of the other.
+  // The hard node of each body meets a soft node.
   const ContactGeometry elsewhere(scene, LatticeIsometry(6, 6).shifted(2, 2), kept(after.hardness));
   const MetMemory local = local_hardness(elsewhere, yield_of(scene));
   int both = 0;
@@ -253,7 +249,6 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   EXPECT_EQ(both, 0);
 }
 
-// P8: where events have hardened one body, the other takes what yields there.
 TEST(Plasticity, SharesGoByWhatEachNodeHasHardenedTo) {
   const Surface body = rough.with_material(metal(1e9));
   const Scene scene = scene_of(body, body, {{}, 5e13});

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the upper body lies: exact on the lattice, interpolated between, angles that add up.
-// The lattice by itself: known nodes, exact inverses, composition.
+// The pose of the upper body: exact on the lattice, interpolated between nodes, additive angles.
 #include "engine/contact/bodies/pose.hpp"
 
 #include <cmath>
@@ -58,13 +57,13 @@ TEST(Pose, HalfTurnsAloneAreOnTheLatticeOfATileThatIsNotSquare) {
   const Pose quarter = home.turned(90 * degree, oblong);
   EXPECT_FALSE(quarter.on_lattice());
   EXPECT_NEAR(std::abs(quarter.rest()), 90 * degree, 1e-15);
-  // Square cells, but the other way about the sides differ.
+  // A quarter turn exchanges unequal sides.
   EXPECT_FALSE(Pose(LatticeIsometry(6, 6)).turned(90 * degree, Grid{6, 6, 6, 3}).on_lattice());
 }
 
 TEST(Pose, APlaneTurnsAsAPlane) {
-  // Bilinear interpolation is exact for planes: own z = x of the upper body, turned over (x -> -x about
-  // the middle) and turned by 30 deg, is −(c x + s y) seen from below.
+  // Bilinear interpolation is exact for planes: z = x, turned over (x -> -x about the middle) and turned by
+  // 30 deg, is −(c x + s y) seen from below.
   const Grid grid = square(9);
   const Surface plane = test::surface_of(grid, [](int i, int) { return i - 4.0; });
   const Pose pose = Pose(LatticeIsometry(9, 9)).turned(30 * degree, grid);
@@ -120,7 +119,7 @@ TEST(LatticeIsometry, TurnsTheUpperBodyOverAboutY) {
 
 TEST(LatticeIsometry, QuarterTurnIsCounterClockwiseFromAbove) {
   const LatticeIsometry over(5, 5), turned = over.turned(1);
-  // What lay on the +x side of the centre lies on its +y side, and +y goes to -x.
+  // A quarter turn: +x to +y, +y to -x.
   EXPECT_EQ(turned.to_lower(over.to_upper(Node{4, 2})), (Node{2, 4}));
   EXPECT_EQ(turned.to_lower(over.to_upper(Node{2, 4})), (Node{0, 2}));
   EXPECT_EQ(turned.quarters(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a press refuses whatever the contact.
+// Requests refused for every contact.
 #include "engine/contact/scene/press_request.hpp"
 
 #include <cmath>

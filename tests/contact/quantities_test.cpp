@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of quantities: each name once, each value that of the state, and what is said of errors.
+// The table of quantities: unique names, values, texts of errors.
 #include "engine/contact/quantities.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Connected regions and outlines against a flood fill that visits node by node.
+// Connected regions and outlines against a node-by-node flood fill.
 #include "engine/contact/regions.hpp"
 
 #include <algorithm>

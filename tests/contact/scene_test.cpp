@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene refuses before anything is computed, with its texts.
+// Scenes refused before any computation, with the error texts.
 #include "engine/contact/scene/scene.hpp"
 
 #include <limits>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The effects of a contact pulled sideways as a scene names them: their options, what a plan says of them,
-// and that no press knows them.
+// The effects of lateral loading; presses ignore them.
 #include "engine/contact/plan.hpp"
 
 #include <algorithm>
@@ -44,7 +43,6 @@ TEST(Ageing, GrowsWithTheLogarithmOfTheRest) {
   EXPECT_EQ(strengthening(ageing, 0.0), 1);
   EXPECT_DOUBLE_EQ(strengthening(ageing, std::exp(1.0) - 1), 1.02);
   EXPECT_DOUBLE_EQ(strengthening(ageing, 600.0), 1 + 0.02 * std::log(601.0));
-  // Far from the onset every decade adds the same.
   EXPECT_NEAR(strengthening(ageing, 1e9) - strengthening(ageing, 1e8), 0.02 * std::log(10), 1e-9);
   EXPECT_EQ(strengthening({0, 1}, 1e300), 1);
   EXPECT_TRUE(std::isfinite(strengthening(ageing, 1e300)));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over sorted heights against plain sums in extended precision, across block borders. The radix sort
-// against the library's, on both sides of its smallest size. Sums that keep what a double loses.
+// Sums over sorted heights against extended precision; radix sort around its smallest size.
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +68,7 @@ TEST(SortedDrops, DepthAtATouchedDropIsThatDrop) {
 }
 
 TEST(SortedDrops, ALonelySpikeDoesNotSpoilTheRest) {
-  // One peak far above a plateau of nearly equal heights: differences of large sums would cancel.
+  // Differences of large sums would cancel.
   std::vector<double> heights = {1};
   for (int k = 0; k < 3000; ++k) heights.push_back(1e-12 * k);
   const SortedDrops drops(heights);

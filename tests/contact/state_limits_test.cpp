@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The limits that a state reports of itself: few nodes in contact, the rim of a free tile, and none without.
+// Limits reported by a state: few nodes in contact, the rim of a free tile.
 #include "engine/contact/state_limits.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(StateLimits, OnFewNodesNoBoundOfTheSolverIsShown) {
   EXPECT_NE(enough.find("±"), std::string::npos) << enough;
 }
 
-// All of a tile of few nodes may touch, and boxes know nothing of each other.
+// Full contact, or independent boxes.
 TEST(StateLimits, FewNodesAreEnoughWhereAllTouchOrEachStandsAlone) {
   Scene small = ball(4, 1e-5, Boundary::periodic);
   const State all = test::press(small, PressBy::pressure, 1e10);
@@ -66,7 +66,6 @@ TEST(StateLimits, AContactAtTheRimOfAFreeTileIsReported) {
   const State cut = test::press(ball(64, 2e-5), PressBy::load, 0.12);
   ASSERT_EQ(cut.area_fraction(), 1);
   EXPECT_EQ(limits_of(cut), at_the_rim);
-  // Along one side alone.
   Scene tilted = ball(32, 2e-5);
   tilted.lower = test::surface_of(tilted.lower.grid(), [](int i, int) {
                    return i == 0 ? 1e-9 : 0.0;

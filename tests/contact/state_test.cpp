@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a state tells: regions, outline, deformed bodies, distributions, digests, and what it refuses.
+// Regions, outline, deformed bodies, distributions, digests, refusals.
 #include "engine/contact/state.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using test::surface_of;
 constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
 
 TEST(State, SpotsAndTheirAreas) {
-  // Two spots joined by a corner, one alone, on cells of 0.5 m x 0.25 m.
+  // Two spots joined by a corner and one alone, cells of 0.5 m x 0.25 m.
   const Surface blocks = surface_of(Grid{6, 4, 3, 1}, [](int i, int j) {
     return (i < 2 && j < 2) || (i == 2 && j == 2) || (i == 5 && j == 0) ? 1.0 : 0.0;
   });
@@ -82,7 +82,7 @@ TEST(State, TwoBodiesShareTheShorteningAndMeetWithoutGap) {
       EXPECT_NEAR(upper.height(15 - i, j) - up.height(15 - i, j), 0.2 * (*displacement)(i, j), 1e-14);
       greatest = std::max(greatest, low.height(i, j) + up.height(15 - i, j));
     }
-  // The combined deformed heights are the undeformed ones cut by a plane, so the gap is zero in contact.
+  // Undeformed heights cut by a plane.
   for (int j = 0; j < 16; ++j)
     for (int i = 0; i < 16; ++i)
       EXPECT_NEAR(greatest - (low.height(i, j) + up.height(15 - i, j)), (*gap)(i, j), 1e-13);
@@ -186,7 +186,6 @@ TEST(State, TextTellsValuesWithTheirErrorsCostAndResidual) {
   EXPECT_EQ(st.effects_run(), std::vector<std::string>{"elasticity"});
 }
 
-// N12: a flat on all of a periodic tile carries any load and comes no nearer.
 TEST(State, AFlatUnderLoadHasNoFiniteSecantStiffness) {
   const Surface flat = surface_of(Grid{8, 8, 1, 1}, [](int, int) { return 0.0; }).with_material(elastic(1e9));
   Scene scene = scene_of(flat, rigid_material(), {}, Boundary::periodic);
@@ -196,7 +195,6 @@ TEST(State, AFlatUnderLoadHasNoFiniteSecantStiffness) {
   EXPECT_EQ(loaded.secant_stiffness(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(loaded.stiffness(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(press(scene, PressBy::pressure, 0).secant_stiffness(), 0);
-  // Any roughness gives way.
   scene.lower = random_surface(8, 8, 1).with_material(elastic(1e9));
   const State rough = press(scene, PressBy::pressure, 4e7);
   EXPECT_EQ(rough.secant_stiffness(), rough.pressure() / rough.approach());

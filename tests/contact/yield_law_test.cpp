@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which limit is in force, and what is refused.
+// The active limit, and refused laws.
 #include "engine/contact/yield_law.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box elements that yield, and rigid ones: answers by hand, bisection to sums in long double, the bearing
-// model, what events leave, hard cases (equal heights, one node, hardness over thirty decades, loads at the
-// hardness), and no bit from an order of nodes or from an effect without strength.
+// Yielding and rigid boxes: answers by hand, bisection in long double, the bearing model, events, hardness
+// over thirty decades.
 #include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>
@@ -56,7 +55,7 @@ TEST(YieldingBoxSolver, FourBoxesByHandUnderACap) {
 }
 
 TEST(YieldingBoxSolver, FourBoxesByHandWithHardening) {
-  // Past 0.3 the two springs in series have a half: 0.3 + 0.5 · 0.3 = 0.45 on the highest.
+  // Above 0.3, half the stiffness: 0.3 + 0.5 · 0.3 = 0.45.
   const State st = press(yielding(four, BoxOptions{1}, {.hardness = 0.3, .hardening = 1}), 0.55 / 4);
   EXPECT_NEAR(st.approach(), 0.6, 1e-15);
   EXPECT_NEAR(st.peak_pressure(), 0.45, 1e-15);
@@ -86,7 +85,7 @@ TEST(YieldingBoxSolver, TheFirstRigidBoxCarriesALightLoadAtNoDepth) {
   EXPECT_EQ(st.plastic_volume(), 0);
 }
 
-// The bearing model: the load over the hardness touches, and the plane stands at that share of the heights.
+// Contact area = load/hardness.
 TEST(YieldingBoxSolver, RigidBodiesBearOnTheLoadOverTheHardness) {
   const Surface rough = random_surface(50, 40, 3);
   std::vector<double> sorted(rough.heights().values().begin(), rough.heights().values().end());
@@ -110,7 +109,7 @@ struct Law {
 };
 class YieldingBoxes : public ::testing::TestWithParam<Law> {};
 
-// Sums and bisection in long double, which share no code with the solver.
+// Shares no code with the solver.
 TEST_P(YieldingBoxes, AgreeWithBisectionToTheSum) {
   const char* const name = GetParam().name;
   const double k = GetParam().stiffness, hardening = GetParam().hardening;
@@ -141,7 +140,6 @@ TEST_P(YieldingBoxes, AgreeWithBisectionToTheSum) {
     const State st = solver->press({PressBy::pressure, pressure, {}});
     EXPECT_NEAR(st.approach(), static_cast<double>(high), 1e-13 * st.approach() + 1e-30)
         << name << " " << pressure;
-    // A gap is the difference of a depth and a shortening.
     EXPECT_LT(st.residual(), 1e-14 + 1e-15 * st.approach()) << name << " " << pressure;
     const State by_approach = solver->press({PressBy::approach, std::nextafter(st.approach(), 1e9), {}});
     EXPECT_GE(by_approach.pressure(), pressure * (1 - 1e-14));
@@ -200,7 +198,7 @@ TEST(YieldingBoxSolver, NoBitFollowsTheOrderOfTheNodes) {
 }
 
 TEST(YieldingBoxSolver, HardCasesEndInAnAnswer) {
-  // One node, and heights that are all equal: all of it shares the load.
+  // All nodes share the load.
   for (const Elasticity& model : {Elasticity(BoxOptions{2}), Elasticity(RigidOptions{})}) {
     const State one = press(yielding(row_of({5}), model, {.hardness = 1}), 0.999);
     EXPECT_NEAR(one.peak_pressure(), 0.999, 1e-15);
@@ -210,11 +208,10 @@ TEST(YieldingBoxSolver, HardCasesEndInAnAnswer) {
     EXPECT_EQ(flat.plastic_volume(), 0);
     EXPECT_EQ(press(yielding(four, model, {.hardness = 1}), 0).contacts(), 0);
   }
-  // Shortened by 1e30 times their heights: all alike.
+  // Shortened by 1e30 times their heights: equal pressures.
   const State soft = press(yielding(four, BoxOptions{1e-30}, {.hardness = 2}), 1);
   EXPECT_EQ(soft.contacts(), 4);
   EXPECT_NEAR(soft.peak_pressure(), 1, 1e-15);
-  // Thirty decades of hardness and heights, elements from soft to rigid; the last double under the hardness.
   for (const double hardness : {1e-15, 1.0, 1e15})
     for (const double softness : {1e3, 1.0, 1e-15, 0.0})
       for (const double height : {1e-15, 1.0, 1e15}) {

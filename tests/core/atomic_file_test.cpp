@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files replaced atomically: whole or not at all, and what the system's refusals say. No two names aside are
-// one, each is known for what it is, and what a killed writer left is told from what somebody is writing.
+// Atomic replacement of files; unique, recognisable temporary names that distinguish a killed from a running
+// writer.
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/temporary_folder.hpp"
@@ -111,7 +111,7 @@ class PartFile : public InFolder {
     std::ofstream(file) << "part";
     return file;
   }
-  // A part of a process that has ended.
+  // From an ended process.
   fs::path left_by_the_dead(const fs::path& target) const {
     int name[2];
     EXPECT_EQ(::pipe(name), 0);
@@ -131,7 +131,7 @@ class PartFile : public InFolder {
   }
 };
 
-// F11: processes of two containers had one number and wrote one file.
+// Processes of two containers can have the same number.
 TEST_F(PartFile, F11NoTwoNamesAreOne) {
   std::set<fs::path> names;
   for (int k = 0; k < 1000; ++k) names.insert(part_beside(folder / "a.h5"));

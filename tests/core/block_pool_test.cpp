@@ -69,7 +69,7 @@ TEST(BlockPool, AreDroppedWhenMemoryIsWanted) {
   EXPECT_EQ(kept.take(page), nullptr);
 }
 
-// No two hold the same block at once.
+// No block has two holders.
 TEST(BlockPool, ServeManyThreads) {
   BlockPool kept(8 * page);
   std::vector<int> torn(4, 0);

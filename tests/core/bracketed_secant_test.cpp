@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bracketed secant on functions that are kind and unkind to secants.
+// The bracketed secant on smooth and difficult functions.
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 
 #include <gtest/gtest.h>
@@ -30,10 +30,10 @@ TEST(BracketedSecant, FindsRootsOfMonotoneFunctions) {
   EXPECT_LE(evaluations([](double x) { return x; }, 3, 1), 3);
   EXPECT_LE(evaluations([](double x) { return x * std::sqrt(x); }, 3, 1e-3), 12);
   EXPECT_LE(evaluations([](double x) { return 1 - std::exp(-x); }, .999, 1e-2), 20);
-  // Terraces, and cliffs between them.
+  // Terraces with steep edges.
   EXPECT_LE(evaluations([](double x) { return std::floor(x) + std::pow(x - std::floor(x), 20); }, 5.5, 1),
             60);
-  // No double is near enough: halved in every second step down to the last of 52 digits.
+  // No double is near enough: every second step halves, down to the last of 52 digits.
   EXPECT_LE(evaluations([](double x) { return x < 2 ? 1e-9 * x : 2e-9 + 1e9 * (x - 2); }, 1, 1), 110);
 }
 
@@ -44,25 +44,23 @@ TEST(BracketedSecant, TakesPowersAndFullContactByTheirLogarithms) {
     return evaluations(f, wanted, begin, BracketedSecant(wanted, {0, 0}, end, Scale::logarithmic));
   };
   const BracketedSecant::Point nothing_known{BracketedSecant::unknown, BracketedSecant::unknown};
-  // An approach under light loads.
   const auto power = [](double x) { return std::pow(x, .2); };
   EXPECT_LE(by_logarithms(power, 1, 1e-3, nothing_known), 6);
   EXPECT_GT(evaluations(power, 1, 1e-3), 8);
   EXPECT_LE(by_logarithms([](double x) { return std::log1p(1e6 * x); }, 10, 1e-5, nothing_known), 10);
-  // An approach near full contact, in which it ends with no slope: a secant creeps towards such a root.
+  // Near full contact the slope vanishes: a secant creeps.
   const auto near_full = [](double x) { return x < 1 ? 1 - std::pow(1 - x, 2.5) : 1; };
   EXPECT_LE(by_logarithms(near_full, 1 - 1e-6, .4, {1, 1}), 6);
   EXPECT_GT(evaluations(near_full, 1 - 1e-6, .4, BracketedSecant(1 - 1e-6, {0, 0}, {1, 1})), 12);
-  // Peaks that have sunk as far as they go before the ground between them is reached: from a light load to
-  // one that hardly differs from it by what is measured, and lies far off.
+  // Peaks sink fully before the ground is reached: distant loads, almost equal values.
   const auto flat = [](double x) { return 1 + 1e-5 * std::log(x); };
   EXPECT_LE(by_logarithms(flat, flat(2), 1, nothing_known), 5);
   const auto sunk = [](double x) { return x < 1 ? 1 - .07 * std::pow(1 - x, 7) : 1; };
   EXPECT_LE(by_logarithms(sunk, sunk(.5), .015, {1, 1}), 5);
-  // What goes as a power under light loads, and then as a line.
+  // A power under light loads, then a line.
   const auto punch = [](double x) { return 1 + .1 * x / (1 + x) + .01 * x; };
   EXPECT_LE(by_logarithms(punch, punch(1000), 50, nothing_known), 5);
-  // Full contact, of which any more says the same.
+  // Beyond full contact the quantity is constant.
   const auto saturated = [](double x) { return x < 1e-3 ? x : BracketedSecant::unknown; };
   EXPECT_LE(by_logarithms(saturated, 9e-4, 1, nothing_known), 60);
 }
@@ -81,7 +79,7 @@ TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {
   }
 }
 
-// Two values that are rough beside how they differ tell no slope: the better one replaces the last.
+// Two inexact, nearly equal values give no slope: the better value replaces the last.
 TEST(BracketedSecant, AValueInPlaceOfARougherOneKeepsTheSlope) {
   const auto next_of = [](bool instead) {
     BracketedSecant root(4);

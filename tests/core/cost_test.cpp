@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A limit on transforms ends what goes beyond it, at the same count each time, and nothing after it.
+// A limit on transforms stops at a reproducible count.
 #include "engine/core/cost.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A digest is the same for the same content and differs for any other.
+// Digests of equal and different content.
 #include "engine/core/digest.hpp"
 
 #include <gtest/gtest.h>

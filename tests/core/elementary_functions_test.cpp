@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: elementary functions are correctly rounded, held bit for bit against MPFR over wide ranges, at special
-// values, beside exact results and ties, and under other rounding modes.
+// Correct rounding of elementary functions, against MPFR: wide ranges, special values, exact results, ties,
+// other rounding modes.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 using elementary::SineCosine;
 
-// Freed with the scope of a test: MPFR keeps π and log 2 per thread.
+// MPFR caches π and log 2 per thread; freed at the end of a test.
 struct Reference {
   mpfr_t result, first, second;
   Reference() { mpfr_inits2(53, result, first, second, static_cast<mpfr_ptr>(nullptr)); }
@@ -63,13 +63,13 @@ struct OfOne {
   const char* name;
   double (*ours)(double);
   int (*reference)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
-  double low, high;    // where it has values
-  double least = -60;  // exponent of 2 of the smallest arguments tried
+  double low, high;
+  double least = -60;  // binary exponent of the smallest arguments
   double greatest = 12;
   int samples = 6000;
 };
 
-// Functions that MPFR computes are tried a few times, to see that they are wired up.
+// Functions computed by MPFR: a few samples check the call.
 const std::vector<OfOne> functions = {
     {"sin", elementary::sin, mpfr_sin, -1e300, 1e300, -40, 16},
     {"cos", elementary::cos, mpfr_cos, -1e300, 1e300, -40, 16},
@@ -100,7 +100,7 @@ TEST(ElementaryFunctions, OfOneArgumentAreCorrectlyRounded) {
   for (const OfOne& f : functions) {
     const Stream stream(1, f.name);
     std::uint64_t draw = 0;
-    // Exponents evenly, and numbers of order one evenly.
+    // Uniform exponents, and uniform numbers of order one.
     for (int k = 0; k < f.samples; ++k) {
       const double exponent = stream.uniform(draw++, f.least, f.greatest);
       double x = std::ldexp(1 + stream.uniform(draw++), static_cast<int>(std::floor(exponent)));
@@ -123,7 +123,7 @@ TEST(ElementaryFunctions, CorrectlyRoundedBesideOneAndZeroAndTheEdgesOfTables) {
         708,     -708,     -708.4,      709,         -745.13, 40,      -40,
         65536,   65535.99, 0x1p28,      0x1p60,      1e22,    1e300};
     for (int j = 1; j <= 1024; j += 7) {
-      places.push_back(j * (3.141592653589793 / 512));   // sines between and on places of the table
+      places.push_back(j * (3.141592653589793 / 512));   // sines on and between table places
       places.push_back(j * (0.6931471805599453 / 256));  // exponentials
       places.push_back(j / 512.0);                       // logarithms
     }
@@ -192,8 +192,7 @@ TEST(ElementaryFunctions, ExactResultsAreExact) {
 }
 
 TEST(ElementaryFunctions, TiesGoToEven) {
-  // (2^27 + 1)² = 2^54 + 2^28 + 1 lies between two doubles, at a tie to the last bit, as do the odd
-  // multiples.
+  // (2^27 + 1)² = 2^54 + 2^28 + 1 is a tie, as are the odd multiples.
   for (std::uint64_t k = 0; k < 200; ++k) {
     const double x = 0x1p27 + static_cast<double>(2 * k + 1);
     EXPECT_EQ(elementary::pow(x, 2), x * x) << x;
@@ -246,7 +245,6 @@ TEST(ElementaryFunctions, SpecialValuesAreThoseOfAnnexF) {
     }
 }
 
-// Of the true function's side: what is correctly rounded cannot fall where it rises.
 TEST(ElementaryFunctions, MonotoneFromOneDoubleToTheNext) {
   const Stream stream(1, "neighbours");
   for (std::uint64_t k = 0; k < 2000; ++k) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Increments of geometric plane waves against a 420-bit reference and against identities that hold
-// to the last bit, and the limits of the table.
+// Increments of geometric plane waves against a 420-bit reference and exact identities.
 #include "engine/core/exact_phase.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +53,7 @@ TEST(PhaseIncrements, AreThoseOfTheReferenceTable) {
   EXPECT_EQ(rows, 12);
 }
 
-// 1.5ⁿ/2ᵏ is a fraction of whole numbers, so one axis can be followed modulo 1 in integers.
+// 1.5ⁿ/2ᵏ is rational: integers give one axis modulo 1.
 TEST(PhaseIncrements, FollowPowersOfThreeHalvesInWholeNumbers) {
   constexpr int n_max = 100;
   const PhaseIncrements table = phase_increments(1.5, 1, 1, 1, n_max);
@@ -117,7 +116,7 @@ TEST(PhaseIncrements, AgreeWithDoublesWhereThoseSuffice) {
 
 TEST(PhaseIncrements, GrowBeyondAnyDouble) {
   const PhaseIncrements table = phase_increments(2, 1, 1000, 10, 2048);
-  // 2ⁿ/1000 = 2^(n−3)/125, and 2¹⁰⁰ ≡ 1 modulo 125: the fraction repeats after 100 orders.
+  // 2ⁿ/1000 = 2^(n−3)/125, and 2¹⁰⁰ ≡ 1 modulo 125: period of 100 orders.
   for (int n = 103; n <= 2048; ++n)
     EXPECT_EQ(table.x[table.index(10, n)], table.x[table.index(10, n - 100)]) << n;
   EXPECT_NE(table.x[table.index(10, 2048)], 0u);
@@ -128,7 +127,7 @@ TEST(PhaseIncrements, KnowTheLastOrderWithinNyquist) {
   EXPECT_EQ(phase_increments(1.5, 3, 150, 10, 100).last_resolved, 7);
   EXPECT_EQ(phase_increments(1.5, 1, 150, 10, 4).last_resolved, 4);
   EXPECT_EQ(phase_increments(1.5, 1, 1, 10, 100).last_resolved, -1);
-  // 2⁵/64 is half a turn exactly, which a grid still carries; one ulp more it does not.
+  // 2⁵/64 is exactly half a turn, the limit of a grid.
   EXPECT_EQ(phase_increments(2, 1, 64, 1, 20).last_resolved, 5);
   EXPECT_EQ(phase_increments(2, std::nextafter(1.0, 2.0), 64, 1, 20).last_resolved, 4);
 }
@@ -182,7 +181,7 @@ TEST(PhaseIncrements, RefuseWhatHasNoMeaning) {
 }
 
 TEST(PhaseIncrements, TakeHugeSpansExactly) {
-  // 2²⁰⁰/3 and 2²⁰²/3 turns differ by a whole number, 2²⁰⁰.
+  // 2²⁰⁰/3 and 2²⁰²/3 turns differ by the integer 2²⁰⁰.
   const PhaseIncrements a = phase_increments(1.5, 0x1p200, 3, 1, 0);
   const PhaseIncrements b = phase_increments(1.5, 0x1p202, 3, 1, 0);
   EXPECT_EQ(a.x[0], b.x[0]);

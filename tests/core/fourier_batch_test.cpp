@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: transforms of any length in lanes, against the sum of the definition: smooth lengths, primes and their
-// products, batches that are not full, and the same bits whatever else is in the batch.
+// Transforms of any length in lanes against the defining sum; the same bits in any batch.
 #include "engine/core/fourier/fourier_batch.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +59,7 @@ TEST(BatchFourier, RealBinsAreTheSumOfTheDefinition) {
         ASSERT_LT(static_cast<double>(std::abs(std::complex<long double>(bin) - sum)), 2e-15 * n)
             << n << ", bin " << k << ", signal " << r;
       }
-    // And back, a part of them, scaled.
+    // Inverse, partial and scaled.
     const int wanted = (n + 1) / 2;
     Signals back(n, 2);
     std::array<double*, rows> to;

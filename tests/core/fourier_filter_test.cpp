@@ -46,7 +46,7 @@ TEST_P(Filter, IsTransformMultiplyAndBack) {
   EXPECT_EQ(filter.bins_x(), period_x / 2 + 1);
   EXPECT_EQ(filter.bins_y(), period_y / 2 + 1);
   Field out(nx, ny);
-  for (int repeat = 0; repeat < 2; ++repeat)  // the work space is used again
+  for (int repeat = 0; repeat < 2; ++repeat)  // second run on used work space
     filter.apply(in.values(), out.values(), [&](int a, std::span<double> factors) {
       ASSERT_EQ(factors.size(), static_cast<std::size_t>(filter.bins_y()));
       for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = factor(a, static_cast<int>(b));

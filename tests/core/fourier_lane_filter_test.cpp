@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter in lanes against the one by rows and columns of the library, periodic and padded; rows that come
-// and go; its memory.
+// The filter in lanes against rows and columns; streamed rows; memory.
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +47,7 @@ void compare(const Shape& shape, double tolerance) {
   Array<double> expected(in.size()), out(in.size());
   FourierFilter(shape.nx, shape.ny, shape.period_x, shape.period_y).apply(in, expected, factors_of);
   FourierLaneFilter<Real> filter(shape.nx, shape.ny, shape.period_x, shape.period_y, factors_of);
-  for (int repeat = 0; repeat < 2; ++repeat) filter.apply(in, out);  // the work space is used again
+  for (int repeat = 0; repeat < 2; ++repeat) filter.apply(in, out);  // second run on used work space
   for (std::size_t k = 0; k < in.size(); ++k) ASSERT_NEAR(out[k], expected[k], tolerance) << k;
   Array<double> same = in;
   filter.apply(same, same);
@@ -60,7 +59,6 @@ TEST_P(LaneFilter, IsTheFilter) {
   compare<float>(GetParam(), 5e-6);
 }
 
-// Rows by function, through a sink: the bits of whole fields.
 template <class Real>
 void row_by_row(const Shape& shape) {
   const Array<double> in = noise(shape);
@@ -85,7 +83,7 @@ void row_by_row(const Shape& shape) {
         },
         kept ? std::span<double>(out) : std::span<double>());
     EXPECT_EQ(taken, expected);
-    EXPECT_EQ(out, expected);  // of the first turn
+    EXPECT_EQ(out, expected);  // first pass
     for (std::size_t j = 0; j < asked.size(); ++j) {
       EXPECT_EQ(asked[j], 1);
       EXPECT_EQ(given[j], 1);
@@ -162,7 +160,7 @@ TEST(FourierLaneFilter, HoldsAGridAndAHalfAtMostAndSingleIsHalf) {
     }
   }
   set_thread_count(0);
-  // The spectrum, a quarter of its size for the multiplier, and a few rows and columns.
+  // The spectrum, a quarter for the multiplier, a few rows and columns.
   const std::int64_t grid = 256 * 192 * sizeof(double);
   EXPECT_GE(held[0], grid);
   EXPECT_LE(held[0], grid * 3 / 2);

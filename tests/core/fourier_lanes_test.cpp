@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms in lanes against the sum of the definition, there and back, in both precisions.
+// Transforms in lanes against the defining sum.
 #include "engine/core/fourier/fourier_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,6 @@ TYPED_TEST(InLanes, PlacesAreAPermutation) {
   }
 }
 
-// A lane does not depend on the contents of another lane.
 TYPED_TEST(InLanes, LanesAreIndependent) {
   using Real = TypeParam;
   const int n = 660, last = Lanes<Real>::count - 1;
@@ -106,7 +105,6 @@ TYPED_TEST(InLanes, LanesAreIndependent) {
   }
 }
 
-// Plain numbers pass through the same operations as the lanes of a vector.
 TEST(LaneFourier, OneSignalAloneHasTheBitsOfALane) {
   constexpr int last = Lanes<double>::count - 1;
   for (const int n : lengths) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All transforms against FFTW: every length from 1 to 1100, in one and two dimensions, in double and single
-// precision. FFTW transforms in double precision.
+// Transforms of lengths 1 to 1100 in both precisions against double-precision FFTW.
 #include <fftw3.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +39,7 @@ std::vector<Complex> by_fftw(std::vector<double> values, int nx, int ny) {
   return bins;
 }
 
-// Errors of both transforms grow with the root of the length at most.
+// Both errors grow at most as √length.
 double tolerance(double epsilon, double values) {
   return 8 * epsilon * std::sqrt(values) * std::log2(values + 2);
 }
@@ -86,7 +85,6 @@ class InEveryLane : public ::testing::Test {};
 using Precisions = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(InEveryLane, Precisions);
 
-// Every lane holds another signal.
 TYPED_TEST(InEveryLane, ComplexSignalsOfEveryLengthWithoutALargePrime) {
   using Real = TypeParam;
   constexpr int lanes = Lanes<Real>::count;
@@ -133,7 +131,7 @@ TYPED_TEST(InEveryLane, ComplexSignalsOfEveryLengthWithoutALargePrime) {
   EXPECT_EQ(lengths, 463);
 }
 
-// A filter of rows and columns, as contacts use it, against FFTW there and back.
+// As in contacts, forward and inverse.
 TYPED_TEST(InEveryLane, FiltersOfEveryPeriod) {
   using Real = TypeParam;
   const auto factor = [](int a, int b) { return 1 / (1.0 + 0.01 * a + 0.3 * b); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms against the sum that defines them, on sizes no fast algorithm likes.
+// Transforms against the defining sum, on sizes no fast algorithm likes.
 #include "engine/core/fourier/fourier.hpp"
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST(Fourier, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Fourier, SameBitsWhereverTheRowsStand) {
-  // Rows of an odd length start at every alignment; equal rows must give equal bins.
+  // Rows of odd length start at every alignment.
   Field field(33, 8);
   const Field row = noise(33, 1);
   for (int j = 0; j < 8; ++j) std::copy(row.data(), row.data() + 33, field.row(j).begin());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grids, fields and the sums everything else relies on.
+// Grids, fields and sums.
 #include "engine/core/grid.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Grid, NodesAndCells) {
   EXPECT_DOUBLE_EQ(grid.area(), 20e-12);
 }
 
-// With cells of no width the filling of holes once halved its lattice for ever.
+// With zero-width cells the filling of holes would not end.
 TEST(Grid, CellsHaveAWidth) {
   const double least = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(refusal(3, 2, least, 1),
@@ -98,7 +98,7 @@ TEST(BlockSum, OfKnownSeries) {
 
 TEST(BlockSum, KeepsItsDigits) {
   const std::vector<double> tenths(10000000, 0.1);
-  // At most 128 + 3 + 14 roundings lie between a value and the sum; one running sum is off by 1.6e-4.
+  // At most 128 + 3 + 14 roundings; a running sum errs by 1.6e-4.
   EXPECT_NEAR(block_sum(tenths), 1e6, 145 * 0x1p-53 * 1e6);
   const Stream stream(1, "sum");
   std::vector<double> values(1000000);

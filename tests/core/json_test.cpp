@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The JSON value: exact numbers, kept order, and texts that are not JSON.
+// JSON: exact numbers, order, invalid texts.
 #include "engine/core/files/json.hpp"
 
 #include <cmath>

@@ -29,7 +29,7 @@ TEST(LoadedPart, ProgramsInTheBuildFolderLookThere) {
   const auto own = std::filesystem::canonical("/proc/self/exe").parent_path();
   EXPECT_EQ(places[0], own / "asperity-nothing.so");
   EXPECT_EQ(places[1], own.parent_path() / "lib/asperity/asperity-nothing.so");
-  // Last, where the build is installed to.
+  // Last: the install folder.
   EXPECT_EQ(places[3].parent_path().filename(), "asperity");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counted memory: what is held, what a scope peaked at, and the limit.
+// Counted memory: current, peak of a scope, limit.
 #include "engine/core/memory.hpp"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST_F(Memory, LimitIsKeptToTheByte) {
   EXPECT_EQ(memory::held(), before);
 }
 
-// What the last holder left in a block is not what the next one finds.
+// Reused blocks are cleared.
 TEST_F(Memory, ArraysAreZeroWhoeverHadTheirBlock) {
   constexpr std::size_t count = 40000;
   for (int turn = 0; turn < 3; ++turn) {

@@ -76,7 +76,7 @@ TEST(Task, ReportsWhatIsDone) {
   EXPECT_EQ(recorder.names.back(), "pressing");
   EXPECT_EQ(recorder.values.back(), 0.5);
   std::this_thread::sleep_for(std::chrono::milliseconds(120));
-  task.advance(50);  // more than was announced
+  task.advance(50);
   EXPECT_EQ(recorder.values.back(), 1.0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops on threads: every block once, failures of the lowest block, stops, and counters carried back.
+// Parallel loops: every block once, lowest error, stops, counters.
 #include "engine/core/parallel.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_P(Parallel, AFailureStopsTheLoop) {
                               throw std::runtime_error("no");
                             }),
                std::runtime_error);
-  // Each thread fails at most once in each thread's share.
+  // At most one failure per thread and share.
   EXPECT_LE(runs.load(), GetParam() * GetParam());
 }
 
@@ -128,7 +128,7 @@ TEST_P(Parallel, SeveralCallersAtOnce) {
   EXPECT_EQ(failures.load(), 3 * 200);
 }
 
-// Blocks long enough that the helpers come, and many loops, so that they sleep and wake between.
+// Long blocks wake the helpers; between loops they sleep.
 TEST_P(Parallel, HelpersComeBack) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     std::mutex mutex;
@@ -139,7 +139,6 @@ TEST_P(Parallel, HelpersComeBack) {
         const std::lock_guard lock(mutex);
         seen.insert(std::this_thread::get_id());
       }
-      // Each block waits until all of them run.
       ++waiting;
       while (waiting.load() < GetParam()) std::this_thread::yield();
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The share of the whole, from what its parts say of themselves.
+// Progress of the whole from its parts.
 #include "engine/core/part_monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,6 @@ TEST(PartMonitor, WarningsPassThrough) {
   EXPECT_EQ(recorder.warnings, std::vector<std::string>{"mind the rim"});
 }
 
-// A monitor that knows nothing of parts shows the whole.
 TEST(PartMonitor, PlainMonitorsSeeTheWhole) {
   class Plain final : public Monitor {
    public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities as text: what is understood, to the last bit, and what each refusal says.
+// Quantities as text, exact to the last bit, and refusals.
 #include "engine/core/quantity.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(Quantity, OtherUnits) {
   EXPECT_EQ(parse_quantity_as("36 km/h", dimension::speed), 10.0);
 }
 
-// F8: by their definitions: lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
+// lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
 TEST(Quantity, F8UnitsOfScalesAndGaugesOfPresses) {
   const double pound = 0.45359237 * 9.80665, square_inch = 0.0254 * 0.0254;
   const auto force = [](const char* text) { return parse_quantity_as(text, dimension::force); };
@@ -114,7 +114,7 @@ TEST(Quantity, OldAndAngloAmericanUnitsByTheirDefinitions) {
   EXPECT_EQ(force("1 kp"), force("1 kgf"));
   EXPECT_EQ(force("1 lbf"), 4.4482216152605);
   EXPECT_EQ(force("1 kip"), 4448.2216152605);
-  // 4.4482216152605 N over 645.16 mm², to more digits than a double holds.
+  // 4.4482216152605 N over 645.16 mm².
   EXPECT_DOUBLE_EQ(pressure("1 psi"), 6894.757293168361336722);
   EXPECT_DOUBLE_EQ(pressure("1 ksi"), 6894757.293168361336722);
   EXPECT_EQ(pressure("1 HV"), 9806650.0);
@@ -130,7 +130,7 @@ TEST(Quantity, OldAndAngloAmericanUnitsByTheirDefinitions) {
   EXPECT_EQ(parse_quantity_as("1 lb", dimension::mass), 0.45359237);
 }
 
-// k, m and a are no prefixes here, and d and h no units: each of these is a unit of its own.
+// Units of their own: no prefixes k, m, a; no units d, h.
 TEST(Quantity, NamesThatLookLikePrefixesAreUnitsOfTheirOwn) {
   EXPECT_EQ(parse_unit("kip").dimension, dimension::force);
   EXPECT_EQ(parse_unit("ksi").dimension, dimension::pressure);
@@ -143,7 +143,7 @@ TEST(Quantity, NamesThatLookLikePrefixesAreUnitsOfTheirOwn) {
   EXPECT_EQ(refusal("1 kin").substr(0, 27), "\"1 kin\": unknown unit `kin`");
 }
 
-// ISO 6507: the test load stands behind the symbol.
+// ISO 6507: the test load follows the symbol.
 TEST(Quantity, VickersHardnessIsWrittenWithItsTestLoad) {
   for (const char* text : {"640 HV", "640 HV10", "640 HV0.3", "640HV30"})
     EXPECT_EQ(parse_quantity_as(text, dimension::pressure), 640 * 9806650.0) << text;

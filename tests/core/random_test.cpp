@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stream of random numbers against published values and the moments it must have.
+// The random stream against published values and its moments.
 #include "engine/core/arithmetic/random.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(Random, SplitMixOfPublishedSeeds) {
   EXPECT_EQ(splitmix64(1234567, 1), 3203168211198807973ULL);
 }
 
-// The phases of seed 1 that the Weierstrass–Mandelbrot surface is built from, in turns.
+// Phases of the Weierstrass–Mandelbrot surface, in turns.
 TEST(Random, PhasesOfSeedOne) {
   EXPECT_DOUBLE_EQ(unit_interval(splitmix64(1, 0)), 0.5665615751722809);
   EXPECT_DOUBLE_EQ(unit_interval(splitmix64(1, 1)), 0.74578175726270124);

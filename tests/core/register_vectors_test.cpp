@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shuffles and conversions of vectors of 2, 4 and 8 doubles and as many bytes of floats, whatever the
-// registers of the processor that the test is compiled for.
+// Shuffles and conversions of 2, 4 and 8 doubles, on any processor.
 #include "engine/core/arithmetic/register_vectors.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +55,7 @@ class Conversions : public ::testing::Test {};
 using Doubles = ::testing::Types<Kind<double, 2>, Kind<double, 4>, Kind<double, 8>>;
 TYPED_TEST_SUITE(Conversions, Doubles);
 
-// Values that a conversion has to round, and places that are not aligned; neighbours stay as they are.
+// Rounding, unaligned addresses, untouched neighbours.
 TYPED_TEST(Conversions, OfFloatsRoundAsACast) {
   constexpr int lanes = TypeParam::lanes;
   const double values[] = {1.0 / 3, -2.5e-40, 3e38, 1e39, -0.0, 16777217, 1e-50, -7};

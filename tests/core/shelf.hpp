@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A store of results in memory, which keeps whatever it is given, and a monitor that has it at hand.
+// Results stored in memory, and their monitor.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// UTF-16 and one byte a letter as UTF-8.
+// UTF-16 and single-byte text as UTF-8.
 #include "engine/core/files/text_encoding.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(TextEncoding, Utf16OfBothOrdersWithAndWithoutAMark) {
   EXPECT_EQ(utf8_of_utf16(little), wanted);
   EXPECT_EQ(utf8_of_utf16(big), wanted);
   EXPECT_EQ(utf8_of_utf16("a,b\n1,2\n3,4\n5,6\n"), std::nullopt);
-  EXPECT_EQ(utf8_of_utf16("a\0b\0"s), std::nullopt);  // too short to tell without a mark
+  EXPECT_EQ(utf8_of_utf16("a\0b\0"s), std::nullopt);  // too short without a byte order mark
   EXPECT_EQ(utf8_of_utf16(""), std::nullopt);
 }
 
@@ -34,7 +34,7 @@ TEST(TextEncoding, BytesThatAreNotUtf8AreWindows1252) {
   EXPECT_EQ(utf8_or_cp1252("H\xC3\xA4rte"), "H\xC3\xA4rte");
   EXPECT_EQ(utf8_or_cp1252("\xC3"), "\xC3\x83");
   EXPECT_EQ(utf8_or_cp1252("\xED\xA0\x80"), "\xC3\xAD\xC2\xA0\xE2\x82\xAC");  // half of a pair
-  EXPECT_EQ(utf8_or_cp1252("\xC0\xAF"), "\xC3\x80\xC2\xAF");                  // longer than needed
+  EXPECT_EQ(utf8_or_cp1252("\xC0\xAF"), "\xC3\x80\xC2\xAF");                  // overlong
   EXPECT_EQ(utf8_or_cp1252("\xF4\x90\x80\x80"), "\xC3\xB4\xEF\xBF\xBD\xE2\x82\xAC\xE2\x82\xAC");
   EXPECT_EQ(utf8_or_cp1252("\x80 \x96 \x9F"), "\xE2\x82\xAC \xE2\x80\x93 \xC5\xB8");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as people write them, and the nearest legal name.
+// Numbers as text, and the nearest legal name.
 #include "engine/core/text.hpp"
 
 #include <gtest/gtest.h>
@@ -84,9 +84,9 @@ TEST(Text, PlainTextKeepsWholeCharactersOnly) {
     EXPECT_EQ(plain_text(text), text);
   EXPECT_EQ(plain_text(std::string("a\0b\x1b\x7f\r", 6)), "a?b???");
   EXPECT_EQ(plain_text("\xC2\x9B"), "??");                   // a control character in two bytes
-  EXPECT_EQ(plain_text("\xC0\xAF \xE0\x80\xAF"), "?? ???");  // more bytes than needed
+  EXPECT_EQ(plain_text("\xC0\xAF \xE0\x80\xAF"), "?? ???");  // overlong
   EXPECT_EQ(plain_text("\xED\xA0\x80 \xF4\x90\x80\x80 \xFF"), "??? ???? ?");
-  EXPECT_EQ(plain_text("um \xC2"), "um ?");  // cut in the middle
+  EXPECT_EQ(plain_text("um \xC2"), "um ?");  // truncated
   EXPECT_EQ(plain_text("\xE2\x82z"), "??z");
 }
 

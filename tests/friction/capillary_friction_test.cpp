@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Eq. (1) of the source paper with a liquid: P includes what the liquid adds, and μ is over the applied load.
+// Eq. (1) of the source paper with a liquid: P includes the capillary force; μ is per applied load.
 #include <gtest/gtest.h>
 
 #include <cmath>

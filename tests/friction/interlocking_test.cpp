@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interlocking: one inclined junction against closed forms and against the greatest force found by halving
-// that the law allows, then inclines, saw-teeth and wavy half-spaces whose energy must pay for what their
-// slopes resist.
+// Inclined junctions against closed forms and bisection; inclines, saw-teeth, and wavy half-spaces, whose
+// elastic energy supplies the work against slopes.
 #include "engine/friction/interlocking.hpp"
 #include "engine/core/constants.hpp"
 
@@ -25,7 +24,6 @@ Scene interlocking(Scene scene, double direction = 0) {
   return scene;
 }
 
-// Boxes of two bodies that fit into each other: the lower one has these heights.
 Scene fitting(const Grid& grid, const std::function<double(int, int)>& height, Boundary boundary) {
   return scene_of(surface_of(grid, height),
                   surface_of(grid, [&](int i, int j) { return -height(grid.nx - 1 - i, j); }), 1.0, boundary);
@@ -73,7 +71,7 @@ TEST(InclinedJunction, AGrooveAlongTheWayHasMoreAreaAndMoreNormalStress) {
 
 TEST(InclinedJunction, DownASteepWayItPullsNothing) {
   const JunctionLaw law({.tau0 = 2, .alpha = 0.1});
-  // Just level with τ0 |a| = P, and beyond: the shear is P/|a|, its force 1/|a| of the load.
+  // At τ0 |a| = P and beyond: the shear is P/|a|, the force 1/|a| of the load.
   EXPECT_NEAR(inclined_junction(law, 1, -0.5, 0).force, 2.0, 1e-14);
   EXPECT_DOUBLE_EQ(inclined_junction(law, 1, -2, 0).force, 0.5);
   EXPECT_DOUBLE_EQ(inclined_junction(law, 1e-6, -0.1, 0).force, 1e-5);
@@ -90,7 +88,7 @@ TEST(InclinedJunction, IsTheGreatestForceThatTheLawAllows) {
               const JunctionLaw law({.tau0 = tau0, .alpha = alpha, .tau_max = cap});
               const InclinedJunction junction = inclined_junction(law, p, along, across);
               const double q = std::sqrt(1 + across * across / (1 + along * along));
-              // What is allowed is a stretch of shears from zero up: its end by halving.
+              // Bisection: allowed shears form an interval from zero.
               double allowed = 0, refused = 1e3;
               for (int halving = 0; halving < 100; ++halving) {
                 const double shear = 0.5 * (allowed + refused), normal = p + along * q * shear;
@@ -133,7 +131,7 @@ TEST(Interlocking, AUniformInclineAddsItsAngle) {
   EXPECT_NEAR(mu(pi / 2), alpha / std::cos(b), 1e-12);
   const double turned = pi / 6, along = slope * std::cos(turned), across = slope * std::sin(turned);
   EXPECT_NEAR(mu(turned), inclined_junction(law, 1, along, across).force, 1e-12);
-  // Too steep for its friction, it slides down by itself.
+  // Too steep for its friction: slides by itself.
   const Scene steep = fitting(
       grid, [&](int i, int) { return 0.1 * i; }, Boundary::free);
   EXPECT_LT(*law.on(press(interlocking(steep, pi), PressBy::pressure, 0.7)).mu, 0);
@@ -153,7 +151,7 @@ TEST(Interlocking, PartsOfTheForceAddUp) {
   EXPECT_EQ(*r.mu, r.force / st.load());
 }
 
-// A saw-tooth climbs as much as it descends: first-order parts cancel, the rest does not.
+// First-order parts of climbing and descending cancel.
 TEST(Interlocking, ASymmetricSawToothKeepsWhatIsOfSecondOrder) {
   const int tooth = 16;
   const Grid grid{64, 4, 64, 4};
@@ -163,18 +161,17 @@ TEST(Interlocking, ASymmetricSawToothKeepsWhatIsOfSecondOrder) {
     return slope * std::min(k, tooth - k);
   };
   const State st = press(interlocking(fitting(grid, height, Boundary::periodic)), PressBy::pressure, 0.01);
-  // Two of sixteen nodes are a crest or a valley, where the central difference is level.
+  // Level at crest and valley: two of sixteen nodes.
   const double flanks = 7.0 / 16 * (std::tan(phi + b) + std::tan(phi - b)) + 2.0 / 16 * alpha;
   const JunctionLaw law({.tau0 = 0, .alpha = alpha});
   EXPECT_NEAR(*law.on(st).mu, flanks, 1e-12);
   EXPECT_GT(flanks, alpha);
-  // Without friction a tooth in its seat resists nothing.
   EXPECT_NEAR(JunctionLaw({.tau0 = 0, .alpha = 0}).on(st).force, 0, 1e-14);
 }
 
 TEST(Interlocking, LevelBodiesGiveTheVeryNumbersOfTheLaw) {
   const Grid grid{8, 6, 1, 1};
-  // Terraces two nodes apart in the plane of contact: what touches is level with what is beside it.
+  // Contact nodes are level with their neighbours.
   const Scene plain = fitting(
       grid, [](int, int) { return 2.0; }, Boundary::periodic);
   for (const auto cap : {std::optional<double>(), std::optional<double>(0.2), std::optional<double>(0.9)}) {
@@ -209,8 +206,7 @@ TEST(Interlocking, WithoutContactThereIsNothing) {
   EXPECT_EQ(r.capped_fraction, 0);
 }
 
-// Smooth waves, held at one approach and moved a cell each way: without friction, what the slopes resist is
-// what the elastic energy gains.
+// Fixed approach, a cell each way: work against the slopes is the gain of elastic energy.
 TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
   const int n = 128;
   const Grid grid{n, n, 1, 1};
@@ -220,7 +216,7 @@ TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
       return amplitude * (std::cos(x + phase_x) * std::cos(y + phase_y) + 0.3 * std::cos(2 * x + y));
     });
   };
-  // Unlike bodies, so that the surface between them is not their mean.
+  // Unlike bodies: the interface is not their mean.
   const Surface lower = wave(0.3, 0.1, 0.02).with_material(test::elastic(1)),
                 upper = wave(1.1, 2.0, 0.01).with_material(test::elastic(3));
   const auto moved = [&](int cells) {
@@ -228,7 +224,7 @@ TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
     scene.effects.set(InterlockingOptions{});
     check(scene);
     auto geometry = std::make_shared<const ContactGeometry>(scene, LatticeIsometry(n, n).shifted(cells, 0));
-    // Between the same mean planes, as bodies that move level do.
+    // Fixed mean planes: level motion.
     const double separation = 0.008;
     const double approach = geometry->combined_range().max - mean(geometry->combined().values()) - separation;
     return make_solver(make_plan(scene, *geometry), geometry)->press({PressBy::approach, approach, {}});
@@ -263,7 +259,7 @@ TEST(Interlocking, AStateThatDoesNotNameItHasNoFieldMade) {
   EXPECT_EQ(memory::held(), before);
 }
 
-// B1: at the rim of the overlap slopes are taken to its inside, as at the rim of the tile.
+// One-sided slopes at the rim of the overlap.
 TEST(Interlocking, JunctionsBesideGroundThatNothingFacesHaveTheirSlopes) {
   const Grid bar{8, 16, 0.8, 1.6};
   const Scene scene = scene_of(surface_of(bar, [](int i, int j) { return 0.01 * i + 0.02 * j; }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Friction as a sum over junctions: case V15 for boxes, the sum node by node, caps, and what is refused.
+// Friction as a sum over junctions: Hertz, boxes, caps, refusals.
 #include "engine/friction/junction_law.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ double sum_over_nodes(const JunctionLaw& law, const State& st) {
   return static_cast<double>(sum) * st.geometry().grid().cell_area();
 }
 
-// Case V15, Hertz: R = E* = 1, F = 1e-3, τ0 = .01, α = .2; the contact radius is about .091.
+// Hertz: R = E* = 1, F = 1e-3, τ0 = .01, α = .2, contact radius about .091.
 TEST(JunctionLaw, HertzContactWithAndWithoutACap) {
   Scene scene{paraboloid(512, 0.3).with_material(test::elastic(1)), rigid_material(), Boundary::free,
               HalfSpaceOptions{}, Accuracy{}};
@@ -48,14 +48,14 @@ TEST(JunctionLaw, HertzContactWithAndWithoutACap) {
   EXPECT_NEAR(capped.on(st).force / sum_over_nodes(capped, st), 1, 1e-12);
 }
 
-// Case V15, boxes: R = k = 1, F = 1e-3, τ0 = .001, α = .2.
+// Boxes: R = k = 1, F = 1e-3, τ0 = .001, α = .2.
 TEST(JunctionLaw, ParaboloidWithAndWithoutACap) {
   const State st = press(boxes(paraboloid(2048, 0.5), 1), PressBy::load, 1e-3);
   const FrictionResult open = JunctionLaw({.tau0 = 0.001, .alpha = 0.2}).on(st);
   EXPECT_NEAR(open.force, 3.120998e-4, 3e-3 * 3.120998e-4);
   const FrictionResult capped = JunctionLaw({.tau0 = 0.001, .alpha = 0.2, .tau_max = 0.003}).on(st);
   EXPECT_NEAR(capped.force, 2.734676e-4, 3e-3 * 2.734676e-4);
-  // The share of the disc above p_c = 0.01 of the peak 0.0178412.
+  // Above p_c = 0.01 of the peak 0.0178412.
   EXPECT_NEAR(capped.capped_fraction, 1 - 0.01 / 0.0178412, 3e-3);
   EXPECT_EQ(open.capped_fraction, 0);
 }
@@ -90,7 +90,7 @@ TEST(JunctionLaw, WithACapItIsTheSumOverNodes) {
 TEST(JunctionLaw, ACapThatBindsEverywhereIsTauMaxTimesArea) {
   const State st = press(boxes(random_surface(80, 50, 1), 2), PressBy::pressure, 0.4);
   for (const double tau0 : {0.0, 1.0, 3.0}) {
-    // With τ0 = 0 the cap binds at 1e-30 of the peak, far below every node.
+    // τ0 = 0: a cap far below every node, 1e-30 of the peak.
     const FrictionResult r = JunctionLaw({.tau0 = tau0, .alpha = 1, .tau_max = 1e-30}).on(st);
     EXPECT_DOUBLE_EQ(r.force, 1e-30 * st.area());
     EXPECT_EQ(r.capped_fraction, 1);

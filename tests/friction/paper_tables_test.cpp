@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated half of the source paper (Hanaor, Gan & Einav 2013): Weierstrass–Mandelbrot surfaces
-// of 150 x 150 cells as box elements on a rigid flat, against tables computed independently of this
-// program. Single cases to 1e-8; means over seeds 1–20 to the last printed digit; the trends that are
-// claimed, and the definitions under which they must fail. Preset A is span 1, B is span 3. Heights
-// scaled to a peak-to-valley of 1 and E = 1 are here raw heights with stiffness 1/peak-to-valley.
+// Hanaor, Gan & Einav (2013): Weierstrass–Mandelbrot surfaces of 150 x 150 cells as box elements on a rigid
+// flat, against independently computed tables. Single cases to 1e-8, means over seeds 1–20 to the last
+// printed digit; definitions for which the trends fail. Preset A: span 1, B: span 3. Raw heights with
+// stiffness 1/peak-to-valley replace unit peak-to-valley and E = 1.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +20,7 @@
 namespace asperity::paper_tables_test {
 namespace {
 
-// raw: one length for all surfaces of a preset, the mean peak-to-valley at D = 2.
+// raw: mean peak-to-valley of the preset at D = 2.
 enum class Scaling { peak_to_valley, six_sd, ten_ra, percentiles, raw };
 enum class Cap { none, yield, absolute };
 constexpr std::array ratios = {0.1, 1.0, 10.0, 100.0};
@@ -46,7 +45,7 @@ double percentile(std::vector<double> sorted, double share) {
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
 }
 
-// The length that is taken as the amplitude A in P = E δ/A.
+// The amplitude A in P = E δ/A.
 double amplitude(char preset, const Surface& z, Scaling scaling) {
   const std::span<const double> values = z.heights().values();
   const double centre = mean(values);
@@ -110,7 +109,7 @@ Statistics over_seeds(const std::function<double(int seed)>& value, int first = 
   return result;
 }
 
-// Equal to one unit of the last printed digit, as text says it: "1.24" to 0.01, ".0354" to 0.0001.
+// To one unit of the last digit: "1.24" to 0.01, ".0354" to 0.0001.
 void expect_printed(double value, const std::string& printed, const std::string& what) {
   const auto point = printed.find('.');
   const auto decimals = point == std::string::npos ? 0 : static_cast<int>(printed.size() - point - 1);
@@ -152,7 +151,7 @@ TEST(PaperTables, SingleCases) {
   EXPECT_EQ(cases, 15);
 }
 
-// Table 3.1: which definition of the amplitude carries the trends, D 2.0 → 2.9.
+// Table 3.1: definitions of the amplitude, D 2.0 → 2.9.
 TEST(PaperTables, DefinitionsOfTheAmplitude) {
   struct Row {
     Scaling scaling;
@@ -282,7 +281,7 @@ TEST(PaperTables, PresetB) {
   }
 }
 
-// Section 4: μ/μ(D = 2) at r = 0.1, 1, 10, 100, and sd where printed.
+// Section 4: μ/μ(D = 2) at r = 0.1, 1, 10, 100; sd if printed.
 TEST(PaperTables, FrictionRatios) {
   struct Row {
     char preset;
@@ -384,7 +383,7 @@ TEST(PaperTables, AtConstantDisplacementTheLoadFalls) {
   expect_printed(mean_pressure('B', 2.9), "0.0038", "B 2.9");
 }
 
-// Section 6, statistical acceptance: seeds 1–20 against the mean and sd of 150 other seeds.
+// Section 6: seeds 1–20 against the mean and sd of 150 other seeds.
 TEST(PaperTables, PopulationBands) {
   struct Row {
     char preset;
@@ -471,7 +470,6 @@ TEST(PaperTables, PopulationBands) {
     }
 }
 
-// The trends claimed, on means of seeds 1–20, D = 2.0 … 2.9.
 TEST(PaperTables, TrendsWithDimension) {
   for (const char preset : {'A', 'B'}) {
     double depth = 0, area = 0, spots = 0, secant = 1;
@@ -515,7 +513,6 @@ TEST(PaperTables, TrendsWithDimension) {
   }
 }
 
-// Definitions under which the paper's statements do not hold, shown to fail.
 TEST(PaperTables, ControlsThatMustFail) {
   for (const char preset : {'A', 'B'}) {
     auto ratio = [&](auto quantity) {

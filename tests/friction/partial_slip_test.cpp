@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere (case V18), boxes in closed
-// form, what the tractions must meet, and what is refused.
+// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere, boxes, tractions, refusals.
 #include "engine/friction/partial_slip.hpp"
 
 #include <cmath>
@@ -32,7 +31,7 @@ Scene tangential(Scene scene, std::optional<double> compliance_ratio = {}) {
   return scene;
 }
 
-// R = E* = 1: the contact radius under a load of 1e-3 is (3/4·1e-3)^(1/3), about 0.091.
+// R = E* = 1, load 1e-3: contact radius (3/4·1e-3)^(1/3), about 0.091.
 Scene sphere(int n, const Material& material = elastic(2)) {
   return tangential(Scene{paraboloid(n, 0.26).with_material(material), material, Boundary::free,
                           HalfSpaceOptions{}, Accuracy{}});
@@ -48,13 +47,12 @@ struct Pulled {
   }
 };
 
-// Case V18.
 TEST(PartialSlip, TheStickRadiusOfASphereIsCattaneoAndMindlins) {
   for (const int n : {128, 256}) {
     const Pulled pulled(sphere(n));
     for (const auto& [ratio, radius] : {std::pair{0.2, 0.928318}, {0.5, 0.793701}, {0.9, 0.464159}}) {
       const PartialSlip slip = pulled.by(ratio);
-      // A node more or less around an outline of 2π c/h nodes.
+      // An outline of 2π c/h nodes is uncertain by one node.
       const double cells = std::sqrt(static_cast<double>(slip.stick_contacts()) / std::numbers::pi);
       EXPECT_NEAR(std::sqrt(slip.stick_fraction()), radius, 0.25 / cells) << n << " " << ratio;
       EXPECT_FALSE(slip.slides());
@@ -78,7 +76,7 @@ TEST(PartialSlip, TheSphereShiftsAndStiffensAsMindlinFound) {
 
 TEST(PartialSlip, PoissonsRatioScalesTheShiftByMindlinsFactor) {
   for (const double nu : {0.0, 0.3, 0.5}) {
-    // E so that E* stays 1.
+    // E for E* = 1.
     const Pulled pulled(sphere(64, elastic(2 * (1 - nu * nu), nu)));
     const double factor = (2 - nu) / (2 * (1 - nu)), a = std::cbrt(0.75e-3);
     EXPECT_NEAR(pulled.by(0.5).displacement() / (0.3 * a * a * (1 - std::pow(0.5, 2.0 / 3))), factor,
@@ -93,7 +91,6 @@ TEST(PartialSlip, UnlikeBodiesShareAsTheirCompliances) {
                       Accuracy{}};
     return ContactGeometry(scene, LatticeIsometry(8, 8));
   };
-  // A rigid counter-body gives way neither way.
   EXPECT_DOUBLE_EQ(mindlin_ratio(geometry(elastic(5, 0.3), rigid_material())), 1.7 / 1.4);
   EXPECT_DOUBLE_EQ(dundurs_beta(geometry(elastic(5, 0.3), rigid_material())), 0.5 * 0.4 / 0.7);
   EXPECT_DOUBLE_EQ(dundurs_beta(geometry(elastic(5, 0.5), rigid_material())), 0);
@@ -104,7 +101,7 @@ TEST(PartialSlip, UnlikeBodiesShareAsTheirCompliances) {
                    (2 / 4.0 + 1.75 / 8) / (1 / 2.0 + 0.75 / 4));
 }
 
-// A paraboloid on boxes: A ∝ δ and F ∝ δ², so the stick area is sqrt(1 − r) of the contact.
+// Paraboloid on boxes: A ∝ δ, F ∝ δ², stick area sqrt(1 − r) of the contact.
 TEST(PartialSlip, BoxesHaveAClosedForm) {
   const Pulled pulled(tangential(test::boxes(paraboloid(1024, 0.5), 1), 1.5));
   const double depth = std::sqrt(1e-3 / std::numbers::pi);
@@ -183,7 +180,6 @@ TEST(PartialSlip, TheSecondSolveIsItsWholeCost) {
   EXPECT_EQ(slip.cost().by_effect[0].first, "tangential");
 }
 
-// The weakest stick that a double can tell from none.
 TEST(PartialSlip, AnUlpBelowCoulombsForceIsSolved) {
   const Pulled pulled(sphere(64));
   const PartialSlip slip = pulled.by(std::nextafter(1.0, 0.0));

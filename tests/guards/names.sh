@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every public name of the language: functions, fields and keys of asperity.d.lua. A name that goes or comes changes names.txt
+# Every public name of the language: functions, fields and keys of asperity.d.lua. A name that is removed or added changes names.txt
 # in the same commit.
 #
 #   names.sh [--write]

@@ -78,7 +78,7 @@ local fit = lab.table.from(rows):fit{ x="x", y="y", model=function(x, p) return 
 keep("fit a", fit.values.a)
 keep("fit standard error", fit.parameters.a.u)
 
--- A recording, found beside the examples, and a table of the documentation
+-- The recording of the examples
 local here = arg[0]:match "^(.*)/" or "."
 local log = lab.protocol.read(here .. "/../../examples/data/press_recording.csv",
   { events="detect", area="490.87 mm^2", turn_step="90 deg" })

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the laboratory half must show, as means over eight specimen pairs of each kind: how roughness,
-// dimension and real area on quartz change with stress and with events (the findings of Hanaor, Gan &
-// Einav 2013), and the controls that must not show it. Bands are of means over pairs, from an independent
-// computation. 256² cells, shortest wave 16 µm: under-resolved on purpose, ratios hold.
+// Findings of Hanaor, Gan & Einav (2013) as means over eight pairs: roughness, dimension and real area on
+// quartz against stress and events; controls without the findings. Bands from an independent computation.
+// 256² cells, shortest wave 16 µm: under-resolved on purpose; ratios hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +61,7 @@ void press(SpecimenPair& pair, double megapascals) {
   pair.release();
 }
 
-// About 24 whole steps in equal ratios from one cell to `last`, without repeats.
+// About 24 integer steps in equal ratios, without duplicates.
 std::vector<int> steps_to(double last) {
   std::vector<int> steps;
   for (int k = 0; k < 24; ++k) {
@@ -89,7 +88,6 @@ double area_per_load(const Surface& surface, bool yielding = false) {
   return state.corrected_area_fraction() / state.pressure();
 }
 
-// What is measured on one specimen.
 struct Found {
   double Ra, amplitude, excess, area_per_load;
 };
@@ -98,7 +96,7 @@ Found measure(const Surface& surface) {
   return {r.Ra, r.amplitude, excess(surface), area_per_load(surface)};
 }
 
-// One pair: after each stress from the virgin pair, and after each event.
+// After each stress on a virgin pair, and after each event.
 struct Series {
   std::vector<Found> stress, event;
 };
@@ -126,7 +124,7 @@ const std::vector<Series>& all_of(Kind kind) {
   return all;
 }
 
-// Mean over pairs of a quantity at the end of a series over its beginning.
+// Final over initial value, mean over pairs.
 double mean_ratio(Kind kind, std::vector<Found> Series::*which, double Found::*quantity) {
   double sum = 0;
   for (const Series& series : all_of(kind))
@@ -217,8 +215,6 @@ TEST_P(Laboratory, ARepeatedEventWithoutTurningTakesNothing) {
   EXPECT_LT(pair.press({PressBy::pressure, 152.78 * megapascal, {}}).plastic_volume(), 1e-4 * first);
 }
 
-// Controls that must fail the finding.
-
 TEST_P(Laboratory, WithoutTurningEightEventsAreOne) {
   SpecimenPair pair = bench(GetParam(), 0);
   press(pair, 152.78);
@@ -243,7 +239,7 @@ TEST(LaboratoryGrid, RaAfterFourEventsDoesNotDependOnTheGrid) {
   for (const int cells : {256, 512, 1024}) {
     SpecimenPair pair = bench(Kind::self_affine, 0, cells);
     for (int N = 1; N <= 4; ++N) {
-      // The same placement on every grid: shifts in metres, not drawn in cells.
+      // Shifts in metres: the same placement on every grid.
       if (N > 1) pair.shift(125 * micrometre * N, 62.5 * micrometre * N);
       press(pair, 152.78);
     }

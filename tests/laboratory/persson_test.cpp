@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real contact area of self-affine surfaces against Persson's theory (Persson 2001, J. Chem. Phys. 115,
-// 3840): the elastic limit, and with a hardness that caps the pressure. Simulations touch on somewhat more
-// than the elastic theory says: κ = A E* h' / (A0 p̄) of 1.7 to 2.4 against √(8/π) = 1.6.
+// Real contact area against Persson (2001, J. Chem. Phys. 115, 3840), elastic and with a hardness. Simulated
+// κ = A E* h' / (A0 p̄): 1.7 to 2.4; theory: √(8/π) = 1.6.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,9 +16,9 @@
 namespace asperity::persson_test {
 namespace {
 
-constexpr double slope = 0.1;  // h', so that E* h' = 0.1 with E* = 1
+constexpr double slope = 0.1;  // h': E* h' = 0.1 with E* = 1
 
-// Hurst exponent 0.8 from the side of the tile to waves of 8 cells.
+// Hurst exponent 0.8 down to waves of 8 cells.
 Surface surface(std::uint64_t seed) {
   SelfAffineOptions options;
   options.grid = make_grid(512, 512, 512, 512);
@@ -39,16 +38,14 @@ State pressed(std::uint64_t seed, double pressure, std::optional<double> hardnes
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 
-// Case V11: the theory's own numbers.
 TEST(Persson, ElasticAreaIsAnErrorFunction) {
   for (const auto& [share, area] : {std::pair{.01, .0159566}, {.05, .0796557}, {.1, .158519}})
     EXPECT_NEAR(std::erf(std::numbers::sqrt2 * share), area, 1e-6);
 }
 
-// The few highest hills of a tile carry a light load, so single tiles scatter: means are compared.
+// Few hills carry a light load, so tiles scatter: means are compared.
 constexpr std::uint64_t seeds = 4;
 
-// Case V11.
 TEST(Persson, SimulatedAreaOverLoadIsInTheKnownRange) {
   for (const double share : {0.01, 0.02, 0.03}) {
     double kappa = 0;
@@ -74,12 +71,11 @@ CappedTheory capped_theory(double pressure, double hardness) {
     const double weight = 2 / wave * std::sin(wave * pressure / hardness) *
                           std::exp(-wave * wave * slope * slope / (8 * hardness * hardness));
     elastic += weight * (1 - std::cos(wave));
-    carried -= weight * hardness * std::cos(wave);  // ∫ p sin(kπp/H) dp of the same mode
+    carried -= weight * hardness * std::cos(wave);  // ∫ p sin(kπp/H) dp of the mode
   }
   return {elastic, (pressure - carried) / hardness};
 }
 
-// Case V13: the theory's own numbers.
 TEST(Persson, CappedAreasOfTheTheory) {
   for (const auto& [pressure, elastic, capped] :
        {std::tuple{.01, .114584, .044054}, {.02, .217947, .093204}}) {
@@ -89,9 +85,8 @@ TEST(Persson, CappedAreasOfTheTheory) {
   }
 }
 
-// Case V13. The cap changes the area little, so theory and simulation differ in all the area that touches
-// as they do without a cap, by a quarter. How it divides they disagree on: pressures of a real contact
-// spread over less than the (E* h')²/4 of the theory, so fewer nodes reach the hardness and more stay below.
+// Total areas differ by a quarter, as without a cap. Real pressures spread less than the theory's (E* h')²/4:
+// fewer nodes reach the hardness.
 TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
   for (const double pressure : {0.01, 0.02}) {
     constexpr double hardness = 0.1;
@@ -101,7 +96,7 @@ TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
       const State state = pressed(seed, pressure, hardness);
       touching += state.corrected_area_fraction() / seeds;
       capped += state.plastic_fraction() / seeds;
-      // What the elastic contact carries and what the capped carries make the load.
+      // The load is the sum over elastic and capped nodes.
       const PressureSplit split = state.split(hardness);
       EXPECT_NEAR((split.sum_below + hardness * static_cast<double>(split.above)) /
                       (pressure * static_cast<double>(state.geometry().grid().nodes())),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Benches for counting what effects do: boxes and half-spaces under two rough bodies, with elasticity alone,
-// on one thread so that every count is of this thread.
+// Two rough bodies on boxes and half-spaces, elasticity alone, on one thread for complete counts.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacement and separation along a load history with plastic deformation.
+// Displacement and separation with plastic deformation.
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -69,7 +69,7 @@ TEST(Displacement, GoesOnWhereAWornBodyIsPutDownAgain) {
   const double before = pressed(pair, 100).displacement();
   pair.release();
   const State at_once = pair.copy().press({PressBy::pressure, 100 * megapascal, {}});
-  pair.place(3);  // under a flat every placement is the same contact
+  pair.place(3);  // under a flat all placements are equal
   EXPECT_NEAR(pressed(pair, 100).displacement(), at_once.displacement(), 1e-6 * before);
   EXPECT_GT(at_once.displacement(), at_once.approach());
 }

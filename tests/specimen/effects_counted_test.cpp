@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Only what a scene names is computed, proved by counting: transforms, peak bytes, buffers, memory kept and
-// applications of the operator, for every effect alone and every pair of effects, on boxes and half-spaces.
-// A new effect is a row of `effects`; an effect of the catalogue without a row fails.
+// Only named effects are computed: the tests count transforms, peak bytes, buffers, stored memory and
+// operator applications for every effect and pair. Every effect of the catalogue needs a row of `effects`.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -29,15 +28,14 @@ namespace {
 
 using namespace counted;
 
-// Effects besides elasticity.
 struct Effect {
   const char* name;
   std::function<void(Scene&)> add;
-  bool of_boxes = true;         // computed for box elements too
-  const char* needs = nullptr;  // another effect
-  Names excludes{};             // effects it cannot be together with
+  bool of_boxes = true;  // computed for box elements too
+  const char* needs = nullptr;
+  Names excludes{};
   bool changes_the_normal_contact = false;
-  const char* line = nullptr;    // of the cost of a press; none where a press does nothing for it
+  const char* line = nullptr;    // in the cost; none: a press does nothing for it
   bool of_the_accuracy = false;  // not of the catalogue
 };
 
@@ -95,7 +93,7 @@ const Effect& effect_named(std::string_view name) {
   return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
 }
 
-// The names with those they need, none twice; empty where they do not go together on this bench.
+// With required effects; empty if incompatible.
 Names completed(const Names& asked, const Bench& bench) {
   Names names;
   for (const std::string& name : asked) {
@@ -118,9 +116,9 @@ Scene with_effects(Scene scene, const Names& names) {
 }
 
 struct Counted {
-  Cost press;                                           // of the call
-  std::vector<std::pair<std::string, Cost>> by_effect;  // as the state reports it
-  std::int64_t kept = 0;                                // held by the pair after its state was destroyed
+  Cost press;
+  std::vector<std::pair<std::string, Cost>> by_effect;
+  std::int64_t kept = 0;  // held after the state was destroyed
   std::size_t buffers = 0;
   std::int64_t planned = 0;
   int iterations = 0;
@@ -160,8 +158,7 @@ Counted count_once(const Scene& scene, const PressRequest& request) {
   return result;
 }
 
-// Returns the second count. The first count includes allocations cached by the process for all contacts of
-// one size.
+// Returns the second count; the first includes filled caches.
 Counted count(const Scene& scene, const PressRequest& request = {PressBy::pressure, pressed, {}}) {
   count_once(scene, request);
   return count_once(scene, request);
@@ -176,8 +173,7 @@ TEST_F(EffectsCounted, EveryEffectThatIsComputedHasARow) {
         << known->name << " is computed, but nothing here counts what it does when it is not named";
 }
 
-// A scene with elasticity alone costs the same as its solver: the same transforms, and the same bytes apart
-// from the input and output of the solver.
+// The same bytes apart from the solver's input and output.
 TEST_F(EffectsCounted, ABareHalfSpaceIsItsSolverAlone) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     SCOPED_TRACE(name(boundary));
@@ -224,7 +220,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
         SCOPED_TRACE(std::string(bench.name) + ": " + joined(named, " and "));
         const Counted found = count(with_effects(bare_scene(bench), named));
 
-        // The cost has one line per named effect and no other; the sum of the lines is the total.
+        // The lines add up to the total.
         Names expected = {"elasticity"};
         for (const std::string& name : named)
           if (effect_named(name).line != nullptr) expected.emplace_back(effect_named(name).line);
@@ -244,7 +240,6 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
           }
         }
 
-        // Removing one effect removes its contribution only.
         for (const std::string& name : named) {
           const Effect& effect = effect_named(name);
           if (effect.changes_the_normal_contact) continue;
@@ -264,7 +259,6 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
           EXPECT_EQ(found.press.bytes, without.press.bytes) << name;
           EXPECT_EQ(found.buffers, without.buffers) << name;
           EXPECT_EQ(found.planned, without.planned) << name;
-          // Only `tangential` stores something: the state before a pull.
           if (name != "tangential") {
             EXPECT_EQ(found.kept, without.kept) << name;
           }
@@ -280,13 +274,11 @@ TEST_F(EffectsCounted, OnlyAPullKeepsTheStateItStartsFrom) {
     const Counted bare = count(bare_scene(bench)),
                   pulled = count(with_effects(bare_scene(bench), {"tangential"}));
     const auto nodes = static_cast<std::int64_t>(48 * 48);
-    // A press without `tangential` stores nothing; with it, the pressures and gaps of one state are stored.
     EXPECT_EQ(bare.kept, 0) << bench.name;
     EXPECT_EQ(pulled.kept, 2 * 8 * nodes) << bench.name;
   }
 }
 
-// Friction of a state: effects outside the scene are not computed here either.
 TEST_F(EffectsCounted, FrictionWorksOutWhatIsNamed) {
   const JunctionLaw law({.tau0 = 0.01, .alpha = 0.2});
   for (const Bench& bench : benches) {
@@ -311,7 +303,6 @@ TEST_F(EffectsCounted, FrictionWorksOutWhatIsNamed) {
   }
 }
 
-// An estimate solves separately and does not change the press.
 TEST_F(EffectsCounted, AnEstimateChangesNoBitAndShowsWhatItCost) {
   for (const Bench& bench : benches) {
     const Counted bare = count(bare_scene(bench));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unread quantities of a state are never computed: the tests count transforms and bytes of the first and the
-// second reading of each lazy quantity. A state outlives its contact: later readings return the same values
-// as before.
+// Unread quantities are never computed: the tests count transforms and bytes of the first and second reading.
+// A state outlives its contact.
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,13 +19,12 @@ namespace {
 constexpr int cells = 48;
 constexpr std::int64_t grid_bytes = 8LL * cells * cells;
 
-// Cost of reading a quantity of a half-space state.
 struct LazyQuantity {
   const char* name;
   std::function<double(const State&)> read;
   bool transforms = false;  // applies the operator
-  std::int64_t kept = 0;    // of counted memory once it is read
-  bool kept_answer = true;  // the second reading works nothing out
+  std::int64_t kept = 0;    // counted bytes after reading
+  bool kept_answer = true;  // the second reading computes nothing
 };
 
 double sum_of(const std::vector<double>& values) {
@@ -97,7 +95,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   for (const LazyQuantity& quantity : lazy_quantities()) {
     SCOPED_TRACE(quantity.name);
     SpecimenPair pair(plastic_scene());
-    // The first reading fills the caches of the process for contacts of this size.
+    // Fills the caches for this size.
     quantity.read(pair.press(under));
     SpecimenPair fresh(plastic_scene());
     const State state = fresh.press(under);
@@ -112,7 +110,7 @@ TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   }
 }
 
-// Reading one field computes this field only; the others cost the same as on an unread state.
+// Reading one field computes no other.
 TEST_F(LazyState, ReadingOneWorksOutNoField) {
   const std::vector<LazyQuantity> all = lazy_quantities();
   for (const LazyQuantity& quantity : all) {
@@ -128,7 +126,6 @@ TEST_F(LazyState, ReadingOneWorksOutNoField) {
   }
 }
 
-// Results of the solve itself cost nothing to read.
 TEST_F(LazyState, WhatTheSolveFoundIsThere) {
   SpecimenPair pair(plastic_scene());
   const State state = pair.press(under);
@@ -142,7 +139,6 @@ TEST_F(LazyState, WhatTheSolveFoundIsThere) {
   EXPECT_EQ(scope.so_far().bytes, 0);
 }
 
-// The cost of a press is of the press: nothing read afterwards is added to it.
 TEST_F(LazyState, ReadingIsNotInTheCostOfThePress) {
   SpecimenPair pair(plastic_scene());
   const State state = pair.press(under);
@@ -159,7 +155,6 @@ TEST_F(LazyState, AStateOutlivesItsContact) {
     auto pair = std::make_unique<SpecimenPair>(plastic_scene());
     SpecimenPair twin(plastic_scene());
     const State state = pair->press(under), other = twin.press(under);
-    // Meanwhile the bodies yield and turn, and the pair is destroyed.
     pair->release();
     pair->place(3);
     pair->press(under);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Placements drawn by seed: which turns and shifts they may take.
+// Placements by seed: allowed turns and shifts.
 #include <gtest/gtest.h>
 
 #include <set>

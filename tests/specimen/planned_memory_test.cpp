@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a press of bodies takes of memory, with what it leaves of them, beside what its plan says.
+// Memory of a press and of the deformed bodies, against the plan.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -19,7 +19,6 @@ using test::elastic;
 using test::random_surface;
 using test::scene_of;
 
-// N9: on many cells two thirds more was taken than said.
 TEST(PlannedMemory, N9OfElementsIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 37}, {64, 64}, {251, 127}, {512, 512}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events on a rough pair with plastic memory: what stays on the specimens, what a second press finds, and
-// that nothing but yielding ever changes a stored surface.
+// Events on a rough pair: plastic deformation and repeated presses; only yield changes a stored surface.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -98,7 +97,6 @@ TEST(PlasticEvents, APressFlattensBothBodiesByWhatItReports) {
   const double lower_loss = volume_lost(lower, pair.lower()), upper_loss = volume_lost(upper, pair.upper());
   EXPECT_NEAR((lower_loss + upper_loss) / state.plastic_volume(), 1, 1e-9);
   EXPECT_NEAR(lower_loss / upper_loss, 1, 1e-9);
-  // The state still shows the bodies that it was found for.
   EXPECT_EQ(state.geometry().lower().digest(), lower.digest());
 }
 
@@ -123,7 +121,6 @@ TEST(PlasticEvents, WithoutPlasticityNothingStays) {
       std::string::npos);
 }
 
-// Hard case 11.
 TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
   SpecimenPair pair(scene_of());
   const double first = pair.press(pressure(100)).plastic_volume();
@@ -133,7 +130,7 @@ TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
     EXPECT_EQ(pair.press(pressure(megapascals)).plastic_volume(), 0);
     EXPECT_EQ(pair.lower().digest(), lower.digest());
   }
-  // Under a load greater by its last digits nothing is known beforehand, and yet the ground fits.
+  // A slightly greater load is not covered by the memory of earlier loads.
   EXPECT_LT(pair.press(pressure(100 * (1 + 1e-15))).plastic_volume(), 1e-6 * first);
 }
 
@@ -151,13 +148,12 @@ TEST(PlasticEvents, ALongerDwellUnderTheSameLoadTakesMoreAndAShorterOneNothing) 
   const double first = pair.press({PressBy::pressure, 100 * megapascal, 600.0}).plastic_volume();
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 1e-3 * first);
-  // Each of the two is known from now on; a greater load for a shorter time is not.
+  // Both loads are known now; a greater load for a shorter time is not.
   EXPECT_EQ(pair.press({PressBy::pressure, 100 * megapascal, 60000.0}).plastic_volume(), 0);
   EXPECT_GT(pair.press({PressBy::pressure, 200 * megapascal, 600.0}).plastic_volume(), first);
 }
 
-// Off the lattice the share of the upper body is mapped between nodes that do not meet, but what both lost
-// together stays where they lie.
+// The upper body's share is mapped between nodes, but the pair's total loss stays in place.
 TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
   for (const double hardening : {std::numeric_limits<double>::infinity(), 8e13})
     for (const double degrees : {37.0, 10.0, 45.0}) {
@@ -167,19 +163,18 @@ TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
       ASSERT_GT(first.plastic_volume(), 0);
       for (int event = 0; event < 3; ++event) {
         pair.release();
-        // By its last digits greater, so that nothing is known beforehand.
+        // Not covered by the memory of earlier loads.
         const State again = pair.press(pressure(100 * (1 + (event + 1) * 1e-15)));
         EXPECT_LT(again.plastic_volume() / first.plastic_volume(), 1e-6) << degrees << " deg, " << hardening;
         EXPECT_NEAR(again.area_fraction(), first.area_fraction(), 1e-3) << degrees << " deg, " << hardening;
       }
-      // Put down afresh, each body counts in its own frame again.
+      // After a placement each body uses its own frame.
       pair.rotate(-degrees * std::numbers::pi / 180);
       EXPECT_EQ(hardness_of(pair).upper_here, nullptr);
       EXPECT_GT(pair.press(pressure(100)).plastic_volume(), 0.1 * first.plastic_volume());
     }
 }
 
-// Hard case 11.
 TEST(PlasticEvents, ALoadAndThenAGreaterOneEqualTheGreaterAlone) {
   SpecimenPair in_steps(scene_of()), at_once(scene_of());
   const Surface virgin = in_steps.lower();
@@ -239,7 +234,7 @@ TEST(PlasticEvents, TheSofterBodyLosesMore) {
   SpecimenPair pair(scene);
   const Surface lower = pair.lower(), upper = pair.upper();
   pair.press(pressure(100));
-  // P7: three times as hard.
+  // Hardness ratio 3.
   const double odds = std::exp(1.5 * (9 - 1.0 / 9));
   EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), odds, 1e-6 * odds);
 }
@@ -296,7 +291,7 @@ TEST(PlasticEvents, ALongerDwellTakesMore) {
   }
   EXPECT_LT(volumes[0], volumes[1]);
   EXPECT_LT(volumes[1], volumes[2]);
-  // The reference dwell gives the same result as a press without creep.
+  // The reference dwell: as without creep.
   SpecimenPair plain(scene_of());
   EXPECT_EQ(plain.press(pressure(100)).plastic_volume(), volumes[1]);
 }
@@ -310,17 +305,16 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
   const Surface before = pair.upper();
   const State state = pair.press(pressure(60));
   EXPECT_GT(state.plastic_volume(), 0.05 * first);
-  // Only lowered, never raised: an increment was mapped, not the heights.
+  // The increment is mapped, not the heights.
   for (std::size_t k = 0; k < before.heights().size(); ++k)
     EXPECT_LE(pair.upper().heights()[k], before.heights()[k]);
   EXPECT_NEAR(volume_lost(before, pair.upper()) / state.plastic_volume(), 0.5, 1e-6);
 }
 
-// Hard case 7.
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  Field tilted = body.heights();  // M2: no warning for a body that continues across the rim
+  Field tilted = body.heights();  // continues across the rim: no warning
   const double height = range(tilted.values()).span();
   for (int i = 0; i < body.grid().nx; ++i)
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An effect of no strength changes no number and is shown all the same: in the plan, in the effects that ran,
-// and in the cost where a press does anything for it. Bit for bit on half-spaces as on boxes, since each is
-// the very problem without it; a limit that no pressure reaches is another problem to the solver, and the
-// same solution within its tolerance. A new effect that can be without strength is a row of `powerless`.
+// An effect of zero strength changes no bit, but appears in plan, effects and cost. A limit beyond all
+// pressures changes results within the tolerance only. Every such effect needs a row of `powerless`.
 #include <functional>
 #include <optional>
 
@@ -27,10 +25,10 @@ using PowerlessEffects = OnOneThread;
 
 struct Powerless {
   const char* name;
-  std::function<void(Scene&)> without, with;  // what both name; what one names beside it
+  std::function<void(Scene&)> without, with;  // common part; added effect
   std::optional<double> dwell{};
-  const char* term;            // that the plan shows all the same
-  const char* line = nullptr;  // that the cost shows all the same
+  const char* term;            // in the plan
+  const char* line = nullptr;  // in the cost
 };
 
 const std::vector<Powerless> powerless = {
@@ -125,7 +123,6 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectChangesNoBitAndIsShown) {
       EXPECT_EQ(a.stiffness(), b.stiffness());
       EXPECT_EQ(one.lower().digest(), other.lower().digest());
       EXPECT_EQ(one.upper().digest(), other.upper().digest());
-      // An event later, after a turn, they are still the same.
       one.place(7);
       other.place(7);
       EXPECT_EQ(one.press(request).digest(), other.press(request).digest());
@@ -143,7 +140,6 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectChangesNoBitAndIsShown) {
   }
 }
 
-// A cap that no pressure reaches is another problem to the solver, with the same solution.
 TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
   for (const Bench& bench : benches) {
     if (bench.elasticity.is<BoxOptions>()) continue;
@@ -166,8 +162,7 @@ TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
   }
 }
 
-// Between level bodies slopes add nothing, and rate zero lets nothing grow: the very numbers of the plain
-// law.
+// Level bodies have no slopes; rate zero means no growth.
 TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
   const JunctionLaw law({.tau0 = 0.013, .alpha = 0.21, .tau_max = 0.015});
   for (const Bench& bench : benches) {
@@ -179,7 +174,7 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
     with.effects.set(InterlockingOptions{});
     with.effects.set(AgeingOptions{0, 1});
     if (bench.elasticity.is<HalfSpaceOptions>() && bench.boundary == Boundary::free)
-      continue;  // a punch: it sinks in at its rim, and its junctions are not level
+      continue;  // a punch has slopes at its rim
     SpecimenPair one(plain), other(with);
     const PressRequest request{PressBy::pressure, pressed, {}};
     const FrictionResult a = law.on(one.press(request)), b = law.on(other.press(request), 3600);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Protocols under way: the same states as presses made by hand, and what a failed or a stopped event leaves.
+// Protocols run like presses by hand; failed and stopped events.
 #include "engine/specimen/protocol_run.hpp"
 
 #include <numbers>
@@ -30,7 +30,7 @@ const Protocol& five() {
   return protocol;
 }
 
-// The digests of a run's presses, "-" for the other events.
+// Digests of the presses; "-" for other events.
 std::vector<std::string> done(ProtocolRun run) {
   std::vector<std::string> digests;
   while (!run.finished()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Protocols as values: what they refuse, how they read, and that equal ones have equal digests.
+// Protocols as values: refusals, text, digests.
 #include "engine/specimen/protocol.hpp"
 
 #include <limits>
@@ -104,7 +104,7 @@ TEST(Protocol, DigestsAreThoseOfStepsAndTimes) {
   };
   for (const auto& events : different) digests.insert(Protocol(events).digest());
   EXPECT_EQ(digests.size(), different.size());
-  // Where it was read is no part of it.
+  // The source line is no part of the digest.
   EXPECT_EQ(Protocol({{pressure(1), 0.0, "a.csv line 2"}}).digest(), Protocol({{pressure(1), 0.0}}).digest());
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the effects of a contact pulled sideways do on the bench: shear of a pair under load, the growth of
-// slip as a stage is raised, junctions that rest before, and slopes that push.
+// Lateral effects on the bench: shear, growth of slip on a tilting stage, rest, slopes.
 #include "engine/specimen/slip_growth.hpp"
 
 #include <cmath>
@@ -107,7 +106,7 @@ TEST(SlipGrowth, GrowsToAllOfTheContactWhereTheSpecimenSlides) {
   }
 }
 
-// With alpha alone the pull over the one that slides is tan θ / α, and each share that of the load left.
+// With alpha alone, pull over sliding force is tan θ / α; shares follow the remaining load.
 TEST(SlipGrowth, IsThatOfAContactAtTheLoadOfTheAngle) {
   Scene scene = test::boxes(random_surface(40, 40, 1), 3.0);
   scene.effects = partial;
@@ -152,7 +151,6 @@ TEST(TiltRest, RaisesTheAngleByWhatTau0Grew) {
   EXPECT_GT(after.angle, raise(plain, law, light()).angle);
   EXPECT_NE(after.note.find("at rest for 600 s, tau0 grew by a factor of 1.57071"), std::string::npos)
       << after.note;
-  // A rest is needed for it to show.
   EXPECT_EQ(raise(ageing, law, light()).angle, raise(plain, law, light()).angle);
 }
 
@@ -188,10 +186,10 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   const auto incline = [&](double sign) {
     return test::surface_of(grid, [=](int i, int) { return sign * slope * 0.1 * i; });
   };
-  // Turned over, the upper one rises the other way and fits.
+  // Turned over, the upper body fits.
   Scene scene = scene_of(incline(1), incline(1), 1.0);
   scene.effects.set(InterlockingOptions{});
-  // A free tile is put down turned by nothing or by half a turn; half of it would not fit.
+  // Free placements turn by 0 or 180 deg; only one of these fits.
   const SpecimenPair pair(scene);
   const JunctionLaw law({.tau0 = 0, .alpha = 0.2});
   const State st = SpecimenPair(pair).press({PressBy::pressure, 0.1, {}});
@@ -205,7 +203,7 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   EXPECT_GT(fits, 0);
 }
 
-// Slopes that push harder than friction holds: it slides at the first step, and no error of the stage.
+// Sliding at the first step is no error of the stage.
 TEST(TiltInterlocking, ASlopeThatPushesSlipsAtOnce) {
   const Grid grid{24, 10, 2.4, 0.5};
   const auto incline = test::surface_of(grid, [](int i, int) { return 0.03 * i; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bench: presses, sweeps, placements, copies, and that a failed call changes nothing.
+// The bench: presses, sweeps, placements, copies; failed calls change nothing.
 #include "engine/specimen/specimen_pair.hpp"
 
 #include <cmath>
@@ -140,7 +140,7 @@ TEST(SpecimenPair, ACopyGoesItsOwnWay) {
 }
 
 TEST(SpecimenPair, AFailedCallLeavesItAsItWas) {
-  // A half turn would make a plane of these two, from which no default stiffness follows.
+  // A half turn would give a plane, without a default stiffness.
   const Surface ramp = row_of({0, 1, 2}).with_material(test::elastic(1));
   SpecimenPair pair(scene_of(ramp, row_of({2, 1, 0}).with_material(test::elastic(1)), {}, Boundary::free));
   const State before = pair.press(pressure(0.1));
@@ -165,7 +165,7 @@ TEST(SpecimenPair, AFlatIsAPlaneOfZeros) {
 }
 
 TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
-  // The deformed flat, in its own frame, turns against the lower body with the placement.
+  // The deformed flat turns with the placement.
   const Surface lower = random_surface(9, 9, 1).with_material(test::elastic(1));
   SpecimenPair pair(scene_of(lower, test::elastic(1)));
   pair.rotate(quarter);
@@ -179,7 +179,7 @@ TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
     }
 }
 
-// B1: said once for a pair, and not before one body overhangs the other.
+// Once per pair, and only with an overhang.
 TEST(SpecimenPair, AnOverhangIsWarnedOf) {
   class Warned final : public Monitor {
    public:
@@ -202,7 +202,6 @@ TEST(SpecimenPair, AnOverhangIsWarnedOf) {
   EXPECT_EQ(pair.plan().overlap, turned.overlap_fraction());
   pair.rotate(-1.5 * quarter);
   EXPECT_EQ(pair.press(pressure(1)).digest(), home);
-  // Under a flat there is no rim to turn over.
   SpecimenPair flat(scene_of(random_surface(12, 12, 1), rigid_material(), 3.0, Boundary::free));
   flat.rotate(0.5 * quarter);
   EXPECT_EQ(flat.press(pressure(1)).overlap_fraction(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tilt stage on a half-space contact: solved at probe pressures, carried down to the weight.
+// The tilt stage on a half-space: probe pressures, extrapolated to the weight.
 #include <cmath>
 #include <numbers>
 
@@ -62,7 +62,7 @@ TEST(TiltHalfSpace, TheAngleDoesNotDependOnAWeightBelowTheProbes) {
   EXPECT_NEAR(raise(pair, law, light).angle, raise(pair, law, heavy).angle, 1e-12);
 }
 
-// A ball has one spot, whose area grows as load^(2/3): by Hertz the weight is held at mu = 0.1943.
+// Single spot, area ~ load^(2/3): Hertz gives mu = 0.1943 at the weight.
 TEST(TiltHalfSpace, ALoneSpotIsSolvedUnderTheWeight) {
   for (const double size : {1e-3, 2e-4, 1e-4}) {
     Scene scene{sphere_surface({Grid{64, 64, size, size}, 1e-2, SphereShape::paraboloid})
@@ -99,7 +99,7 @@ TEST(TiltHalfSpace, PressuresAboveTheHardnessAreReported) {
   EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(hard), std::string::npos);
 }
 
-// B5: a weight that presses harder than a probe is not extrapolated to.
+// No extrapolation above the probes.
 TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
   const SpecimenPair pair = on_quartz();
   const double area = pair.lower().grid().area();
@@ -115,21 +115,20 @@ TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
     const TiltResult result = raise(pair, law, options);
     ASSERT_EQ(result.at_weight.size(), 2U);
     EXPECT_NEAR(result.at_weight[0].pressure, pressure, 1e-6 * pressure);
-    // At slip, the friction law under the remaining normal force gives the holding force.
+    // Holding force: friction under the remaining normal force.
     SpecimenPair copy = pair;
     const State state = copy.press({PressBy::pressure, pressure * std::cos(result.angle), {}});
     const FrictionResult friction = law.on(state);
     const double corrected = state.corrected_area_fraction() / state.area_fraction();
     const double mu = (friction.adhesive_force * corrected + friction.load_force) / state.load();
     EXPECT_NEAR(std::tan(result.angle), mu, 1e-5 * mu) << pressure;
-    EXPECT_LT(result.angle, before) << pressure;  // area grows less than in proportion
+    EXPECT_LT(result.angle, before) << pressure;  // area grows less than proportionally
     before = result.angle;
     EXPECT_NE(result.note.find("above the smallest probe pressure"), std::string::npos) << result.note;
     EXPECT_EQ(result.note.find("down to the weight"), std::string::npos) << result.note;
   }
 }
 
-// B5: no weight above the hardness.
 TEST(TiltHalfSpace, AWeightThatTheHardnessCannotCarryIsRefused) {
   Scene scene = on_quartz().scene();
   scene.effects.set(PlasticityOptions{});
@@ -147,7 +146,7 @@ TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {
   EXPECT_NE(result.note.find("the probe pressure was raised to"), std::string::npos);
 }
 
-// Eq. (1) of the source paper with a liquid: the junctions carry its pull too, and the weight divides.
+// Eq. (1) of the source paper with a liquid: junctions carry the capillary force; μ is per weight.
 TEST(TiltHalfSpace, WhatTheBodiesAttractEachOtherByRaisesTheAngleAndIsTold) {
   Scene scene = on_quartz().scene();
   const TiltResult dry = raise(SpecimenPair(scene), law, stage({30 * megapascal}));
@@ -177,7 +176,6 @@ TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
   EXPECT_TRUE(plastic.probes.at(0).yields);
   EXPECT_GT(*plastic.area_per_load, *elastic.area_per_load);
   EXPECT_EQ(pair.lower().digest(), before);
-  // So hard that nothing yields: nothing to tell.
   scene.effects.set(PlasticityOptions{1e12, std::numeric_limits<double>::infinity()});
   EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(told), std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Trials on the tilt stage with real contacts: repeats, placements, scatter, the specimen's area.
+// Trials on the tilt stage: repeats, placements, scatter, specimen area.
 #include "engine/specimen/tilt_trials.hpp"
 
 #include <cmath>
@@ -120,7 +120,7 @@ TEST(TiltTrials, ASpecimenThatNeverSlipsIsSaidPlainly) {
 }
 
 TEST(TiltTrials, SpecimenAreaTurnsWeightIntoPressure) {
-  // A specimen of nine tiles with nine times the mass is the same experiment.
+  // Nine tiles with nine times the mass.
   TiltTrialOptions large = light();
   large.specimen_area = 9;
   large.stage.mass = 0.09;

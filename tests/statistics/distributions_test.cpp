@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Student's t, F and the normal distribution against values to twenty digits (incomplete beta
-// function with 50 digits, solved by bracketing), and against closed forms for one and two degrees.
+// Student's t, F and normal distribution against closed forms and twenty digits (incomplete beta function
+// with 50 digits).
 #include "engine/statistics/distributions.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(StudentT, FactorsOfWholeAndFractionalDegrees) {
   expect_close(student_t_factor(0.95, 1000), 1.962339080826408485, "1000");
 }
 
-// With the share q in each tail.
+// Share q in each tail.
 TEST(StudentT, ClosedFormsOfOneAndTwoDegrees) {
   for (const double q : {0.4999999, 0.4, 0.25, 0.1, 0x1p-10, 0x1p-30, 0x1p-50}) {
     const double one = q < 0.25 ? 1 / std::tan(std::numbers::pi * q) : std::tan(std::numbers::pi * (0.5 - q));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bins by rule, by number and by edges; values on edges, outside, equal and missing.
+// Bins by rule, number and edges; special values.
 #include "engine/statistics/histogram.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::vector<double> counting(int n) {
 }
 
 TEST(Histogram, FreedmanDiaconisByDefault) {
-  // Quartiles 25 and 75 of 0..100: width 100/101^(1/3) = 21.47, five bins of 20.
+  // Quartiles 25 and 75: width 100/101^(1/3) = 21.47, five bins of 20.
   const ValueHistogram found = value_histogram(counting(101));
   EXPECT_EQ(found.rule, "Freedman-Diaconis");
   EXPECT_EQ(found.edges, (std::vector<double>{0, 20, 40, 60, 80, 100}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polynomial chaos against models whose shares are known: the Ishigami function, and contact with junctions
-// over five inputs, whose shares are from a Gauss-Legendre rule of 16^5 points.
+// Known shares: the Ishigami function; contact with junctions over five inputs (Gauss-Legendre rule of 16^5
+// points).
 #include "engine/statistics/polynomial_chaos.hpp"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(PolynomialChaos, IshigamiIsRefusedWithTooFewRuns) {
 }
 
 TEST(PolynomialChaos, OfAPolynomialIsThePolynomial) {
-  // y = 3 + 2 x + x z with x normal about 1 (u 0.5), z normal about 0 (u 2): Var = 4·.25 + (1 + .25)·4.
+  // y = 3 + 2 x + x z, x normal about 1 (u 0.5), z about 0 (u 2): Var = 4·.25 + (1 + .25)·4.
   const std::vector<UncertainInput> inputs = {{"x", 1, .5}, {"z", 0, 2}};
   const auto model = [](const std::vector<double>& x) { return 3 + 2 * x[0] + x[0] * x[1]; };
   const PolynomialChaos chaos = chaos_of(inputs, model, 24);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means with intervals: known answers, how often the intervals hold the mean of simulated samples (by the
-// table of coverages from 4000 samples each), groups of a table, and refusals.
+// Means with intervals: known answers, coverage against a table (4000 samples each), groups, refusals.
 #include "engine/statistics/sample_mean.hpp"
 
 #include <gtest/gtest.h>
@@ -30,8 +29,7 @@ TEST(SampleMean, OfFiveValues) {
 }
 
 TEST(SampleMean, LogIntervalOfCox) {
-  // exp(m + s²/2 ± t sqrt(s²/n + s⁴/(2(n-1)))) of logarithms 0, 1, 2: m = 1, s² = 1, t(2)
-  // = 4.3026527297494637.
+  // exp(m + s²/2 ± t sqrt(s²/n + s⁴/(2(n-1)))): m = 1, s² = 1, t(2) = 4.3026527297494637.
   const std::vector<double> values = {1, std::exp(1.0), std::exp(2.0)};
   const SampleMean of = sample_mean(values, MeanInterval::log_normal);
   const double reach = 4.3026527297494637 * std::sqrt(1.0 / 3 + 1.0 / 4);
@@ -65,7 +63,7 @@ TEST(SampleMean, FewValuesAreSaid) {
   EXPECT_THROW(sample_mean(std::vector<double>{0, 2}, MeanInterval::log_normal), Error);
 }
 
-// The share of `sets` samples of size `n` whose interval holds the mean of the distribution, which is 1.
+// Coverage of the distribution's mean, 1.
 template <class Draw>
 double coverage(int sets, int n, MeanInterval interval, const char* stream, Draw draw) {
   const Stream random(1, stream);
@@ -80,8 +78,7 @@ double coverage(int sets, int n, MeanInterval interval, const char* stream, Draw
   return static_cast<double>(held) / sets;
 }
 
-// Standard errors at 2000 samples: 0.5 % at 95 %, 0.8 % at 83 %; wanted within four standard errors and the
-// table's own.
+// Four standard errors (2000 samples: 0.5 % at 95 %, 0.8 % at 83 %) plus the table's.
 TEST(SampleMean, IntervalsHoldTheirLevelAsTheyShould) {
   constexpr int sets = 2000;
   const auto normal = [](const Stream& random, std::uint64_t k) { return 1 + 0.3 * random.normal(k); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which rows a `where` speaks of.
+// Rows selected by `where`.
 #include "engine/statistics/table_filter.hpp"
 
 #include "tests/support/run_fixture.hpp"

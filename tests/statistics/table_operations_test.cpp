@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables made from tables: joins by equal cells, shared columns, rows without a partner; SI; text.
+// Joins, unmatched rows; SI; text.
 #include "engine/statistics/table_operations.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,6 @@ TEST(TableOperations, JoinedRowsStandInTheOrderOfTheFirst) {
             "N,angle [rad],mu\n1,0.1,0.4\n1,0.1,0.45\n2,0.3,0.5\n");
   EXPECT_EQ(joined(measured(), computed(), {{"N"}, "", Unmatched::keep}).csv(),
             "N,angle [rad],mu\n1,0.1,0.4\n1,0.1,0.45\n4,0.2,\n2,0.3,0.5\n");
-  // Many to one.
   EXPECT_EQ(joined(computed(), measured(), {{"N"}, "", Unmatched::leave_out}).csv(),
             "N,mu,angle [rad]\n2,0.5,0.3\n1,0.4,0.1\n1,0.45,0.1\n");
 }

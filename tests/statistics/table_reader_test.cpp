@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables in every form written by loggers and spreadsheets, and the refusals by line and column.
+// Tables from loggers and spreadsheets; refusals by line and column.
 #include "engine/statistics/table_reader.hpp"
 
 #include <cmath>
@@ -48,7 +48,6 @@ TEST(TableReader, NumbersWithUnitsAreInSiAndTheNearestDoubles) {
   EXPECT_EQ(table.name(), "\"t.csv\"");
 }
 
-// One table in every way in which it is written.
 TEST(TableReader, FormsOfOneTable) {
   const std::string wanted = "time [s],load [N]\n0,1500\n900.5,2250\n";
   for (const std::string text :
@@ -67,7 +66,6 @@ TEST(TableReader, FormsOfOneTable) {
     EXPECT_EQ(csv(utf16(text, true)), wanted) << "UTF-16: " << text;
   }
   EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", false)), wanted);
-  // Without a mark at its beginning.
   EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", true).substr(2)), wanted);
   EXPECT_EQ(csv("Machine 7\nOperator Li\ntime [s],load [kN]\n0,1.5\n900.5,2.25\n",
                 with([](TableForm& f) { f.skip = 2; })),
@@ -90,7 +88,7 @@ TEST(TableReader, LettersBeyondAsciiAreKept) {
             "H\xC3\xA4rte,Weg [m],phi [rad]\n2,3e-06,3.141592653589793\n");
 }
 
-// A letter behind the name may belong to the name.
+// A letter after a name may belong to the name.
 TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
   EXPECT_EQ(csv("load kN,slip um,strain %\n1,2,3\n"), "load [N],slip [m],strain\n1000,2e-06,0.03\n");
   EXPECT_EQ(csv("Run N,time_s,T min,mu (left),Ra/Rq,a, b\n1,2,3,4,5,6,7\n"),
@@ -114,7 +112,6 @@ std::vector<std::string> warnings_of(const std::string& text, const TableForm& f
   return warnings.all;
 }
 
-// An unknown unit is no error: the numbers are read, and the head keeps the unit.
 TEST(TableReader, AnUnknownUnitStaysInTheHead) {
   EXPECT_EQ(csv("x [s],T [degC]\n1,20\n"), "x [s],T [degC]\n1,20\n");
   EXPECT_EQ(warnings_of("x [s],T [degC],U [mV]\n1,20,3\n"),
@@ -130,7 +127,7 @@ TEST(TableReader, AnUnknownUnitStaysInTheHead) {
             "time [s],T [\xC2\xB0"
             "C]\n1,20.5\n");
   EXPECT_EQ(csv("T,U\n[K],[V]\n20,1\n"), "T [K],U [V]\n20,1\n");
-  // By the new name and by the name in the file.
+  // By the new name and the file's name.
   EXPECT_EQ(csv("Temp [degC]\n20\n", with([](TableForm& f) { f.names = {{"T", "Temp"}}; })), "T\n20\n");
   EXPECT_EQ(csv("time,T\ns,degC\n1,20\n", with([](TableForm& f) {
                   f.units = {{"T", "1"}};
@@ -152,7 +149,7 @@ TEST(TableReader, ARowOfDataIsNeverTheHeads) {
   EXPECT_EQ(refusal("\"08:00:01\",\"x\"\n\"08:00:02\",\"y\"\n"), "begins with \"08:00:01\"" + cure);
   EXPECT_EQ(refusal("1'250;x\n2'000;y\n"), "begins with \"1'250\"" + cure);
   EXPECT_EQ(refusal("1.5 kN,2 s\n1.6 kN,3 s\n"), "begins with \"1.5 kN\"" + cure);
-  // Heads with the beginning or end of a number or date.
+  // Heads similar to a number or date.
   for (const std::string heads : {"E1,e2", "slip,10 N", "day 1,95%", "x1,May", "1st,nan", "A-1,B-2"})
     EXPECT_EQ(csv(heads + "\n1,2\n").substr(0, 2), heads.substr(0, 2));
 }
@@ -172,7 +169,7 @@ TEST(TableReader, BytesOfWindowsAreItsCharacters) {
   EXPECT_EQ(csv("n,note\n1,\x81\xE4\n"), "n,note\n1,\xEF\xBF\xBD\xC3\xA4\n");
 }
 
-// Local time steps back an hour in autumn; only the key distinguishes this step from unordered rows.
+// Only the key distinguishes the autumn clock change from unordered rows.
 TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
   const TableForm winter = with([](TableForm& f) { f.steps_back = StepsBack::winter_time; });
   const std::string quarters =
@@ -188,7 +185,7 @@ TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
       "t,F\n2025-10-26 01:00,1\n2025-10-26 02:00,2\n2025-10-26 02:00,3\n2025-10-26 03:00,4\n";
   EXPECT_EQ(warnings_of(hours).size(), 1u);
   EXPECT_EQ(csv(hours, winter), "t [s],F\n0,1\n3600,2\n7200,3\n10800,4\n");
-  // Times with a zone, steps back by more than an hour, and repeated times are not warned of.
+  // No warning: zones, larger steps back, repeated times.
   for (const std::string rows :
        {"2025-10-26 02:45+02:00,1\n2025-10-26 02:00+01:00,2\n", "2026-03-01,1\n2026-02-28,2\n",
         "2026-03-01 10:00,1\n2026-03-01 10:00,2\n2026-03-01 11:00,1\n2026-03-01 11:00,2\n",
@@ -196,7 +193,7 @@ TEST(TableReader, LocalTimesThatStepBackAreWarnedOfAndCured) {
     EXPECT_TRUE(warnings_of("t,F\n" + rows).empty()) << rows;
     EXPECT_EQ(csv("t,F\n" + rows, winter), csv("t,F\n" + rows)) << rows;
   }
-  // The jitter of a logger is warned of, and no hour is added.
+  // Jitter of a logger: a warning, no added hour.
   const std::string jitter = "t,F\n2026-03-01 10:00:00.2,1\n2026-03-01 10:00:00.1,2\n";
   EXPECT_EQ(warnings_of(jitter).size(), 1u);
   EXPECT_EQ(csv(jitter, winter), csv(jitter));
@@ -266,11 +263,11 @@ TEST(TableReader, ReadsBackWhatATableWrites) {
        {std::int64_t{3}, 5e-324, std::string(), true}});
   EXPECT_EQ(read(table.csv()).csv(), table.csv());
   EXPECT_EQ(read(table.csv()).digest(), table.digest());
-  EXPECT_EQ(csv("a,b\n1,2\n,\n3,4\n"), "a,b\n1,2\n3,4\n");  // as spreadsheets write lines of nothing
+  EXPECT_EQ(csv("a,b\n1,2\n,\n3,4\n"), "a,b\n1,2\n3,4\n");  // spreadsheets write empty lines like this
 }
 
 TEST(TableReader, ACommaIsReadWhereTheFileTellsWhatItIs) {
-  // A single unambiguous number decides for all numbers.
+  // One unambiguous number decides for all.
   EXPECT_EQ(csv("a;b\n1,250;0,5\n"), "a,b\n1.25,0.5\n");
   EXPECT_EQ(csv("a;b\n1.250,5;1.000\n"), "a,b\n1250.5,1000\n");
   EXPECT_EQ(csv("a;b\n1,250.5;1,000\n"), "a,b\n1250.5,1000\n");
@@ -318,7 +315,7 @@ TEST(TableReader, BlanksBetweenDigitsAreAskedForAndRead) {
 }
 
 TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
-  // A failed cell begins with the mark of a comment.
+  // A failed cell begins with a comment mark.
   EXPECT_EQ(
       refusal("a,b\n1,2\n#DIV/0!,4\n"),
       "line 3, column 1 (a): \"#DIV/0!\" is no number, as others of this column are; mend it, or text={ "
@@ -327,7 +324,7 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "line 3, column 2 (b): \"#VALUE!\" is no nu");
   EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
   EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
-  // Lines above a table, similar to a table with one column.
+  // Looks like a table with one column.
   EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
             "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
             "skip=");
@@ -343,12 +340,9 @@ TEST(TableReader, QuotedCellsGoOnOverLines) {
   EXPECT_EQ(csv("a\tb\n1\t\"x\ny\"\n2\tz\n"), table);
   EXPECT_EQ(read(utf16("a,b\n1,\"x\ny\"\n2,z\n", true)).csv(), table);
   EXPECT_EQ(csv("a,b\r\r\n1,\"x\r\r\ny\"\r\r\n2,z\r\r\n"), table);
-  // Separators, doubled quotes, # and empty lines belong to the cell; two such cells, and a cell at the
-  // beginning of its row.
   const std::string all = "n,words,more\n1,\"x, \"\"y\"\"\n\n# no comment; z\",\"u\nv\"\n2,w,w\n";
   EXPECT_EQ(csv(all), all);
   EXPECT_EQ(csv("words,n\n\"x\ny\",1\n"), "words,n\n\"x\ny\",1\n");
-  // A table reads its own text.
   EXPECT_EQ(std::get<std::string>(read(csv("a,b\n1,\"\r\n x\n\"\n")).cell(0, 1)), "\n x\n");
 }
 
@@ -373,19 +367,19 @@ TEST(TableReader, AQuoteThatIsClosedNowhereOrFarBelowIsRefused) {
   EXPECT_EQ(
       refusal("a,b\n1,\"x\n2,y\n3,z\",4\n5,w\n"),
       "has a quote in line 2 that is closed in line 4 only, where the row has 3 cells under 2 heads" + far);
-  // Inches are no quotes, and words below the table may be.
+  // Inches are no quotes; words below the table may be.
   EXPECT_EQ(csv("a,b\n1,5\" pipe\n2,z\n"), "a,b\n1,\"5\"\" pipe\"\n2,z\n");
   EXPECT_EQ(csv("a,b\n1,2\n\"measured\nby Li\"\n"), "a,b\n1,2\n");
 }
 
-// Whether a row follows is looked for once, not at each quote: minutes otherwise.
+// One search for a following row, not one per quote: minutes otherwise.
 TEST(TableReader, ManyQuotesAreGoneOverOnce) {
   std::string quotes = "a,b\n";
   for (int k = 0; k < 200000; ++k) quotes += "\"\n";
   EXPECT_NE(refusal(quotes).find("line 2: there is 1 cell under 2 heads"), std::string::npos);
 }
 
-// Lines above a table of other separators look like one of their own; a footer of words is none.
+// Lines above a table with another separator look like rows.
 TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
   EXPECT_EQ(
       refusal("Logger X\nSerial 5\nload [kN],time [s]\n1.5,0\n2.5,1\n"),
@@ -445,7 +439,7 @@ TEST(TableReader, DatesThatCanBeReadInTwoWaysAreAskedFor) {
   EXPECT_EQ(csv("day,x\n03/04/2026,1\n05/04/2026,2\n",
                 with([](TableForm& f) { f.dates = DateOrder::month_first; })),
             "day [s],x\n0,1\n5270400,2\n");
-  // The third tells.
+  // The third date decides.
   EXPECT_EQ(csv("day,x\n03/04/2026,1\n05/04/2026,2\n13/04/2026,3\n"), "day [s],x\n0,1\n172800,2\n864000,3\n");
   EXPECT_EQ(refusal("day,x\n13/04/2026,1\n04/13/2026,2\n"),
             "line 3, column 1 (day): \"04/13/2026\" is in no calendar with the day first");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table: free columns in order of appearance, units, CSV as in RFC 4180.
+// The table: column order, units, CSV as in RFC 4180.
 #include "engine/statistics/table.hpp"
 #include "engine/core/constants.hpp"
 

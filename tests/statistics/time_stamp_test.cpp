@@ -53,7 +53,7 @@ TEST(TimeStamp, ClocksOfTwelveHours) {
 TEST(TimeStamp, FractionsAndZones) {
   EXPECT_EQ(read_time_stamp("00:00:01.25").fraction, 0.25);
   EXPECT_EQ(read_time_stamp("00:00:01,5").fraction, 0.5);
-  EXPECT_EQ(read_time_stamp("01:02.5").seconds, 62);  // minutes and seconds, for seconds alone have fractions
+  EXPECT_EQ(read_time_stamp("01:02.5").seconds, 62);  // minutes and seconds: only seconds have fractions
   const std::int64_t noon = read_time_stamp("2026-07-01T12:00:00Z").seconds;
   for (const char* text : {"2026-07-01T14:00:00+02:00", "2026-07-01T14:00+02", "2026-07-01 08:30:00-0330"}) {
     EXPECT_EQ(read_time_stamp(text).seconds, noon) << text;

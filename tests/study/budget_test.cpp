@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The budget of a number on models whose truth is known: whether its interval holds the truth as often as it
-// says and is no wider than it must be, whether shares are those that were put in, and what it refuses.
+// Budgets of models with known truth: coverage and width, shares, refusals.
 #include "engine/study/budget.hpp"
 
 #include <gtest/gtest.h>
@@ -22,8 +21,7 @@ namespace asperity {
 namespace {
 namespace budget_test {
 
-// An experiment that somebody might make: scatter over seeds, an error of the cells of some order between one
-// and two that itself scatters, and inputs measured with an error, of which the model is a little curved.
+// Scatter over seeds, a scattering discretisation error of order 1 to 2, uncertain inputs, slight curvature.
 struct Experiment {
   double scatter, of_cells, order, cells_scatter;
   std::vector<double> slopes, curvatures, truth;
@@ -81,13 +79,13 @@ BudgetAsk ask_of(const Trial& trial) {
   };
 }
 
-// Half the width of the interval for somebody who knows how every part errs.
+// Half width from known error laws.
 double known_half_width(const Trial& trial) {
   const Experiment& e = trial.experiment;
   const double n = static_cast<double>(trial.request.replicates);
   double variance = e.scatter * e.scatter / n;
   if (!trial.request.cells.empty()) {
-    // Mean and square of the factor 1/(2^p - 1) over p from 1 to 2.
+    // Mean and square of 1/(2^p - 1), p from 1 to 2.
     double mean = 0, square = 0;
     for (int k = 0; k < 1000; ++k) {
       const double f = 1 / (elementary::exp2(1 + (k + .5) / 1000) - 1);
@@ -138,7 +136,7 @@ BudgetRequest three_parts() {
   return r;
 }
 
-// Scatter ±.3 in turn; .9 on the coarse grid and .3 on the fine one; .09 and .009 by tolerance.
+// Scatter ±.3; .9 on the coarse grid, .3 on the fine one; .09 and .009 by tolerance.
 double known_answer(const BudgetRequest& r, const BudgetSetting& run) {
   const double of_cells = run.cells == 0 ? .9 : .3;
   const double of_solver = 90 * r.tolerances[run.tolerance];
@@ -161,7 +159,7 @@ double u_of(const Budget& budget, const std::string& name) {
 
 TEST(Budget, SharesAreThosePutIn) {
   const Budget b = known_budget(three_parts());
-  // The change of -.6 times 1/(2^p - 1), whose deviation over p from 1 to 2 is .18616.
+  // -.6 times 1/(2^p - 1), whose deviation over p from 1 to 2 is .18616.
   EXPECT_NEAR(u_of(b, "sampling"), .3 * std::sqrt(6.0 / 5) / std::sqrt(6), 1e-12);
   EXPECT_NEAR(u_of(b, "cells"), .6 * .18616, 1e-5);
   EXPECT_NEAR(u_of(b, "solver"), .081 / 9 / std::sqrt(3.0), 1e-12);
@@ -187,7 +185,7 @@ TEST(Budget, HalvingAPartCostsWhatItsRunsTake) {
       EXPECT_EQ(part.halving, "18 more replicates");
       EXPECT_NEAR(*part.halving_seconds, 18 * 1.25, 1e-12);
     } else if (part.name == "cells") {
-      // Of order 1.5: 2^(2/3) as many cells a side, and time with their square.
+      // Order 1.5: 2^(2/3) as many cells a side; time ~ cells².
       EXPECT_EQ(part.halving, "cells = 204");
       EXPECT_NEAR(*part.halving_seconds, 6 * (204.0 / 128) * (204.0 / 128), 1e-9);
     } else if (part.name == "hardness") {
@@ -208,7 +206,7 @@ TEST(Budget, CheapestWayReachesTheAskedIntervalAndNoCheaperOneDoes) {
   const Budget b = budget_of(r, ask);
   ASSERT_TRUE(b.plan);
   EXPECT_LE(b.plan->half_width, .2);
-  // Scatter is what matters: more seeds on coarser cells.
+  // Scatter dominates: more seeds on coarser cells.
   EXPECT_LT(b.plan->cells, 128);
   EXPECT_GT(b.plan->replicates, 20u);
   EXPECT_LT(b.plan->replicates, 40u);
@@ -230,7 +228,7 @@ TEST(Budget, OfReplicatesAloneIsStudentsInterval) {
   EXPECT_DOUBLE_EQ(b.value, 4);
   EXPECT_DOUBLE_EQ(b.low, *mean.low);
   EXPECT_DOUBLE_EQ(b.high, *mean.high);
-  EXPECT_FALSE(b.warnings.empty());  // four are few
+  EXPECT_FALSE(b.warnings.empty());  // only four
   r.interval = MeanInterval::log_normal;
   const Budget log = budget_of(r, ask);
   EXPECT_GT(log.low, 0);
@@ -296,7 +294,7 @@ TEST(Budget, WithoutAPolynomialTheInputsAreOneRow) {
   EXPECT_FALSE(b.warnings.empty());
 }
 
-// A tip that takes 4 % an unit of its radius off, and a noise of 0.3.
+// The tip removes 4 % per radius unit; noise 0.3.
 TEST(Budget, TipAndNoiseOfAnInstrumentAreParts) {
   BudgetRequest r;
   r.replicates = 6;
@@ -313,7 +311,7 @@ TEST(Budget, TipAndNoiseOfAnInstrumentAreParts) {
   const auto part = [&](const std::string& name) {
     return *std::ranges::find(b.parts, name, &BudgetPart::name);
   };
-  // 1/(2^p - 1) of p from 1 to 2 is 0.58 in the mean and scatters by 0.19.
+  // 1/(2^p - 1): mean 0.58, scatter 0.19.
   EXPECT_NEAR(part("tip").uncertainty, 0.4 * 0.19, 0.01);
   EXPECT_NEAR(part("noise").uncertainty, 0.3, 0.1);
   EXPECT_NEAR(b.value, 10 - 0.4 + 0.58 * 0.4, 0.3);
@@ -345,7 +343,7 @@ TEST(Budget, RoughFitIsSaidOnce) {
   EXPECT_EQ(text.find(sentence, first + 1), std::string::npos) << text;
 }
 
-// The first batch is for the time that all will take; the others hold all that can be known by then.
+// The first batch measures the time.
 TEST(Budget, RunsComeInBatches) {
   BudgetRequest r;
   r.replicates = 5;
@@ -376,8 +374,7 @@ TEST(Budget, RunsComeInBatches) {
 
 // --- one specimen
 
-// Errors of single grids as rough faces have them: chance in proportion to the width of the cells, with a
-// drift.
+// As on rough faces: random errors proportional to the cell width, plus a drift.
 TEST(Budget, OfOneSpecimenHoldsErrorsOfCellsThatAreChance) {
   const int count = sanitized ? 60 : 500;
   for (const double drift : {0.0, 1.0}) {
@@ -434,7 +431,7 @@ TEST(Budget, OfOneSpecimenIsWideWhereNoGridBetweenIsTaken) {
 
 using InputTrial = std::function<std::vector<UncertainInput>(const Stream&)>;
 
-// Counts the intervals that hold 0, the sum of the inputs.
+// Counts the intervals that contain 0, the sum of the inputs.
 int held_of(const InputTrial& trial, const std::vector<InputCorrelation>& correlations = {}) {
   int held = 0;
   for (std::uint64_t k = 0; k < 400; ++k) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations of models that are dear to call: how few sets of parameters they take, that estimates and
-// intervals are those of a fit that spares nothing, what a noise of the model does to them, and a progress
-// that moves to the end.
+// Calibrations of expensive models: parameter sets, agreement with a full fit, model noise, progress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +16,7 @@
 namespace asperity::calibration_sparing_test {
 namespace {
 
-// Roughness under stress, Ra = first (1 - stress/(stress + hardness)), with scatter, as `rows` presses give
-// it.
+// Ra = first (1 - stress/(stress + hardness)), with scatter.
 constexpr double true_first = 1.2, true_hardness = 0.9;
 double roughness_of(double first, double hardness, double stress) {
   return first * hardness / (stress + hardness);
@@ -28,8 +25,8 @@ double roughness_of(double first, double hardness, double stress) {
 struct Presses {
   CalibrationRows rows;
   std::vector<double> stress;
-  double noise = 0;  // of the model: what its tolerance leaves open, the same for the same parameters
-  std::vector<std::vector<double>> asked;  // sets of parameters
+  double noise = 0;                        // model noise within its tolerance, reproducible
+  std::vector<std::vector<double>> asked;  // parameter sets
 
   double at(std::span<const double> q, std::size_t row) const {
     const double exact = roughness_of(q[0], q[1], stress[row]);
@@ -77,13 +74,13 @@ TEST(SparingCalibration, IsThatOfAFitWhichSparesNothing) {
     most = std::max(most, made.asked.size());
     all += made.asked.size();
     EXPECT_EQ(few.calls, static_cast<std::int64_t>(14 * made.asked.size()));
-    EXPECT_EQ(std::set(made.asked.begin(), made.asked.end()).size(), made.asked.size());  // none twice
+    EXPECT_EQ(std::set(made.asked.begin(), made.asked.end()).size(), made.asked.size());
   }
   EXPECT_LE(most, 16U);
   EXPECT_LE(all, 20 * 14U);
 }
 
-// A noise of 1e-4 where rows scatter by 3 %.
+// Noise of 1e-4 against a scatter of 3 %.
 TEST(SparingCalibration, NoiseOfTheModelNeitherStopsNorMisleadsIt) {
   std::size_t most = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -149,8 +146,7 @@ TEST(SparingCalibration, WhatIsNotDeterminedIsGivenNoNumber) {
   EXPECT_NE(found.verdict.find("the product a b"), std::string::npos) << found.verdict;
 }
 
-// Real area of a press on 32 x 32 cells: a count of nodes, so a model in steps of 1/1024 (or coarser ones),
-// in which stiffness and factor act as a product.
+// Real area in steps of 1/1024 or coarser; stiffness and factor act as a product.
 struct CountedNodes {
   double nodes = 1024;
   CalibrationRows rows;
@@ -174,7 +170,7 @@ CountedNodes counted_nodes(std::uint64_t seed, double scatter, double nodes = 10
   return made;
 }
 
-// Starts, bounds and steps of differences that make the columns of a Jacobian look apart.
+// Jacobian columns look independent from these starts, bounds and steps.
 const std::vector<std::vector<CalibrationParameter>> starts_of_product = {
     {{"E", 1, {}, {}}, {"f", 1, {}, {}}},
     {{"E", 1, 0.1, 10.0}, {"f", 1, 0.1, 1.0}},
@@ -203,14 +199,12 @@ TEST(SparingCalibration, StepsOfTheModelTellNoProductApart) {
               ++fits;
               products += found.verdict.find("only the product E f = 1.") != std::string::npos ? 1 : 0;
             } catch (const Error& error) {
-              // A fit that the steps end too early is refused as a whole.
               EXPECT_EQ(error.code(), ErrorCode::not_converged) << error.what();
             }
           }
   EXPECT_GE(products, 0.85 * fits) << fits;
 }
 
-// Beside the same steps, what the rows do determine keeps its number.
 TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CountedNodes made = counted_nodes(seed, 0.03);
@@ -236,7 +230,6 @@ TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
   }
 }
 
-// A factor at its bound, with the product at its best: the rows do not push against the bound.
 TEST(SparingCalibration, BoundGivesNoNumberToHalfAProduct) {
   Presses made = presses(3);
   const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
@@ -273,7 +266,7 @@ TEST(SparingCalibration, DerivativesAreAskedForInOneBatch) {
   };
   const Calibration found = calibrate(made.rows, batch, begin, sparing, Monitor::silent());
   EXPECT_EQ(std::ranges::count(batches, 28U),
-            2);  // two parameters of fourteen rows, at the start and the end
+            2);  // two parameters, fourteen rows, start and end
   EXPECT_EQ(found.calls, static_cast<std::int64_t>(14 * (batches.size() + 2)));
 }
 
@@ -284,8 +277,7 @@ class Shares final : public Monitor {
   std::vector<double> shares;
 };
 
-// A fit that takes far longer than was foreseen: the share that is done goes on rising, and leaves room for
-// the profile.
+// Much longer than forecast: the share still rises.
 TEST(SparingCalibration, ProgressMovesToTheEnd) {
   Presses made = presses(9);
   Shares shares;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations against known answers: estimates of a certified problem, the coverage of intervals
-// over many experiments of the tilt law tan θ = α + τ0 c (kinds of METROLOGY, uncertainty_calibration.csv),
-// what is said where rows do not determine every parameter, and each refusal.
+// Calibrations: a certified problem, coverage for the tilt law tan θ = α + τ0 c
+// (tests/reference/uncertainty_calibration.csv), undetermined parameters, refusals.
 #include "engine/study/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +36,7 @@ bool warns(const Calibration& of, const std::string& part) {
   return std::ranges::any_of(of.warnings, [&](const std::string& text) { return says(text, part); });
 }
 
-// Angles of specimens with real areas c, each measured `repeats` times.
+// Specimens with real areas c, each measured `repeats` times.
 struct Experiment {
   CalibrationRows rows;
   std::vector<double> c;
@@ -100,13 +99,13 @@ Coverage coverage_of(std::size_t specimens, double ratio, double between, int se
   return counted;
 }
 
-// Sets of a kind; ASPERITY_COVERAGE_SETS=4000 measures each coverage to 0.35 %.
+// ASPERITY_COVERAGE_SETS=4000 measures each coverage to 0.35 %.
 int coverage_sets() {
   const char* given = std::getenv("ASPERITY_COVERAGE_SETS");
   return given != nullptr ? std::max(1, std::atoi(given)) : 150;
 }
 
-// A kind of experiment of tests/reference/uncertainty_calibration.csv, with what was found there by `method`.
+// A row of tests/reference/uncertainty_calibration.csv for `method`.
 struct Kind {
   std::size_t specimens = 0;
   double ratio = 0, between = 0, correlation = 0, width = 0;
@@ -158,7 +157,7 @@ TEST(Calibration, WidthsOfIntervalsAreThoseOfTheReference) {
     EXPECT_NEAR(found.median_width() / kind.width, 1, 0.08) << kind.specimens << " " << kind.ratio;
   }
   for (const Kind& kind : reference_kinds("specimen means t(m-2)")) {
-    if (kind.specimens < 6) continue;  // a median over one degree of freedom scatters widely
+    if (kind.specimens < 6) continue;  // a median over one degree of freedom scatters
     Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, 60, CalibrationBasis::specimens);
     EXPECT_EQ(found.by_specimens, found.sets);
     EXPECT_NEAR(found.median_width() / kind.width, 1, 0.25) << kind.specimens << " " << kind.ratio;
@@ -171,7 +170,7 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
     Experiment made = experiment(kind.specimens, kind.ratio, 0, 1);
     for (std::size_t k = 0; k < made.c.size(); ++k) made.rows.y[k] = 0.2 + 0.3 * made.c[k];
     const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
-    // That of the reference is of 500 estimates.
+    // The reference has 500 estimates.
     const double error = (1 - kind.correlation * kind.correlation) / std::sqrt(500.0);
     EXPECT_NEAR(*found.correlation[0][1], kind.correlation, 3 * error + 5e-4);
     EXPECT_NEAR(*found.parameters[0].value, 0.2, 1e-9);
@@ -181,7 +180,6 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
 }
 
 TEST(Calibration, FewSpecimensHideTheirScatter) {
-  // Four times as many specimens show the same scatter more often.
   const Coverage few = coverage_of(3, 4, 0.1, coverage_sets()),
                  many = coverage_of(12, 4, 0.1, coverage_sets());
   EXPECT_LT(few.by_specimens, many.by_specimens);
@@ -238,7 +236,7 @@ TEST(Calibration, ProfileEndsWhereTheSumOfSquaresMeetsTheCut) {
   const Calibration found = calibrate({misra_y}, misra, start);
   const CalibratedParameter& b2 = found.parameters[1];
   for (const double end : {*b2.profile_low, *b2.profile_high}) {
-    // With b2 held the best b1 is known in closed form.
+    // For given b2, b1 has a closed form.
     double top = 0, bottom = 0, sum = 0;
     for (std::size_t k = 0; k < misra_x.size(); ++k) {
       const double g = 1 - std::exp(-end * misra_x[k]);
@@ -268,7 +266,6 @@ TEST(Calibration, ProfileOfAStraightModelIsItsLinearisedInterval) {
 }
 
 TEST(Calibration, CurvedModelIsToldAndItsProfileIsLopsided) {
-  // A rate that is hardly known: the interval reaches further up than down.
   const std::vector<double> x = {1, 2, 3, 4, 5, 6}, y = {0.55, 0.95, 0.85, 1.15, 0.9, 1.05};
   const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
     return saturating(x[row], q);
@@ -301,10 +298,10 @@ TEST(Calibration, CallsOfTheModelAreCountedAndFewForALaw) {
   };
   const Calibration found = calibrate(made.rows, counting, tilt_law);
   EXPECT_EQ(found.calls, calls);
-  EXPECT_LE(calls / 14, 30);  // sets of parameters
+  EXPECT_LE(calls / 14, 30);  // parameter sets
 }
 
-// --- what rows do not determine
+// --- undetermined parameters
 
 TEST(Calibration, OneRealAreaDeterminesTheSumAlone) {
   Experiment made = experiment(1, 1, 0, 5, 14);
@@ -322,7 +319,6 @@ TEST(Calibration, OneRealAreaDeterminesTheSumAlone) {
   EXPECT_TRUE(says(found.verdict, "`load` is 5 N and the specimen is specimen 1 in all rows"))
       << found.verdict;
   EXPECT_TRUE(says(found.verdict, "whether specimens scatter cannot be seen")) << found.verdict;
-  // What is determined is so to the scatter of fourteen rows.
   double mean = 0;
   for (const double y : made.rows.y) mean += y / 14;
   EXPECT_NEAR(found.fitted[0], mean, 1e-9);
@@ -472,7 +468,7 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   EXPECT_TRUE(found.parameters[1].profile_low);
   EXPECT_TRUE(says(found.verdict, "alpha stands at its lower bound 0.35: the rows ask for less"))
       << found.verdict;
-  // The other is at its best with the bound held.
+  // The other parameter is optimal at the bound.
   const std::vector<CalibrationParameter> alone = {{"tau0", 0.5, {}, {}}};
   made.rows.specimens.clear();
   const CalibrationModel held = [&](std::span<const double> q, std::size_t row) {
@@ -482,7 +478,7 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
               1e-6);
 }
 
-// Two nearly equal real areas determine a sum; noise often asks for a parameter below its bound.
+// Nearly equal real areas determine a sum only.
 TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   int at_bound = 0;
   for (const double ratio : {1.01, 1.05, 1.1, 1.3})
@@ -505,8 +501,7 @@ TEST(Calibration, ParameterAtABoundLeavesNoWrongInterval) {
   EXPECT_GT(at_bound, 40);
 }
 
-// The profile of the other parameter lets the one at its bound move: S at its ends, by a fit of the bound
-// one.
+// S at the ends comes from a fit of the bounded parameter.
 TEST(Calibration, ProfileLetsAParameterLeaveItsBound) {
   const Experiment made = experiment(6, 4, 0, 3);
   const std::vector<CalibrationParameter> law = {{"alpha", 0.3, 0.24, 1.0}, {"tau0", 0.5, 0.0, {}}};
@@ -588,7 +583,7 @@ TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
   const auto copies = [](const Stream& draws, std::uint64_t k, double, double&) {
     return static_cast<double>(k / 4 * 4) / 20 + 0.1 * draws.normal(k / 4);
   };
-  EXPECT_LE(warned("keep their sign", sets, line), 10);  // 5 % at most
+  EXPECT_LE(warned("keep their sign", sets, line), 10);  // at most 5 %
   EXPECT_LE(warned("neighbouring rows", sets, line), 12);
   EXPECT_GE(warned("keep their sign", sets, parabola), 95);
   EXPECT_GE(warned("neighbouring rows", sets, drift), 60);
@@ -604,7 +599,7 @@ TEST(Calibration, ResidualsThatAreNotIndependentAreSaid) {
       warns(calibrate(often.rows, often.model(), tilt_law), "18 of 24 rows repeat another row exactly"));
 }
 
-// A model with one parameter whose faces differ by a factor of 1 - d and 1 + d.
+// Faces differ by a factor of 1 - d and 1 + d.
 TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
   constexpr double d = 0.1, u = 1e-9;
   const std::vector<CalibrationParameter> start = {{"q", 1, {}, {}}};
@@ -628,14 +623,13 @@ TEST(Calibration, ScatterOfFacesIsSharedByTheRowsOfASpecimen) {
     EXPECT_TRUE(says(found.verdict, "a mean over 2 replicates, whose scatter makes 100 % of u² of q"));
     return *found.parameters[0].standard_error;
   };
-  // Variances: 2 q² d² for a single face, q² d² for the mean over both.
+  // Variances: 2 q² d² for one face, q² d² for both.
   EXPECT_NEAR(error_of_q({}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "A", "A", "A"}), 2 * d * std::sqrt(2 + 1.0), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "A", "B", "B"}), 2 * d * std::sqrt(2 / 2.0 + 1), 1e-7);
   EXPECT_NEAR(error_of_q({"A", "B", "C", "D"}), 2 * d * std::sqrt(2 / 4.0 + 1), 1e-7);
 }
 
-// Specimens with faces of their own; the model knows other faces of the same kind.
 TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
   constexpr int sets = 60;
   const auto held = [](std::size_t faces) {
@@ -668,7 +662,7 @@ TEST(Calibration, MeanOverFacesHoldsTheTruthWhereOneFaceDoesNot) {
     return count;
   };
   EXPECT_LE(held(1), 48);
-  EXPECT_GE(held(6), 51);  // 95 % of 60 is 57, with a standard error of 1.7
+  EXPECT_GE(held(6), 51);  // 95 % of 60 is 57, standard error 1.7
 }
 
 TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {
@@ -732,7 +726,7 @@ TEST(Calibration, ModelWithoutAValueNamesRowAndParameters) {
 }
 
 TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
-  // The logarithm has no value beyond the first step from a poor start.
+  // The first step from a poor start leaves the domain of the logarithm.
   const std::vector<double> x = {1, 2, 3, 4, 5, 6};
   CalibrationRows rows;
   for (const double v : x) rows.y.push_back(std::log(0.5 * v) + (v == 3 ? 0.01 : 0));
@@ -744,7 +738,7 @@ TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
 }
 
 TEST(Calibration, NoisyModelNeedsLargerSteps) {
-  // A model with a tolerance of 1e-5: differences of 1e-3 see it, those of 0.1 hardly.
+  // At a tolerance of 1e-5, differences of 1e-3 see the noise, differences of 0.1 hardly.
   const Experiment made = experiment(6, 4, 0, 3);
   const CalibrationModel noisy = [&](std::span<const double> q, std::size_t row) {
     const double exact = q[0] + q[1] * made.c[row];

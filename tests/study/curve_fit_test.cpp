@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits against answers computed with 50 digits (Gauss-Newton on exact derivatives), with a certified problem
-// of NIST's StRD (Misra1a); bands, weights, kinds of scatter, and undetermined parameters.
+// Fits against 50-digit answers (Gauss-Newton) and NIST's StRD (Misra1a); bands, weights, scatter,
+// undetermined parameters.
 #include "engine/study/curve_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -165,7 +165,7 @@ TEST(CurveFit, PointsOnTheCurveLeaveNoScatter) {
 }
 
 TEST(CurveFit, ParametersOfAnyScaleFromZero) {
-  // Parameters of 1e-7 and 1e9 that begin at 0, and one whose answer is 0.
+  // Parameters of 1e-7 and 1e9 start at 0; one answer is 0.
   const CurveModel model = [](double x, std::span<const double> q) { return q[0] + q[1] * x + q[2] * x * x; };
   CalibrationRows points;
   const double scatter[] = {1, -2, 1, 1, -2, 1};
@@ -175,7 +175,7 @@ TEST(CurveFit, ParametersOfAnyScaleFromZero) {
     points.y.push_back(1e9 * x * x + 1e-9 * scatter[k]);
   }
   const CurveFit fit = fit_model(points, model, Start{{"c", 0, {}, {}}, {"b", 0, {}, {}}, {"a", 0, {}, {}}});
-  // The residuals of a least sum are orthogonal to 1, x and x².
+  // Residuals are orthogonal to 1, x and x².
   double sum = 0, moment = 0, second = 0;
   for (std::size_t k = 0; k < 6; ++k) {
     const double r = fit.found.residuals[k] / 1e-9, x = points.x[k] / 1e-8;
@@ -207,7 +207,7 @@ TEST(CurveFit, NamesWhatThePointsDoNotDetermine) {
 }
 
 TEST(CurveFit, NamesTheRatioThatIsLeftWhereTheModelHasNoBest) {
-  // Points that bend upwards, and a model that bends downwards: it is best as a straight line, at infinity.
+  // Convex points, concave model: best as a line, at infinity.
   const CalibrationRows points =
       points_of({1, 2, 4, 7, 10, 25, 60}, {0.0031, 0.0058, 0.0122, 0.0199, 0.0311, 0.0702, 0.178});
   const CurveModel bent = [](double x, std::span<const double> q) {
@@ -265,7 +265,6 @@ TEST(CurveFit, BandHoldsTheTrueCurveAsOftenAsItSays) {
   EXPECT_NEAR(static_cast<double>(held_slope) / sets, 0.95, 0.035);
 }
 
-// The kinds of scatter that a laboratory has, each named: 95 % intervals hold the truth as often as they say.
 TEST(CurveFit, IntervalsHoldTheTruthForEachKindOfScatter) {
   constexpr int sets = 150;
   const auto held = [](const CurveFit& fit, std::size_t p, double truth) {
@@ -326,7 +325,7 @@ TEST(SampledCurve, CoversTheRangeInAscendingOrder) {
   EXPECT_EQ(curve.front().x, 1);
   EXPECT_EQ(curve.back().x, 1000);
   for (std::size_t k = 1; k < curve.size(); ++k) EXPECT_GT(curve[k].x, curve[k - 1].x);
-  EXPECT_LT(curve[1].x, 1.2);  // steps of equal ratio for a logarithmic axis
+  EXPECT_LT(curve[1].x, 1.2);  // equal ratios for a logarithmic axis
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed forms against printed numbers, and against each other where they meet: work done is energy
-// stored, the friction of a Hertz contact is continuous in its cap, a cap out of reach is no cap.
+// Closed forms against printed numbers and each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +14,7 @@
 namespace asperity::exact::exact_test {
 namespace {
 
-// Work of a load that grows along `approach`, by Simpson's rule in √approach, which both Hertz and the box
-// paraboloid are polynomials of.
+// ∫ load dδ by Simpson's rule in √δ: exact for Hertz and the box paraboloid.
 template <class Load>
 double work(double approach, Load load) {
   constexpr int steps = 200;
@@ -30,7 +28,6 @@ double work(double approach, Load load) {
   return sum * end / steps / 3;
 }
 
-// Case V2.
 TEST(Exact, HertzOfTheTables) {
   const Hertz pressed = hertz_at_approach(20, 102, 0.1);
   EXPECT_NEAR(pressed.load, 19.233304448, 5e-10);
@@ -50,7 +47,7 @@ TEST(Exact, WorkDoneIsEnergyStored) {
   const BoxParaboloid box = box_paraboloid_at_approach(3, 7, 0.1);
   EXPECT_NEAR(work(0.1, [](double d) { return box_paraboloid_at_approach(3, 7, d).load; }) / box.energy, 1,
               1e-7);
-  // p̄ dδ of a wave, by Simpson's rule in √p̄, at half the pressure of full contact.
+  // ∫ p̄ dδ by Simpson's rule in √p̄, at half the pressure of full contact.
   const double full = one_wave(0.01, 1, 1, 1).full_pressure;
   const WavyContact half = one_wave(0.01, 1, 1, full / 2);
   constexpr int steps = 4000;
@@ -63,7 +60,6 @@ TEST(Exact, WorkDoneIsEnergyStored) {
   EXPECT_NEAR(stored / half.energy_per_area, 1, 1e-6);
 }
 
-// Case V15.
 TEST(Exact, FrictionOfHertz) {
   const Hertz contact = hertz_under_load(1, 1, 1e-3);
   EXPECT_NEAR(friction(contact, .01, .2, .018), 4.337256e-4, 5e-11);
@@ -75,7 +71,6 @@ TEST(Exact, FrictionOfHertz) {
   EXPECT_EQ(friction(contact, .01, 0, .018), .01 * contact.area);
 }
 
-// Case V4.
 TEST(Exact, OneWaveOfTheTables) {
   const double full = std::numbers::pi * 0.01;
   const double table[][4] = {{.05, .143566, 8.944272, .400107},
@@ -97,7 +92,6 @@ TEST(Exact, OneWaveOfTheTables) {
   EXPECT_NEAR(nearly.peak_pressure / all.peak_pressure, 1, 1e-11);
 }
 
-// Case V5.
 TEST(Exact, CrossedWavesTouchEverywhereOrAreRefused) {
   const double full = std::numbers::sqrt2 * std::numbers::pi * 0.01;
   const WavyContact contact = crossed_waves(0.01, 1, 1, full);
@@ -114,12 +108,11 @@ TEST(Exact, CrossedWavesTouchEverywhereOrAreRefused) {
   }
 }
 
-// Cases V11 and V13.
 TEST(Exact, PerssonOfTheTables) {
   for (const auto& [share, area] : {std::pair{.01, .0159566}, {.05, .0796557}, {.1, .158519}}) {
     EXPECT_NEAR(persson_area(1, 1, share, infinity).elastic, area, 6e-7);
     EXPECT_EQ(persson_area(1, 1, share, infinity).capped, 0);
-    // The series itself, with an edge that is only just in sight.
+    // The series itself, with an edge just in reach.
     EXPECT_NEAR(persson_area(1, 1, share, 19).elastic, std::erf(std::numbers::sqrt2 * share), 1e-12);
     EXPECT_NEAR(persson_area(1, 1, share, 19).capped, 0, 1e-12);
   }
@@ -131,7 +124,6 @@ TEST(Exact, PerssonOfTheTables) {
   EXPECT_THROW(persson_area(1, .1, .1, .1), Error);
 }
 
-// Case V14.
 TEST(Exact, BoxParaboloidOfTheTables) {
   const BoxParaboloid contact = box_paraboloid_under_load(1, 1, 1e-3);
   EXPECT_NEAR(contact.approach, .0178412, 6e-8);
@@ -147,8 +139,8 @@ TEST(Exact, FarScalesKeepTheirDigits) {
   EXPECT_THROW(one_wave(1e-200, 1e200, 1, 1), Error);
 }
 
-// Digits of a sum in 140 decimals. One row of the file (D = 2.99, node 75, 75) has a misprinted digit and is
-// left out here; beside the generator's tests it is written out.
+// Digits of a sum in 140 decimals. The row D = 2.99, node 75, 75 has a misprinted digit and is skipped; the
+// generator's tests contain its value.
 TEST(Exact, GoldenHeightsToTheLastDigit) {
   std::ifstream file(std::string(ASPERITY_TEST_DATA) + "/wm_heights.csv");
   ASSERT_TRUE(file);
@@ -168,7 +160,7 @@ TEST(Exact, GoldenHeightsToTheLastDigit) {
     options.span = span;
     options.phases = WavePhases::golden;
     const double found = weierstrass_mandelbrot_height(options, i, j);
-    // The table is for D as written; a double holds some of these dimensions only to 4e-16.
+    // The table is for decimal D; some doubles differ by 4e-16.
     if (D * 4 == std::floor(D * 4))
       EXPECT_EQ(found, height) << line;
     else

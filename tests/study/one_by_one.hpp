@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Budgets and sensitivities of a model that computes one run after the other.
+// Budgets and sensitivities of a model with one run at a time.
 #pragma once
 
 #include <functional>

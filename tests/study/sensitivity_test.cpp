@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sensitivity: runs are doubled until the fit is good, none is made twice, and the input to measure next is
-// the one that narrows the answer most.
+// Runs double until the fit is good, without repeats; the next input to measure narrows the answer most.
 #include "engine/study/sensitivity.hpp"
 
 #include <gtest/gtest.h>

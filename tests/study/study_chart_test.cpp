@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chart of a study: a line a way, rings about the front, and marks at the rim for what has no error.
+// Charts: a line per method, rings around the front, rim marks for rows without an error.
 #include "engine/study/study_chart.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST_F(Drawn, FailedAndLeftOutStandAtTheRimAndExactAtTheFoot) {
   EXPECT_NEAR(failed->x[0], 128 * 128 * 1e-6, 1e-12);
   EXPECT_GT(failed->y[0], 0.25);
   EXPECT_LT(exact->y[0], 0.25);
-  EXPECT_NEAR(left_out->x[0], 4 * 256 * 256 * 1e-6, 1e-12);  // 16 s would be far off
+  EXPECT_NEAR(left_out->x[0], 4 * 256 * 256 * 1e-6, 1e-12);  // 16 s would be far outside
   for (const ChartSeries& series : chart.series)
     for (std::size_t k = 0; k < series.x.size(); ++k) {
       EXPECT_GE(series.x[k], chart.x.range->min);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A studied function whose answers and times are written down beforehand, on a clock that only it moves.
+// A function with given answers and times and its own clock.
 #pragma once
 
 #include <cmath>

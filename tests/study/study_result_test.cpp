@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The front of rows that nothing beats, the cheapest setting for an error, and both as text.
+// The Pareto front, the cheapest setting for an error; text.
 #include "engine/study/study_result.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace asperity::study_result_test {
 namespace {
 
-// A way `grid` over as many cells as there are errors, from 64 on by doubling.
+// Method `grid`: 64 cells, doubled for each error.
 StudyResult result_of(const std::vector<double>& errors, const std::vector<double>& seconds) {
   StudyResult result;
   std::vector<std::int64_t> list;
@@ -65,7 +65,7 @@ TEST(Cheapest, IsTheFastestUnderTheBound) {
   EXPECT_EQ(cheapest(result, 1).setting, 0U);
 }
 
-// Rows 1 and 2 have the same answer: 1 stands for both, though 2 was a little faster.
+// Rows 1 and 2 have equal answers: row 1 represents both.
 TEST(Cheapest, OfTheSameBitsIsTheOneListedFirst) {
   StudyResult result = result_of({0.25, 0.0625, 0.0625, 0.015625}, {1, 2, 1.9, 4});
   EXPECT_EQ(cheapest(result, 0.1).setting, 1U);
@@ -91,7 +91,6 @@ TEST(Cheapest, IsTiedWithWhatMayBeAsFast) {
       << study_text(result);
 }
 
-// Another setting that gives the very bits of the truth is the truth again.
 TEST(Cheapest, IsNeverComparedWithItself) {
   StudyResult result = result_of({0.25, 0.0625, 0}, {1, 2, 4});
   Knobs knobs = result.request.ways[0].settings[2];
@@ -103,7 +102,7 @@ TEST(Cheapest, IsNeverComparedWithItself) {
 }
 
 TEST(Cheapest, PassesByAnAccidentalCrossing) {
-  // The second setting is good by chance: the third, which is finer, is not.
+  // The second setting is accurate by chance.
   const StudyResult result = result_of({0.25, 0.0009765625, 0.0625, 0.015625}, {1, 2, 4, 8});
   EXPECT_EQ(result.rows[1].held_error, 0.0625);
   EXPECT_EQ(result.rows[1].confirmed, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ways and their settings, and knobs as Lua source.
+// Methods and their settings; knobs as Lua source.
 #include "engine/study/study_setting.hpp"
 
 #include <gtest/gtest.h>

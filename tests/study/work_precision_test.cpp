@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a study goes about its settings: what is asked, how often and in which order, what a budget leaves
-// out, and what becomes of settings that fail and of a stop. The clock is the test's.
+// The course of a study: runs, order, budget, failures, stops.
 #include "engine/study/work_precision.hpp"
 
 #include <gtest/gtest.h>
@@ -163,7 +162,7 @@ TEST_F(Study, MinusNoughtIsNotNought) {
 // --- the budget
 
 TEST_F(Study, ABudgetIsQuotedAndObeyed) {
-  // One run takes 0.004, 0.016, 0.066, 0.26, 1.05 s; with the first run four times that.
+  // A run takes 0.004, 0.016, 0.066, 0.26, 1.05 s, a setting four runs.
   const StudyRequest request{{way_of_cells("grid", {64, 128, 256, 512, 1024})}, 1.0, 3, 2.0};
   const StudyResult result = run(request);
   EXPECT_LE(result.total_seconds, 2.0);
@@ -188,7 +187,7 @@ TEST_F(Study, WithoutABudgetTheQuoteSaysWhatItTakes) {
 }
 
 TEST_F(Study, TheTruthHasTheFirstCallOnTheBudget) {
-  // The truth takes 1.05 s; the dearer settings must make room for it.
+  // The truth takes 1.05 s.
   const StudyResult result = run({{way_of_cells("grid", {64, 128, 256, 512})}, cells(1024), 5, 2.0});
   EXPECT_TRUE(result.truth);
   EXPECT_EQ(result.rows[0].end, StudyRow::End::measured);
@@ -201,7 +200,7 @@ TEST_F(Study, ATruthBeyondTheBudgetIsAnError) {
               run({{way_of_cells("grid", {64})}, cells(4096), 5, 2.0});
             }).find("the truth { cells=4096 } would take about "),
             0U);
-  EXPECT_EQ(work.asked.size(), 1U);  // it was forecast and not tried
+  EXPECT_EQ(work.asked.size(), 1U);  // forecast only
 }
 
 TEST_F(Study, ATruthThatFailsIsAnError) {
@@ -215,7 +214,7 @@ TEST_F(Study, ATruthThatFailsIsAnError) {
 }
 
 TEST_F(Study, RunsThatGrowSlowerThanTheBudgetAreCutShort) {
-  // After the first runs everything takes ten times as long.
+  // Ten times as long after the first runs.
   work.takes = [](const Knobs&, int call) { return call < 2 ? 0.1 : 1.0; };
   const StudyResult result = run({{way_of_cells("grid", {64, 128})}, 1.0, 5, 4.5});
   EXPECT_LE(result.total_seconds, 4.5 + 1.0);
@@ -231,7 +230,7 @@ TEST_F(Study, AnUnknownKnobIsForecastByItsGrowth) {
   work.answer = [](const Knobs&, int) { return StudyAnswer{1.0, ""}; };
   const StudyWay way = make_way(
       "terms", {{"terms", {std::int64_t{10}, std::int64_t{20}, std::int64_t{40}, std::int64_t{80}}, true}});
-  // 0.01, 0.04, 0.16, 0.64 s a run; with one timed run twice that.
+  // A run takes 0.01, 0.04, 0.16, 0.64 s, a setting two runs.
   const StudyResult result = run({{way}, 1.0, 1, 0.5});
   EXPECT_EQ(result.rows[2].end, StudyRow::End::measured);
   EXPECT_EQ(result.rows[3].end, StudyRow::End::left_out);
@@ -255,7 +254,7 @@ TEST_F(Study, AStopKeepsWhatWasMeasured) {
   EXPECT_EQ(result.rows[0].runs.size(), 2U);
   EXPECT_EQ(result.rows[1].runs.size(), 1U);
   EXPECT_EQ(result.rows[1].error, 0.25);
-  EXPECT_EQ(work.recorded.size(), 5U);  // every call that came back is on record
+  EXPECT_EQ(work.recorded.size(), 5U);
 }
 
 TEST_F(Study, EveryCallIsRecordedOnce) {

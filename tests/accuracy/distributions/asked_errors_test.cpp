@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Requested errors are met on seeds without tuning: the corrected area fraction on the cells chosen is
-// compared with 1024 x 1024 cells, and the cost with the default setting and with the cheapest cells within
-// the error. More kinds and seeds:
-// bench/requested_error.lua.
+// Requested errors on seeds without tuning: corrected area fraction against 1024 x 1024 cells, cost against
+// the default and the cheapest sufficient cells. More: bench/requested_error.lua.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,7 +136,7 @@ State pressed(const Kind& kind, int cells, const Accuracy& accuracy) {
   if (kind.hardness > 0) material.hardness = kind.hardness;
   Scene scene{at_cells(kind.surface, cells, cells).surface.with_material(material), rigid_material(),
               kind.boundary, HalfSpaceOptions{}, accuracy};
-  // A body is turned over about its middle node: moved by a cell, any grid gives the same contact.
+  // Bodies turn over about the middle node; the shift by a cell aligns all grids.
   if (kind.upper)
     scene.upper =
         shifted(at_cells(*kind.upper, cells, cells).surface, -1.0 / cells, 0).with_material(material);
@@ -151,7 +149,7 @@ State pressed(const Kind& kind, int cells, const Accuracy& accuracy) {
   return SpecimenPair(scene).press({PressBy::pressure, kind.pressure, {}});
 }
 
-// Work in transforms times n log n; a press of boxes counts as one transform.
+// A press of boxes counts as one transform.
 double cost_of(const State& state) {
   const double n = state.grid().nx;
   return std::max(state.cost().total.transforms, 1.0) * n * n * std::log2(n);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How good the estimates of the discretisation error are: over scenes with an exact answer (Hertz,
-// Westergaard) or one from eight times the cells a side (self-affine, capped, blasted, fractal; free and
-// periodic; light to heavy), of seeds on which nothing was tuned. Much of what cells do to a contact is
-// chance, and an estimate cannot know the sign and size of chance: so what is held to is that the true error
-// is within three times the estimate, and how often the estimate is more than three times the true error is
-// bounded apart. The area fraction, whose error is not chance, is held to both; and so are all quantities
-// where the estimate comes from a finer grid, which sees the chance of the coarser one.
+// Discretisation error estimates on seeds without tuning, against exact answers (Hertz, Westergaard) or eight
+// times the cells a side. Most of the error is random; required is a true error within three estimates.
+// Estimates above three true errors are bounded for the area fraction (not random) and for estimates from a
+// finer grid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +43,6 @@ Scene scene_on(const Surface& surface, int n, Boundary boundary, double hardness
   return scene;
 }
 
-// Ratios of the estimate to the true error.
 class Survey {
  public:
   explicit Survey(std::string from) : from_(std::move(from)) {}
@@ -104,12 +100,12 @@ class Survey {
 struct Surveys {
   Survey coarser{"half and a quarter of the cells"}, finer{"thrice the cells"};
 
-  // Presses on the cells and, for what is not known exactly, on the many.
+  // Without `exact`, also on the fine grid.
   void scene(const Surface& surface, Boundary boundary, const PressRequest& request, double hardness = 0,
              Values exact = {}) {
     if (exact.empty()) {
       const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
-      // An approach counts from the first touch, which on this grid, too, is between the nodes.
+      // The first touch is between the nodes on this grid, too.
       const double rise = rise_between_nodes(fine.geometry().combined(), boundary == Boundary::periodic);
       exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
                {"area_fraction", fine.corrected_area_fraction()},
@@ -126,7 +122,6 @@ struct Surveys {
     hold(scene_on(surface, cells, boundary, hardness), request, exact);
   }
 
-  // The truth is pressed from the first touch, which is between the nodes of its grid, too.
   void at_approach(const Surface& surface, Boundary boundary, double share) {
     const double approach = share * range(surface.heights().values()).span();
     const double rise = rise_between_nodes(surface.heights(), boundary == Boundary::periodic);
@@ -240,8 +235,8 @@ const Surveys& surveys() {
   return all;
 }
 
-// Errors that are mostly those of the first touch, which is seen: 94 % of them within three estimates, and 75
-// to 81 % within a factor of three; 100 % from the finer grid.
+// Dominated by the known first touch. Within three estimates: 94 %; within a factor of three: 75 to 81 %;
+// from the finer grid 100 %.
 TEST(DiscretisationEstimates, OfAPrescribedApproach) {
   Surveys survey;
   for (const std::uint64_t seed : {309, 310, 311, 312}) add_at_approach(survey, seed);
@@ -261,8 +256,8 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
     EXPECT_GE(survey.covered(quantity), 0.9) << quantity;
   for (const char* quantity : {"separation", "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.covered(quantity), 0.85) << quantity;
-  // 98, 87 and 82 %. Of what is chance, here most of the energy, 54 %: of two errors from like normal laws
-  // one is within a factor of three of the other in 59 %.
+  // 98, 87 and 82 %; energy 54 %, mostly random: two errors from equal normal laws agree within a factor of
+  // three in 59 %.
   EXPECT_GE(survey.within("area_fraction"), 0.9);
   EXPECT_GE(survey.within("approach"), 0.85);
   EXPECT_GE(survey.within("corrected_area_fraction"), 0.8);
@@ -272,14 +267,14 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
 TEST(DiscretisationEstimates, FromAFinerGridAreSharp) {
   const Survey& survey = surveys().finer;
   survey.print();
-  // Above and below. Measured: 100, 93, 98, 97, 96, 93, 100 and 100 %.
+  // Measured: 100, 93, 98, 97, 96, 93, 100 and 100 %.
   for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
                                "mean_gap", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.within(quantity), 0.9) << quantity;
   EXPECT_GE(survey.within("stiffness"), 0.85);  // 88 %
   for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
                                "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
-    EXPECT_GE(survey.covered(quantity), 0.95) << quantity;  // 97 % or more of each
+    EXPECT_GE(survey.covered(quantity), 0.95) << quantity;  // at least 97 % of each
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A paraboloid that adheres, R = E* = 1 and w = 0.01, against Johnson, Kendall & Roberts (1971) at a Tabor
-// number above 5, to 3 %, and Derjaguin, Muller & Toporov (1975) at one under 0.05; and what holds of every
-// solution.
+// An adhesive paraboloid (R = E* = 1, w = 0.01): Johnson, Kendall & Roberts (1971) at a Tabor number above 5,
+// to 3 %; Derjaguin, Muller & Toporov (1975) below 0.05.
 #include "engine/contact/elasticity/half_space/adhesion/adhesive_solve.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ using half_space_test::dense_displacement;
 using half_space_test::problem_from;
 
 constexpr double work = 0.01, short_range = 0.009, long_range = 0.95;
-constexpr double edge = 0.5;  // of Dugdale's traction, as the effect sets it
+constexpr double edge = 0.5;  // range of Dugdale's traction, as in the effect
 
 double tabor(double range) { return std::cbrt(work * work / (range * range * range)); }
 
@@ -38,7 +37,7 @@ AdhesiveProblem paraboloid(int n, double size, GapLaw law, double range, double 
 double force(const AdhesiveProblem& problem, const AdhesiveAnswer& answer) {
   return answer.contact.mean_pressure * problem.contact.grid.area();
 }
-// Of the outer edge of the zone that pulls: the crack of the theory lies within it.
+// Outer radius of attraction; the theory's crack is inside.
 double radius(const AdhesiveProblem& problem, const AdhesiveAnswer& answer) {
   return std::sqrt(static_cast<double>(answer.contact.contacts) * problem.contact.grid.cell_area() /
                    std::numbers::pi);
@@ -51,7 +50,7 @@ AdhesiveAnswer under(const AdhesiveProblem& problem, double load, const Adhesive
   return adhere_at_pressure(problem, load / problem.contact.grid.area(), start, Monitor::silent());
 }
 
-// The greatest pull that is carried, by bisection to 0.1 % of 2πwR; each load gone to from no load.
+// By bisection to 0.1 % of 2πwR; each load starts from zero.
 double pull_off(const AdhesiveProblem& problem) {
   const AdhesiveAnswer rest = under(problem, 0);
   double held = 0.5, lost = 1.1;
@@ -72,7 +71,6 @@ double pull_off(const AdhesiveProblem& problem) {
 
 class Paraboloid : public testing::TestWithParam<GapLaw> {};
 
-// case V8
 TEST_P(Paraboloid, OfShortRangePullsOffAsJohnsonKendallAndRobertsSay) {
   ASSERT_GT(tabor(short_range), 5);
   const AdhesiveProblem problem = paraboloid(144, 0.9, GetParam(), short_range, 1e-3);
@@ -87,7 +85,7 @@ TEST_P(Paraboloid, OfShortRangePullsOffAsJohnsonKendallAndRobertsSay) {
     }
   }
   EXPECT_NEAR(least, -0.0471238898, 0.03 * 0.0471238898);
-  // Under a prescribed approach it is followed past the greatest pull.
+  // Beyond the largest pull.
   retracted = at(problem, -0.97 * 0.0746726, &retracted);
   EXPECT_GT(radius(problem, retracted), 0.1577684);
   EXPECT_GT(force(problem, retracted), least);
@@ -154,7 +152,6 @@ TEST(AdhesiveSolve, UnderALoadOfShortRangeItSeparatesAtThePullOffOfJohnsonKendal
   EXPECT_THROW(under(problem, -1.03 * 0.0471238898, &held), Error);
 }
 
-// What is disturbed a little comes back: the state is stable.
 TEST(AdhesiveSolve, ADisturbedStateComesBack) {
   const AdhesiveProblem problem = paraboloid(96, 0.9, GapLaw::exponential, 0.02, 1e-5);
   const AdhesiveAnswer pressed = at(problem, 0.05), state = at(problem, -0.055, &pressed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nested grids: which are made, that even sides keep their own nodes, and that a linear field survives.
+// Nested grids: sizes, common nodes, prolongation of linear fields.
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(LevelTransfer, KeepsALinearFieldOnAFreeTile) {
       for (int i = 0; i < nx; ++i) field[static_cast<std::size_t>(j * nx + i)] = 1.5 * i - .25 * j;
     const auto coarse = coarser(fine);
     prolong(*coarse, restrict_to(fine, *coarse, field), 1, fine, up);
-    // The last row and column of an even side lie outside the coarse nodes.
+    // Without the last row and column: outside the coarse nodes.
     for (int j = 0; j < 79; ++j)
       for (int i = 0; i < nx - 1; ++i)
         EXPECT_NEAR(up[static_cast<std::size_t>(j * nx + i)], 1.5 * i - .25 * j, 1e-12);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The preconditioner against its definition with sweeps over the whole grid; symmetry, positivity, and
-// what it does for the conjugate gradients it is made for.
+// The preconditioner against its definition by sweeps over the whole grid.
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +32,7 @@ Field noise(int nx, int ny, std::uint64_t seed) {
   return field;
 }
 
-// Patches where a few waves are high; `share` of 0 none, of 1 all.
+// `share` of the nodes free, in patches.
 Mask patches(int nx, int ny, double share) {
   const Stream stream(7, "patches");
   Field heights(nx, ny);
@@ -69,8 +68,8 @@ Field applied(ContactPreconditioner& preconditioner, const Field& r) {
   return z;
 }
 
-// The smooth field C r: hats about 32 nodes apart, on a free boundary from rim to rim, each times what a
-// residual comes to beneath it, divided by the free nodes beneath it and 3 % of all; and its transpose.
+// Smooth field C r and its transpose: hats about 32 nodes apart (free boundary: from rim to rim) times the
+// residual beneath, divided by the free nodes beneath plus 3 % of the nodes beneath.
 class SmoothField {
  public:
   SmoothField(int nx, int ny, Boundary boundary, const Mask& free)
@@ -85,7 +84,6 @@ class SmoothField {
         divisors_.push_back(here + 0.03 * all);
       }
   }
-  // to += Σ hats · (from beneath them)/divisor.
   void add(const Field& from, bool from_free, bool to_free, Field& to) const {
     std::size_t hat = 0;
     for (const auto& along : x_)
@@ -100,7 +98,7 @@ class SmoothField {
   }
 
  private:
-  using Hat = std::vector<double>;  // its values at the nodes of one side
+  using Hat = std::vector<double>;
   static std::vector<Hat> hats(int n, Boundary boundary) {
     const bool wraps = boundary == Boundary::periodic;
     const int steps = std::max(1, n / 32);
@@ -125,15 +123,13 @@ class SmoothField {
   std::vector<double> divisors_;
 };
 
-// The definition: every sweep over every node, in double precision. A sweep makes nodes of one colour of the
-// chessboard the mean of their neighbours, two on a line; where a periodic side is odd, two nodes of one
-// colour meet and are no neighbours. What is swept is what the residual differs from its smooth field by.
+// In double precision: sweeps set one chessboard colour to the mean of the neighbours (not across the seam of
+// an odd periodic side), for the residual minus its smooth field.
 Field defined(const Field& r, const Mask& free, double aspect, Boundary boundary, int sweeps) {
   const int nx = r.nx(), ny = r.ny();
   const bool wraps_x = boundary == Boundary::periodic && nx % 2 == 0;
   const bool wraps_y = boundary == Boundary::periodic && ny % 2 == 0;
   const double share = nx == 1 || ny == 1 ? 0.5 : 0.25;
-  // Calls with each neighbour of a node of the grid.
   const auto neighbours = [&](int i, int j, const auto& call) {
     const int places[4][2] = {{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}};
     for (const auto& [x, y] : places) {
@@ -280,8 +276,7 @@ TEST(ContactPreconditioner, ANewFreeSetForgetsTheOld) {
   for (std::size_t k = 0; k < a.size(); ++k) ASSERT_EQ(a[k], b[k]) << k;
 }
 
-// Two tiles, the second less high. A thousand times its values stand in the first where the row below the
-// second would be.
+// In the first tile, the row below the end of the shorter second tile has values a thousand times larger.
 TEST(ContactPreconditioner, ATileTakesNothingFromTheTileBefore) {
   constexpr int nx = 128, sweeps = 8;
   set_thread_count(1);
@@ -324,8 +319,7 @@ TEST(ContactPreconditioner, OneFreeNodeAnywhere) {
     }
 }
 
-// Iterations of conjugate gradients on the free set to a residual of 1e-8; a free boundary, so that the
-// mean needs no care.
+// To a residual of 1e-8; the free boundary avoids the singular mean.
 int iterations(const Mask& free, int nx, int ny, double aspect, int sweeps) {
   HalfSpaceCompliance compliance(nx, ny, aspect, Boundary::free);
   ContactPreconditioner preconditioner(nx, ny, aspect, Boundary::free, 1, std::max(sweeps, 0));
@@ -360,9 +354,8 @@ TEST(ContactPreconditioner, HalvesTheDigitsInAFewIterations) {
   EXPECT_LT(iterations(free, 150, 131, 4, 4), 45);
 }
 
-// z·K z/z·r of z = M r, for a residual as long as the tile on many small contacts: how much too stiff they
-// are taken to be. If the residual ended a few nodes from each of them it would be 2.6, 4.6 and 8.6 (measured
-// with a `reluctance` of 1e9).
+// z·K z/z·r for a residual as long as the tile: the overestimate of stiffness. A residual cut near each
+// contact would give 2.6, 4.6 and 8.6 (measured with a `reluctance` of 1e9).
 TEST(ContactPreconditioner, ALongResidualIsCarriedOverTheGroundBetweenContacts) {
   for (const int n : {160, 320, 640}) {
     Mask free(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0);
@@ -405,7 +398,6 @@ TEST(ContactPreconditioner, HoldsTwoGridsAtMost) {
       preconditioner.set_free(free);
       Field r = noise(nx, ny, 1);
       preconditioner.apply(r.values(), r.values());
-      // Less what the test itself holds, the field and the marks.
       const double held =
           static_cast<double>(memory::held() - before) / static_cast<double>(sizeof(double) * r.size()) -
           9.0 / 8;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Approach prescribed: Hertz, consistency with the load it was found at, the limits a periodic tile and a cap
-// set, and grids of any shape. Flattening prescribed: the share by its definition, its ends, and near full
-// contact, where the load is sought.
+// Presses by approach and flattening: Hertz, the corresponding load, limits of periodic tile and cap, any
+// grid.
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +23,6 @@ HalfSpaceAnswer by_approach(const HalfSpaceProblem& problem, double approach) {
   return solve_at_approach(problem, approach, Monitor::silent());
 }
 
-// Case V2.
 TEST(ApproachSolve, HertzForceFollowsTheApproach) {
   for (const int nx : {256, 255}) {
     const HalfSpaceProblem problem = problem_from(
@@ -33,7 +31,7 @@ TEST(ApproachSolve, HertzForceFollowsTheApproach) {
         1e-6);
     const HalfSpaceAnswer answer = by_approach(problem, .1);
     EXPECT_NEAR(answer.mean_pressure * 25, 19.233304448, 1e-3 * 19.233304448);
-    // 511 nodes across have none at the top of the sphere: the approach counts from the highest there is.
+    // 511 nodes miss the top: the approach counts from the highest node.
     EXPECT_NEAR(answer.approach, .1, 1e-6 * .1);
     EXPECT_NEAR(answer.peak_pressure, 4.591613212, 3e-3 * 4.591613212);
     EXPECT_LE(answer.certificate.worst(), 1e-6);
@@ -60,7 +58,7 @@ TEST(ApproachSolve, WorksUnderHardening) {
   problem.yield.hardening = .05 / problem.grid.hx();
   const double approach = solve(problem, .03).approach;
   EXPECT_NEAR(by_approach(problem, approach).mean_pressure, .03, 1e-6);
-  // Yielding ground goes on past full contact.
+  // With yield the approach continues past full contact.
   const Range span = range(problem.heights->values());
   EXPECT_NEAR(by_approach(problem, 2 * span.max).approach, 2 * span.max, 1e-7);
 }
@@ -71,7 +69,7 @@ TEST(ApproachSolve, FirstTouchAndTinyApproaches) {
   const HalfSpaceAnswer answer = by_approach(problem, 1e-6 * problem.rms);
   EXPECT_EQ(answer.contacts, 1);
   EXPECT_NEAR(answer.approach, 1e-6 * problem.rms, 1e-14 * problem.rms);
-  // One cell by itself, Love (1929).
+  // One cell, Love (1929).
   EXPECT_NEAR(answer.peak_pressure * 1.122199704678 / 64, 1e-6 * problem.rms, 1e-12 * problem.rms);
 }
 
@@ -103,8 +101,7 @@ TEST(ApproachSolve, SaysThatACapCannotGoOn) {
   }
 }
 
-// Entry V1: ground so soft once it yields that next to no load lies between one approach and another, and
-// the few heights of a wave come into contact one after the other.
+// Soft yielding: almost the same load for different approaches.
 TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
   for (const int n : {8, 16, 96}) {
     HalfSpaceProblem problem = problem_from(
@@ -122,7 +119,6 @@ TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
   }
 }
 
-// Entry V1: by pressure, and then by what that brought.
 TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double over : {0.0, 1.2, 5.0})
@@ -147,7 +143,6 @@ TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
         }
 }
 
-// Entry V1: what only a pressure beyond all heights would bring.
 TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
   HalfSpaceProblem problem = problem_from(
       make_grid(8, 8, 1e-3, 1e-3), Boundary::periodic, [](double, double) { return 0.0; }, 1e11);
@@ -160,13 +155,13 @@ TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
     EXPECT_EQ(error.code(), ErrorCode::infeasible);
     EXPECT_NE(error.sentence().find("full contact"), std::string::npos) << error.what();
   }
-  // One that gives way at a pressure there is carries it everywhere alike.
+  // With yield the pressure is uniform.
   problem.yield.hardening = 1e14;
   const HalfSpaceAnswer answer = by_approach(problem, 1e-6);
   EXPECT_NEAR(answer.mean_pressure, 2e7 + 1e8, 1e-6 * 1.2e8);
 }
 
-// Entry V1: the one random scene that a pressure had lost.
+// Regression: this random scene failed.
 TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
   HalfSpaceProblem problem = problem_from(
@@ -182,7 +177,6 @@ TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   EXPECT_LE(answer.certificate.worst(), 1e-6);
 }
 
-// Entries V1 and B1: the bodies face each other on three quarters of the tile.
 TEST(ApproachSolve, V1_GroundThatNothingFacesCarriesNothing) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::free, 3, 1e-6);
   Field heights = *problem.heights;
@@ -226,7 +220,6 @@ TEST(FlatteningSolve, PressesTheShareAskedFor) {
     for (const double share : {.01, .3, .8}) {
       const HalfSpaceAnswer answer = solve_at_flattening(problem, share, Monitor::silent());
       EXPECT_NEAR(flattened(problem, answer), share, 1e-6 * share);
-      // h − u by its definition.
       double low = 1e9, high = -1e9;
       for (std::size_t k = 0; k < answer.gap.size(); ++k) {
         low = std::min(low, -answer.gap[k] - answer.offset);
@@ -247,8 +240,6 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
   EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
 }
 
-// Entry V1: where the deepest gap hardly follows from the approach. Its load is found back to what the share
-// tells of it.
 TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
   for (const double tolerance : {1e-4, 1e-8})
     for (const double share_of_load : {.3, .6, .9, .99}) {
@@ -274,8 +265,6 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
   EXPECT_NEAR(solve(problem, full).approach, approach_of_full_contact(problem), 1e-8 * problem.rms);
 }
 
-// Entry V1: between the least load of full contact and one that makes everything yield all is flat, and the
-// contact is a linear one.
 TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double yield : {1e-3, .02, 1.0})
@@ -291,7 +280,6 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
         EXPECT_EQ(flat.contacts, static_cast<std::int64_t>(problem.grid.nodes())) << scene;
         EXPECT_LE(flat.iterations, 60) << scene;
         if (boundary == Boundary::free) continue;
-        // No more than elastic ground takes, and no less than what leaves something of the heights.
         HalfSpaceProblem elastic = problem;
         elastic.yield = {};
         EXPECT_LE(flat.mean_pressure, pressure_of_full_contact(elastic).value() * (1 + 1e-9)) << scene;
@@ -299,8 +287,7 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
       }
 }
 
-// Entry V1: deep pits, whose depth the rms height is many times of what is pressed away. Solves as exact as
-// what is asked for leave that too rough.
+// The rms height is many times the flattened height, so solves need a tighter tolerance than requested.
 TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
   HalfSpaceProblem problem = rough_problem(48, Boundary::free, 6, 1e-10);
   Field heights = *problem.heights;
@@ -316,7 +303,7 @@ TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
   }
 }
 
-// All nodes but the lowest are at the cap: one load belongs to many approaches.
+// All but the lowest nodes at the cap: one load, many approaches.
 TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   for (const std::uint64_t seed : {8U, 3U}) {
     SelfAffineOptions options;
@@ -339,7 +326,6 @@ TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   }
 }
 
-// Entry V1: long cells just below full contact.
 TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   const HalfSpaceProblem problem = problem_from(
       make_grid(40, 30, 40, 30 * 400.0), Boundary::periodic,
@@ -360,15 +346,15 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   }
 }
 
-// Entry V1: a hardness far above the least load of full contact weighs what rounding leaves of the gaps by
-// how far. More load is taken then, no more than twice one that does not do, and the answer says so.
+// With a hardness far above the least load of full contact, rounding hides closed gaps: the solver uses up to
+// twice an insufficient load and reports it.
 TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();
   problem.yield.cap = 1e7 * least;
   const HalfSpaceAnswer under_least = solve_if_full(problem, least, Monitor::silent());
   ASSERT_FALSE(under_least.converged);
-  ASSERT_FALSE(under_least.pressure.empty());  // all touches
+  ASSERT_FALSE(under_least.pressure.empty());
   const HalfSpaceAnswer flat = solve_at_flattening(problem, 1, Monitor::silent());
   EXPECT_TRUE(flat.converged);
   EXPECT_LE(flat.certificate.worst(), 1e-9);
@@ -380,7 +366,6 @@ TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad)
   EXPECT_EQ(near.mean_pressure, flat.mean_pressure);
 }
 
-// The least load does where no hardness weighs anything, and where rounding leaves little of it.
 TEST(FlatteningSolve, V1_FullContactThatIsSeenTakesTheLeastLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();

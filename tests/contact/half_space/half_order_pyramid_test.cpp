@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pyramid against the exact |q|/2: as a form, on single waves, on odd sides and on cells that are not
-// square.
+// The pyramid against the exact |q|/2: as a form, on single waves, odd sides and oblong cells.
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 
 #include <gtest/gtest.h>
@@ -41,8 +40,7 @@ double dot(const Field& a, const Field& b) {
   return sum;
 }
 
-// Greatest and least ratio of the pyramid's form to the exact one, by the power method on K B and on its
-// complement.
+// Extreme ratios of the pyramid's form to the exact form, by the power method.
 std::pair<double, double> eigenvalue_range(int n) {
   HalfOrderPyramid pyramid(n, n, 1, Boundary::periodic);
   HalfSpaceCompliance compliance(n, n, 1, Boundary::periodic);
@@ -75,8 +73,7 @@ TEST(HalfOrderPyramid, IsSpectrallyCloseToHalfTheWaveNumber) {
   }
 }
 
-// Sides that are odd on one level or on all of them. The coarse grids stretch the seam, by up to two cells of
-// a level.
+// Coarse grids stretch the seam by up to two cells of a level.
 TEST(HalfOrderPyramid, IsSpectrallyCloseOnOddSides) {
   for (const int n : {33, 63, 257, 261}) {
     const auto [least, greatest] = eigenvalue_range(n);
@@ -136,7 +133,6 @@ TEST(HalfOrderPyramid, TransformsOnlyTheCoarsestGrid) {
   EXPECT_LT(HalfOrderPyramid(511, 511, 1, Boundary::free).transform_share(), 0.01);
 }
 
-// Free: what is far from the rim does not know of it, and a shift by one node shifts the answer.
 TEST(HalfOrderPyramid, AFreeRimIsNoNeighbour) {
   const int n = 45;
   HalfOrderPyramid pyramid(n, n, 1, Boundary::free);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operator against dense sums (cases V1 and V7), on sizes no fast algorithm likes.
+// The operator against dense sums, on sizes no fast algorithm likes.
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,6 @@ double dot(const Field& a, const Field& b) {
   return sum;
 }
 
-// Influence of node (0, 0) on node (i, j), from the definition.
 Field influences(int nx, int ny, double aspect, Boundary boundary) {
   Field k(nx, ny);
   const LoveKernel love(aspect);
@@ -194,7 +193,7 @@ TEST(PeriodicCompliance, AConstantMovesNothing) {
   for (const double value : u.values()) EXPECT_NEAR(value, 0, 1e-14);
 }
 
-TEST(PeriodicCompliance, PressureToDisplacementToPressure) {  // case V7
+TEST(PeriodicCompliance, PressureToDisplacementToPressure) {
   for (const auto& [nx, ny] : {std::pair(64, 64), std::pair(37, 50)}) {
     HalfSpaceCompliance compliance(nx, ny, 0.7, Boundary::periodic);
     Field p = noise(nx, ny, 1);
@@ -208,7 +207,6 @@ TEST(PeriodicCompliance, PressureToDisplacementToPressure) {  // case V7
   }
 }
 
-// K p + s p = u, the mean too.
 TEST(PeriodicCompliance, AnInverseWithSpringsIsThatOfTheSum) {
   for (const double softer : {1e-3, 1.0, 1e6}) {
     HalfSpaceCompliance compliance(37, 50, 0.7, Boundary::periodic);
@@ -220,7 +218,6 @@ TEST(PeriodicCompliance, AnInverseWithSpringsIsThatOfTheSum) {
   }
 }
 
-// Case V7: ½ p·u against ½ Σ |p̂|² · 2/|q| / n by the sum that defines p̂.
 TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
   const int n = 16;
   const Field p = noise(n, n, 1);
@@ -253,7 +250,6 @@ TEST(FreeCompliance, HasNoInverse) {
   }
 }
 
-// A pressed node far from another moves it by the coefficient itself: nothing comes round the rim.
 TEST(FreeCompliance, DoesNotWrap) {
   const int n = 50;
   HalfSpaceCompliance compliance(n, n, 1, Boundary::free);
@@ -281,7 +277,7 @@ TEST(HalfSpaceCompliance, HoldsAGridAndAQuarterOrThree) {
   set_thread_count(0);
 }
 
-// Sides that are odd or have a large prime factor are padded, in one or both directions.
+// Sides that are odd or have a large prime factor are padded.
 TEST(HalfSpaceCompliance, OnPaddedTilesIsTheMultiplierOfTheTile) {
   for (const int nx : {1, 2, 15, 22, 37, 74, 101})
     for (const int ny : {1, 2, 15, 22, 37, 101}) {
@@ -359,11 +355,11 @@ TEST(LoveKernel, CentreOfASquare) {
   EXPECT_NEAR(LoveKernel(1)(0, 0), 4 * std::log(1 + std::numbers::sqrt2) / std::numbers::pi, 1e-15);
 }
 
-// A quarter of the element, by the rule of Takahasi and Mori: the kernel is not smooth at the edges.
+// A quarter of the element by the rule of Takahasi and Mori: the kernel is not smooth at the edges.
 TEST(LoveKernel, MeanOverTheElement) {
   const LoveKernel kernel(1);
   constexpr double step = 1.0 / 16, quarter_turn = std::numbers::pi / 2;
-  const auto integral = [&](const auto& f) {  // over [0, 1]
+  const auto integral = [&](const auto& f) {
     double sum = 0;
     for (int k = -60; k <= 60; ++k) {
       const double t = k * step, s = quarter_turn * std::sinh(t);
@@ -385,7 +381,7 @@ TEST(LoveKernel, IsEven) {
     }
 }
 
-// Turning the rectangle and rescaling lengths: the two ways of integrating agree.
+// The turned rectangle uses the other integration.
 TEST(LoveKernel, ATurnedRectangleGivesTheSame) {
   for (const double aspect : {1.0, 0.125, 3.0})
     for (const int i : {0, 1, 2, 7, 150})
@@ -403,8 +399,7 @@ TEST(LoveKernel, FarAwayIsAPointForce) {
   }
 }
 
-// Where one way of integrating takes over from another there is no step: the second difference of
-// 1/kernel, nearly the distance itself, stays at rounding level.
+// Second difference of 1/kernel, nearly the distance, across changes of the integration method.
 TEST(LoveKernel, HasNoSeams) {
   const LoveKernel kernel(1);
   for (int i = 30; i < 120; ++i) {

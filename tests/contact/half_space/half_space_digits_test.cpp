@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a half-space contact could lose its digits: flats, whose heights say nothing; the lightest loads,
-// whose approach is nothing beside the heights; and pressures close to the hardness, where hardly a node is
-// left to fix the offset. Each tolerance has the error that was measured beside it.
+// Accuracy to the last digits on flats, at the lightest loads and close to the hardness, where hardly a node
+// fixes the offset. Tolerances name the measured error.
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -32,7 +31,7 @@ std::string label(const Shape& shape, double height, double pressure) {
 }
 
 const Shape flat_cells[] = {{7, 7}, {11, 11}, {31, 31}, {32, 32}, {1, 9}, {9, 1}, {13, 17}, {1, 1}};
-// Of some the mean over the nodes is not the height itself, by rounding.
+// For some levels the mean differs from the height by rounding.
 const double levels[] = {0, 1e-6, .1, -3};
 
 TEST(FlatCell, CarriesTheMeanPressureAtEveryNode) {
@@ -74,7 +73,6 @@ TEST(FlatCell, GivesWayEvenlyPastItsYieldPressure) {
     }
 }
 
-// Heights that differ by rounding alone.
 Field nearly_level(const Shape& shape, double level) {
   const Stream stream(1, "rounding");
   Field h(shape.nx, shape.ny, level);
@@ -99,7 +97,7 @@ TEST(FlatCell, HeightsThatDifferByRoundingAreAFlat) {
         const HalfSpaceAnswer answer = solve(problem, pressure);
         const std::string which = label(shape, .1, pressure);
         EXPECT_TRUE(answer.converged && all_finite(answer)) << which;
-        // A pressure of π/8 of 6e-17 m over a cell of 1/64 m at most; measured 7e-15.
+        // π/8 of 6e-17 m over a cell of at most 1/64 m; measured 7e-15.
         for (const double p : answer.pressure.values()) ASSERT_NEAR(p, pressure, 7e-14) << which;
       }
 }
@@ -124,11 +122,11 @@ TEST_P(FreeFlat, MeetsItsCertificateWithoutLimit) {
         EXPECT_LE(answer.certificate.worst(), tolerance) << which;
         EXPECT_EQ(answer.contacts, shape.nx * shape.ny) << which;
         EXPECT_GT(answer.approach, 0) << which;
-        // The conditions by dense sums, gaps by the displacement of the tile as a punch.
+        // Gaps relative to the displacement of the tile as a punch.
         if (answer.pressure.size() < 1000) {
           HalfSpaceProblem measured = problem;
           measured.rms = pressure * std::sqrt(problem.grid.area());
-          EXPECT_LT(dense_violation(measured, answer), 5 * tolerance) << which;  // measured 0.9 of it
+          EXPECT_LT(dense_violation(measured, answer), 5 * tolerance) << which;  // measured 0.9 of this bound
         }
       }
 }
@@ -166,7 +164,7 @@ Scene light_scene(Boundary boundary, const std::optional<PlasticityOptions>& pla
   return scene;
 }
 
-// What a node by itself sinks per newton on it: K of one cell, by dense sums.
+// Displacement per newton at a single node: K for a single cell.
 double sinking_of_one_node(const Scene& scene) {
   const Grid& grid = scene.lower.grid();
   HalfSpaceProblem problem =
@@ -206,7 +204,7 @@ TEST_P(LightLoad, IsFoundAgainByApproachAndByFlattening) {
   for (const Scene& scene : scenes())
     for (const double load : lightest) {
       const State state = test::press(scene, PressBy::load, load);
-      // Measured 7e-16: where one node touches all are in proportion.
+      // One node in contact: all proportional; measured 7e-16.
       EXPECT_NEAR(test::press(scene, PressBy::approach, state.approach()).load() / load, 1, 4e-15) << load;
       EXPECT_NEAR(test::press(scene, PressBy::indentation, state.indentation()).load() / load, 1, 4e-15)
           << load;
@@ -216,7 +214,7 @@ TEST_P(LightLoad, IsFoundAgainByApproachAndByFlattening) {
 INSTANTIATE_TEST_SUITE_P(Boundaries, LightLoad, testing::Values(Boundary::periodic, Boundary::free),
                          [](const auto& boundary) { return std::string(name(boundary.param)); });
 
-// In the units of the problem products of pressures and displacements underflow.
+// Products of pressures and displacements underflow.
 TEST(LeastLoad, ApproachKeepsItsDigitsDownToTheLeastLoad) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     Field h(16, 16);
@@ -235,7 +233,7 @@ class CloseToHardness : public testing::TestWithParam<Boundary> {};
 
 TEST_P(CloseToHardness, NoNodeIsLeftWithinRoundingOfABound) {
   HalfSpaceProblem problem = rough_problem(32, GetParam(), 3, 1e-9);
-  // The shares of n/1024 are carried by n nodes of soft ground exactly.
+  // At a small cap, n nodes carry the share n/1024 exactly.
   for (const double cap : {.05, 7e-6})
     for (const double part :
          {101 / 1024.0, .5, 777 / 1024.0, .9, .99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-9, 1 - 1e-12}) {
@@ -248,8 +246,7 @@ TEST_P(CloseToHardness, NoNodeIsLeftWithinRoundingOfABound) {
     }
 }
 
-// The last ground to yield fixes the approach: it may not jump between two loads that hardly differ. Closest
-// to the hardness one node alone carries less than it, and sinks by its own compliance.
+// The last nodes to yield fix the approach; closest to the hardness a single node follows its own compliance.
 TEST_P(CloseToHardness, TheApproachRisesSteadilyToItsEnd) {
   HalfSpaceProblem problem = rough_problem(32, GetParam(), 3, 1e-9);
   const double cap = problem.yield.cap = .05;
@@ -261,8 +258,7 @@ TEST_P(CloseToHardness, TheApproachRisesSteadilyToItsEnd) {
   }
   Field one(32, 32);
   one(0, 0) = 32 * 32;
-  const double compliance =
-      dense_displacement(problem, one)[0];  // of a mean pressure that is all on one node
+  const double compliance = dense_displacement(problem, one)[0];  // single node
   const double end = solve(problem, (1 - 1e-6) * cap).approach + 1e-6 * cap * compliance;
   for (const double short_of : {1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
     const double approach = solve(problem, (1 - short_of) * cap).approach;
@@ -270,8 +266,7 @@ TEST_P(CloseToHardness, TheApproachRisesSteadilyToItsEnd) {
   }
 }
 
-// On soft ground nearly every approach lies between those of one more node and the next: the load is then
-// that of whole nodes, and the offset free between their gaps.
+// At a small cap, approaches between those of n and n + 1 nodes have the load of whole nodes.
 TEST_P(CloseToHardness, SoftGroundReachesEveryApproach) {
   for (const double cap : {2e-5, 2e-3})
     for (int k = 1; k <= 12; ++k) {
@@ -282,7 +277,7 @@ TEST_P(CloseToHardness, SoftGroundReachesEveryApproach) {
       EXPECT_TRUE(answer.converged) << approach;
       EXPECT_NEAR(answer.approach / approach, 1, 1e-8) << approach;
       EXPECT_LT(dense_violation(problem, answer), 1e-8) << approach;
-      // Cut by a plane, nearly: as many nodes as lie above it.
+      // About as many nodes as above the plane.
       const double peak = range(problem.heights->values()).max;
       const auto cut = std::count_if(problem.heights->values().begin(), problem.heights->values().end(),
                                      [&](double h) { return h > peak - approach; });
@@ -291,7 +286,7 @@ TEST_P(CloseToHardness, SoftGroundReachesEveryApproach) {
     }
 }
 
-// Three of nine nodes carry the load exactly, and only rounding says whether a fourth does.
+// Three of nine nodes carry the load exactly; rounding decides about a fourth.
 TEST_P(CloseToHardness, LoadsThatBracketAnExactlyCappedOneBracketItsApproach) {
   const double heights[] = {5, 1, 7, 3, 8, 2, 0, 4, 6};
   Field h(3, 3);
@@ -305,7 +300,7 @@ TEST_P(CloseToHardness, LoadsThatBracketAnExactlyCappedOneBracketItsApproach) {
     EXPECT_EQ(exact.yielded, 3);
     const double less = solve(problem, .01 * (1 - 1e-9)).approach,
                  more = solve(problem, .01 * (1 + 1e-9)).approach;
-    // Between the third highest node and the fourth, 8 − 6 and 8 − 5, and little more for the displacements.
+    // 8 - 6 and 8 - 5 (third and fourth highest node), plus displacements.
     EXPECT_NEAR(less, 2, .4 / modulus);
     EXPECT_NEAR(more, 3, .15 / modulus);
     EXPECT_NEAR(exact.approach, (less + more) / 2, 4e-15);  // measured 4e-16
@@ -344,7 +339,6 @@ Scene rough_pair(Boundary boundary, const std::optional<PlasticityOptions>& plas
   return scene;
 }
 
-// Both bodies under load, the upper one turned over onto the lower.
 double peak_to_valley(const Surface& lower, const Surface& upper) {
   Field sum = lower.heights();
   for (int j = 0; j < sum.ny(); ++j)
@@ -376,7 +370,7 @@ TEST_P(Flattening, ApproachAndIndentationLeadBackToThePressure) {
                                       std::pair{PressBy::flatten, state.flatten()}}) {
         const State again = contact->press({by, value, {}});
         EXPECT_TRUE(again.converged()) << yield.what << " " << pressure << " " << name(by);
-        // Measured 9e-8: a flattening met to 1e-8 says no more of the pressure.
+        // Measured 9e-8, at a tolerance of 1e-8 on flattening.
         EXPECT_NEAR(again.pressure() / pressure, 1, 5e-7) << yield.what << " " << pressure << " " << name(by);
       }
     }
@@ -392,8 +386,7 @@ TEST_P(Flattening, TheLeastSharesAreMet) {
 INSTANTIATE_TEST_SUITE_P(Boundaries, Flattening, testing::Values(Boundary::periodic, Boundary::free),
                          [](const auto& boundary) { return std::string(name(boundary.param)); });
 
-// Nearly all nodes have yielded already and are just at the limit when they are pressed again: one that is
-// snapped to it no longer balances the load, and the others have to.
+// Nearly all nodes are at the limit: after a snap the others must rebalance the load.
 TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Grid grid = make_grid(24, 47, 24, 624);
@@ -413,7 +406,6 @@ TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
 
 // --- heights of any size
 
-// V3: the contact of a wave is the same at any scale of its height, or refused by name.
 TEST(HeightsOfAnySize, AreRightOrRefusedByName) {
   const auto pressed = [](double amplitude, Boundary boundary, bool box) {
     const Surface wave = test::surface_of(Grid{8, 8, 1, 1}, [&](int i, int j) {

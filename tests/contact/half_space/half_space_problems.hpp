@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space problems for the tests: heights from a formula or a self-affine surface, and the contact
-// conditions evaluated by dense sums that share no code with the solver.
+// Half-space problems, and contact conditions by dense sums that share no code with the solver.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +34,7 @@ inline HalfSpaceProblem problem_of(const Grid& grid, Field heights, Boundary bou
   return problem;
 }
 
-// Heights z(x, y) at the nodes.
+// Heights z(x, y).
 inline HalfSpaceProblem problem_from(const Grid& grid, Boundary boundary,
                                      const std::function<double(double, double)>& height, double modulus = 1,
                                      double tolerance = 1e-8) {
@@ -76,7 +75,7 @@ inline double mean_energy(const HalfSpaceProblem& problem, const HalfSpaceAnswer
     sum += answer.pressure[k] * (answer.gap[k] + answer.offset + (*problem.heights)[k]);
   return 0.5 * sum / static_cast<double>(answer.gap.size());
 }
-// Boundary edges between touching and open nodes; round the rim on a periodic tile.
+// Between touching and open nodes; across the rim on a periodic tile.
 inline double contact_edges(const HalfSpaceAnswer& answer, bool periodic) {
   const Field& p = answer.pressure;
   const int nx = p.nx(), ny = p.ny();
@@ -90,7 +89,7 @@ inline double contact_edges(const HalfSpaceAnswer& answer, bool periodic) {
   return edges;
 }
 
-// u = K p by a dense sum: Love's coefficients (free) or a plain sum over waves (periodic).
+// u = K p by a dense sum: Love's coefficients (free) or waves (periodic).
 inline std::vector<double> dense_displacement(const HalfSpaceProblem& problem, const Field& p) {
   const int nx = problem.grid.nx, ny = problem.grid.ny;
   const double hx = problem.grid.hx(), hy = problem.grid.hy();
@@ -132,8 +131,8 @@ inline std::vector<double> dense_displacement(const HalfSpaceProblem& problem, c
   return u;
 }
 
-// The worst violation of the contact conditions at any node, gaps by the rms height, by dense sums. The
-// problem is convex: a small number is a proof.
+// Largest violation of the contact conditions, gaps relative to the rms height. The problem is convex: a
+// small value is a proof.
 inline double dense_violation(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   const std::vector<double> u = dense_displacement(problem, answer.pressure);
   const YieldLaw& law = problem.yield;

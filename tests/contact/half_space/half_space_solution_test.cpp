@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stiffness of a contact against closed forms, dense elimination, and the slope of load with approach.
+// Contact stiffness against closed forms, dense elimination and the slope of load with approach.
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ TEST(ContactStiffness, OfAHertzContactIsTwiceRadiusTimesModulus) {
               .01 * 2 * radius * 102);
 }
 
-// While no node touches or parts, load and approach are proportional.
+// A constant contact set: load is linear in approach.
 TEST(ContactStiffness, IsTheSlopeOfLoadAgainstApproach) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double over : {0.0, 3.0, -3.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space contact against dense sums on small grids, closed forms (Hertz, punch, Westergaard,
-// bi-sinusoid), its own cost in transforms, and the cases where solvers go wrong.
+// Half-space contact against dense sums and closed forms (Hertz, punch, Westergaard, bi-sinusoid); cost;
+// difficult loads.
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(HalfSpaceSolve, MeetsEveryConditionByDenseSums) {
         const double pressure = part * problem.modulus * problem.rms / problem.grid.hx() * .3;
         const HalfSpaceAnswer answer = solve(problem, pressure);
         EXPECT_TRUE(answer.converged);
-        // Complementarity averages: one node may be further off than the tolerance.
+        // Complementarity is an average: one node may exceed the tolerance.
         EXPECT_LT(dense_violation(problem, answer), 1e-7)
             << tile.nx << " x " << tile.ny << " " << name(boundary) << " " << part << " " << answer.solver;
       }
@@ -81,7 +81,6 @@ TEST(HalfSpaceSolve, MeetsEveryConditionUnderHardeningByDenseSums) {
       }
 }
 
-// Case V2.
 struct Hertz {
   int nx, ny;
 };
@@ -111,7 +110,6 @@ INSTANTIATE_TEST_SUITE_P(Grids, HertzContact, testing::Values(Hertz{512, 512}, H
                            return std::to_string(grid.param.nx) + "x" + std::to_string(grid.param.ny);
                          });
 
-// Case V3: a rigid flat punch is heights at one level inside a circle and far below it outside.
 TEST(HalfSpaceSolve, FlatPunchHasTheStiffnessOfItsRadius) {
   const int n = 256;
   const double radius = .2;
@@ -123,7 +121,6 @@ TEST(HalfSpaceSolve, FlatPunchHasTheStiffnessOfItsRadius) {
   EXPECT_NEAR(.01 / (2 * a * answer.approach), 1, 5e-3);
 }
 
-// A flat over the whole free tile is a square punch: stiffness about 2.3 E* √(area/π)/√... from dense sums.
 TEST(HalfSpaceSolve, FlatHeightsAreUniformOnAPeriodicTileAndAPunchOnAFreeOne) {
   const Grid grid = make_grid(16, 16, 1, 1);
   const HalfSpaceProblem periodic = problem_of(grid, Field(16, 16, 3e-6), Boundary::periodic, 1e9);
@@ -134,13 +131,12 @@ TEST(HalfSpaceSolve, FlatHeightsAreUniformOnAPeriodicTileAndAPunchOnAFreeOne) {
   HalfSpaceProblem punch = problem_of(grid, Field(16, 16, 3e-6), Boundary::free, 1e9, 1e-10);
   const HalfSpaceAnswer square = solve(punch, 5e5);
   EXPECT_GT(square.pressure(0, 0), 2 * square.pressure(8, 8));
-  punch.rms = square.approach;  // the length the certificate takes
+  punch.rms = square.approach;  // length scale of the certificate
   EXPECT_LT(dense_violation(punch, square), 1e-7);
-  // Force over 2 E* δ √(area/π) of a square punch is 1.01 (Conway & Farnham 1968); edges on 16 cells add 2 %.
+  // Force over 2 E* δ √(area/π) of a square punch: 1.01 (Conway & Farnham 1968); edges on 16 cells add 2 %.
   EXPECT_NEAR(5e5 / (2 * 1e9 * square.approach * std::sqrt(1 / pi)), 1.02, .03);
 }
 
-// Case V4.
 struct Westergaard {
   double f, contact, peak, gap;
 };
@@ -165,7 +161,6 @@ TEST(HalfSpaceSolve, SinusoidFollowsWestergaard) {
   }
 }
 
-// Case V5.
 struct BiSinusoid {
   double f, area, peak, gap, energy;
 };
@@ -192,7 +187,6 @@ TEST(HalfSpaceSolve, BiSinusoidMatchesReference) {
   }
 }
 
-// Case V6.
 TEST(HalfSpaceSolve, FullContactIsTheExactFilter) {
   const HalfSpaceProblem problem = bi_sinusoid(64, 1e-12);
   const double full = std::sqrt(2) * pi * .01;
@@ -213,7 +207,6 @@ TEST(HalfSpaceSolve, FullContactIsTheExactFilter) {
   }
 }
 
-// The mean pressure moves nothing, however much larger it is than what flattens the surface.
 TEST(HalfSpaceSolve, FullContactKeepsItsGapsUnderAnyMeanPressure) {
   const HalfSpaceProblem problem = bi_sinusoid(64, 1e-12);
   for (const double pressure : {1e3, 1e15, 1e100}) {
@@ -223,7 +216,6 @@ TEST(HalfSpaceSolve, FullContactKeepsItsGapsUnderAnyMeanPressure) {
   }
 }
 
-// Hard case 1: the last open nodes close one by one.
 TEST(HalfSpaceSolve, NearFullContactDoesNotChatter) {
   const HalfSpaceProblem problem = bi_sinusoid(128);
   const double full = std::sqrt(2) * pi * .01;
@@ -238,7 +230,6 @@ TEST(HalfSpaceSolve, NearFullContactDoesNotChatter) {
   EXPECT_GT(before, .999);
 }
 
-// Case V12.
 TEST(HalfSpaceSolve, CappedBiSinusoidMatchesReference) {
   struct Known {
     double over, area, capped, gap, energy;
@@ -270,7 +261,6 @@ TEST(HalfSpaceSolve, SoftGroundTouchesOnLoadOverHardness) {
   }
 }
 
-// Weak hardening is the cap, strong hardening no yield at all.
 TEST(HalfSpaceSolve, HardeningRunsFromTheCapToElastic) {
   HalfSpaceProblem problem = rough_problem(128, Boundary::periodic, 2);
   const double pressure = .03;
@@ -301,7 +291,7 @@ TEST(HalfSpaceSolve, GapOfYieldedGroundIsWhatItGaveWay) {
     }
 }
 
-// The cost, in pairs of transforms of the finest grid with the nested grids counted.
+// In transform pairs of the finest grid, nested grids included.
 TEST(HalfSpaceSolve, TakesFewTransforms) {
   for (const int n : {256, 512})
     for (const double load : {.005, .03})
@@ -337,7 +327,6 @@ TEST(HalfSpaceSolve, TakesFewTransformsUnderHardening) {
   EXPECT_LE(scope.so_far().transforms / 2, 45);
 }
 
-// Hard case 3.
 TEST(HalfSpaceSolve, OneNodeCarriesTheLeastLoads) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     HalfSpaceProblem problem = problem_from(make_grid(64, 64, 1, 1), boundary, [](double x, double y) {
@@ -353,7 +342,7 @@ TEST(HalfSpaceSolve, OneNodeCarriesTheLeastLoads) {
 }
 TEST(HalfSpaceSolve, EqualPeaksShareEqually) {
   Field h(64, 64, -1.0);
-  h(10, 20) = h(42, 52) = 0;  // half a tile apart: each sees the other alike
+  h(10, 20) = h(42, 52) = 0;  // half a tile apart: symmetric
   const HalfSpaceProblem problem = problem_of(make_grid(64, 64, 1, 1), h, Boundary::periodic);
   const HalfSpaceAnswer answer = solve(problem, 1e-4);
   EXPECT_EQ(answer.contacts, 2);
@@ -376,7 +365,6 @@ TEST(HalfSpaceSolve, ZeroLoadIsFirstTouch) {
   EXPECT_TRUE(answer.converged);
 }
 
-// Hard case 2.
 TEST(HalfSpaceSolve, RefusesALoadTheHardnessCannotCarry) {
   HalfSpaceProblem problem = bi_sinusoid(16);
   problem.yield.cap = 2;
@@ -390,7 +378,7 @@ TEST(HalfSpaceSolve, RefusesALoadTheHardnessCannotCarry) {
   const HalfSpaceAnswer nearly = solve(problem, std::nextafter(2.0, 0.0));
   EXPECT_TRUE(nearly.converged);
 }
-// Twelve of sixteen nodes can carry the load exactly: all touching ground at the cap, nothing between.
+// Twelve of sixteen nodes at the cap carry the load exactly.
 TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   Field h(4, 4, 1.0);
   for (int i = 0; i < 4; ++i) h(i, 0) = -50;
@@ -406,7 +394,6 @@ TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   EXPECT_NEAR(open, -capped, 1e-12 * open);
 }
 
-// Hard case 4, and case V7.
 TEST(HalfSpaceSolve, PowersOfTwoChangeNoBit) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 3);
   problem.yield.cap = .09;
@@ -446,7 +433,6 @@ TEST(HalfSpaceSolve, RefusesLoadsTooSmallToMeanAnything) {
     EXPECT_THROW(solve(problem, bad), Error);
 }
 
-// Hard case 8: the certificate is that of the fields handed out.
 TEST(HalfSpaceSolve, CertificateIsThatOfTheFieldsHandedOut) {
   const HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 4, 1e-4);
   const HalfSpaceAnswer answer = solve(problem, .03);
@@ -478,7 +464,6 @@ TEST(HalfSpaceSolve, SaysWhatItReachedWhenToleranceIsBelowRoundOff) {
   EXPECT_LT(best.certificate.worst(), 1e-12);
 }
 
-// Hard case 12.
 TEST(HalfSpaceSolve, OddPrimeAndOblongGrids) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const Tile& tile :
@@ -528,7 +513,7 @@ TEST(HalfSpaceSolve, StartNearbyChangesNothingButTheCost) {
   }
 }
 
-// Heights at random from node to node: lines along the short side are contacts nearly by themselves.
+// White heights: lines along the short side are nearly independent contacts.
 TEST(HalfSpaceSolve, OfLongCellsThatHardenTakesFourHundredTransforms) {
   for (const double aspect : {0.01, 0.1, 10., 30., 100., 1000.}) {
     double x = 5;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves that are taken up from a store: the same bits as computed, under a key that every number of the
-// problem changes, and at no cost where there is no store.
+// Solves recalled from a store have the same bits; the key contains every number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +57,6 @@ TEST(RecalledSolve, GivesTheBitsAndTheCostOfTheSolve) {
   EXPECT_EQ(one.solver, other.solver);
 }
 
-// Were one left out of the key, a scene that differs in it alone would be given the answer of another.
 TEST(RecalledSolve, EveryNumberOfTheProblemIsInItsKey) {
   Shelf shelf;
   ShelfMonitor monitor(shelf);

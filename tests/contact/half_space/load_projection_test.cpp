@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The projection on bounds and load: the load to a few ulps, the bounds to the bit, and the loads that
-// some nodes alone cannot carry. Loads of lines: what a shift brings back, what it cannot, and contacts that
-// need it.
+// Projection on bounds (exact) and load (a few ulps); loads of lines.
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +56,7 @@ TEST(LoadProjection, RefusesWhatTheMarkedNodesCannotCarry) {
   const std::vector<double> y = wavy(100);
   std::vector<std::uint8_t> where(100);
   std::vector<double> p(100, 7.0);
-  EXPECT_FALSE(project_to_load(y, where, .5, 20, p));  // none marked
+  EXPECT_FALSE(project_to_load(y, where, .5, 20, p));
   where[3] = 1;
   EXPECT_FALSE(project_to_load(y, where, .5, 49, p));
   EXPECT_FALSE(project_to_load(y, where, .5, 1e-3, p));
@@ -128,7 +126,7 @@ TEST(LineLoads, ALineThatPullsCarriesNothingAndOneWithinItsBoundsStays) {
   EXPECT_EQ(settled[5], 0.5);
 }
 
-// Entry V2: lengthwise on a free tile it took 619 transforms.
+// Regression: 619 transforms lengthwise on a free tile.
 TEST(LineLoads, V2_NoiseOnAFreeTileTakesFewPasses) {
   for (const double aspect : {1e-3, 1e3}) {
     const Stream draws(1, "noise");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts where the ground moves by far less than its roughness: what random scenes found, each a case of
-// its own.
+// Displacements far below the roughness; cases from random scenes.
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ using namespace half_space_test;
 
 class LightContactOn : public testing::TestWithParam<Boundary> {};
 
-// A certificate that is a share of the rms was met by one of two peaks alone.
+// A certificate relative to the rms height would accept one peak.
 TEST_P(LightContactOn, EqualPeaksShareTheLeastLoadEqually) {
   Field h(33, 21, -1.0);
   h(4, 10) = h(20, 10) = 0;
@@ -24,12 +23,11 @@ TEST_P(LightContactOn, EqualPeaksShareTheLeastLoadEqually) {
     const HalfSpaceAnswer answer =
         solve(problem_of(make_grid(33, 21, 1, 1), h, GetParam(), 1, 1e-6), pressure);
     EXPECT_EQ(answer.contacts, 2) << pressure;
-    // Peaks see the rims of a free tile alike; measured 2e-7.
+    // Symmetric rims; measured 2e-7.
     EXPECT_NEAR(answer.pressure(4, 10) / answer.pressure(20, 10), 1, 1e-6) << pressure;
   }
 }
 
-// A step of which twelve nodes touched, and four under half as much again.
 TEST_P(LightContactOn, AreaDoesNotFallAsTheLoadRises) {
   Field h(9, 4);
   for (int j = 0; j < 4; ++j)
@@ -39,7 +37,7 @@ TEST_P(LightContactOn, AreaDoesNotFallAsTheLoadRises) {
     EXPECT_EQ(solve(problem, pressure).contacts, 12) << pressure;
 }
 
-// The load was kept to rounding of the heights, and the hardness was less than that.
+// Hardness below the rounding of the heights.
 TEST_P(LightContactOn, SoftGroundTouchesOnLoadOverHardness) {
   for (const double hardness : {1e-9, 1e-12, 1e-15, 1e-30, 1e-100, 1e-250}) {
     HalfSpaceProblem problem = problem_from(
@@ -53,8 +51,7 @@ TEST_P(LightContactOn, SoftGroundTouchesOnLoadOverHardness) {
     EXPECT_TRUE(answer.converged) << hardness;
     EXPECT_GE(area_fraction(answer), .3) << hardness;
     EXPECT_NEAR(area_fraction(answer), .3, .02) << hardness;
-    // Nodes as high as each other share what is left: alike on both sides of the diagonal. Softer ground than
-    // heights are rounded by cannot tell.
+    // Equal heights share the rest: symmetric about the diagonal. Below 1e-15 rounding hides this.
     if (hardness < 1e-15) continue;
     for (int j = 0; j < 32; ++j)
       for (int i = 0; i < 32; ++i)
@@ -81,8 +78,7 @@ TEST(LoadProjection, KeepsALoadFarBelowTheRoundingOfTheValues) {
     }
 }
 
-// One elastic node among hundreds that yield balanced all of their load: thousands of steps where a hundred
-// do.
+// One elastic node must not balance the load of hundreds: thousands of steps instead of a hundred.
 TEST(FreeSet, FewElasticNodesDoNotBalanceTheLoadOfManyThatYield) {
   FreeSet set;
   set.elastic_count = 1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presses that begin from a press like them, on fewer cells or on the same: the same answer within the
-// tolerance for fewer transforms, also where the guess is of no use.
+// Presses from a similar press: the same answer for fewer transforms, also from a useless guess.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,7 +82,6 @@ TEST(PressFrom, OfADifferentContactItStillConverges) {
   }
 }
 
-// The lattice of the guess says nothing of the aspect of its cells.
 TEST(PressFrom, CellsThatAreNotSquare) {
   const auto scene_of = [](int nx, int ny) {
     SelfAffineOptions o;
@@ -110,7 +108,6 @@ TEST(PressFrom, ByApproachItIsThePressItself) {
   EXPECT_EQ(press_from(*solver, guess, request).digest(), solver->press(request).digest());
 }
 
-// Were what a solve began from not in its key, a press would be given the last digits of another.
 TEST(PressFrom, WhatItBeganFromIsInTheKeyOfItsAnswer) {
   Shelf shelf;
   ShelfMonitor monitor(shelf);

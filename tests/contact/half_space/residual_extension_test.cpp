@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The extension along lines: what it carries where, its transpose, and contacts on cells much longer than
-// wide, which it is made for.
+// The extension along lines: values, transpose, and contacts on long cells.
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,7 @@ namespace {
 using namespace half_space_test;
 
 TEST(LineExtension, InterpolatesBetweenFreeNodesOfALine) {
-  // Rows of six: 2 and 5 free; none; 0 free.
+  // Free nodes in rows of six: 2 and 5; none; 0.
   const Array<std::uint8_t> free = {0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0};
   Array<float> field = {0, 0, 3, 0, 0, 6, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0, 0, 0};
   LineExtension periodic(6, 3, Boundary::periodic, true);
@@ -66,7 +65,6 @@ TEST(LineExtension, GatheringIsTheTranspose) {
       }
 }
 
-// Entry V2.
 TEST(LineExtension, V2_NoiseAndWavesOnLongCells) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double aspect : {1e-3, 1e-2, .1, 10.0, 100.0, 1000.0})

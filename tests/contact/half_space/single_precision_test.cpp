@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space solves whose transforms, or some of them, are in single precision: what they reach, what they
-// agree with, what they hold, and where they are not. Case: single precision of the hard cases.
+// Half-space solves in single precision: tolerance, agreement with double precision, memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +41,7 @@ class SinglePrecision : public ::testing::TestWithParam<Boundary> {
   void TearDown() override { set_thread_count(0); }
 };
 
-// Pressures that both meet a tolerance on energy differ by its root at most.
+// Two pressures within a tolerance on energy differ at most by its root.
 TEST_P(SinglePrecision, MeetsEachToleranceAndAgreesWithDouble) {
   for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-11}) {
     const HalfSpaceProblem problem = rough_problem(64, GetParam(), 1, tolerance);
@@ -58,8 +57,6 @@ TEST_P(SinglePrecision, MeetsEachToleranceAndAgreesWithDouble) {
   }
 }
 
-// Gaps handed out are those of the pressures in double precision, not in single: of a solve in single
-// precision, and of one in double so large that it rounds its steps.
 TEST_P(SinglePrecision, GapsAreDouble) {
   for (const auto& [n, single] : {std::pair(48, true), std::pair(256, false)}) {
     const HalfSpaceProblem problem = rough_problem(n, GetParam(), 2);
@@ -119,7 +116,7 @@ TEST_P(SinglePrecision, HoldsHalfInItsTransforms) {
     return static_cast<double>(memory::held() - before) - static_cast<double>(p.size() * sizeof(double));
   };
   EXPECT_NEAR(held(true) / held(false), 0.5, 0.05);
-  // What gaps need in double precision, for a moment, is less than that on a periodic tile.
+  // Periodic: temporary double-precision gaps need less than the saving.
   const HalfSpaceProblem problem = rough_problem(512, GetParam(), 1, 1e-3);
   std::int64_t peak[2];
   for (const bool single : {false, true}) {
@@ -163,7 +160,7 @@ TEST(SinglePrecisionOf, AnOperatorIsTheOperatorRounded) {
   EXPECT_LE(apart(u.values(), v.values()), 1e-6 * most(u.values()));
   EXPECT_LE(apart(u.values(), w.values()), 1e-14 * most(u.values()));
 
-  // One in double precision rounds when it is told to, and no longer.
+  // A double-precision operator rounds only on request.
   for (int time = 0; time < 2; ++time) {
     exact.apply_rounded([&](int j, double*) { return p.row(j).data(); },
                         [&](int j, const double* row) { std::copy_n(row, n, w.row(j).data()); }, {});
@@ -173,7 +170,6 @@ TEST(SinglePrecisionOf, AnOperatorIsTheOperatorRounded) {
   }
 }
 
-// Where nothing can meet the tolerance, single precision says so as double does.
 TEST(SinglePrecisionOf, ATolerancePastRoundingSaysWhatItReached) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 1, 1e-15);
   problem.best_effort = true;

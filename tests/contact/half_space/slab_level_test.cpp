@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pieces of a contact in slabs, for a process alone, against those that hold the whole grid. Several
-// processes are in tests/scripts/runner/spread.sh.
+// Contacts in slabs, one process. Several: tests/scripts/runner/spread.sh.
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 #include <gtest/gtest.h>
