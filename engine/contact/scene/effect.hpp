@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An effect of a scene: one record in one file of effects/. Readers, checks, plans, presses and documents
-// iterate over the records (effects/list.hpp) and name no effect.
+// iterate over the records (known_effects.hpp) and name no effect.
 #pragma once
 
 #include <any>
