@@ -68,10 +68,10 @@ class Pivoting {
   std::vector<At> at_;
   Eigen::VectorXd p_, gap_;
   double offset_ = 0;
-  double slack_ = 0;  // of gaps, m: what rounding leaves
+  double slack_ = 0;  // m: rounding error of the gaps
 };
 
-// The pressures of the nodes that move, and the offset: equal gaps and the load.
+// Solves for the offset and the pressures of the free nodes: equal gaps and the load.
 void Pivoting::balance() {
   std::vector<Eigen::Index> moving;
   p_ = Eigen::VectorXd::Zero(nodes_);
@@ -82,7 +82,7 @@ void Pivoting::balance() {
   }
   const auto m = static_cast<Eigen::Index>(moving.size());
   const Eigen::VectorXd held = matrix_ * p_;
-  // The offset in units that make the last row and column as large as the others.
+  // Scales the offset so that the last row and column match the others in size.
   const double unit = matrix_(0, 0);
   Eigen::MatrixXd a(m + 1, m + 1);
   Eigen::VectorXd b(m + 1);
@@ -122,16 +122,16 @@ At Pivoting::wanted(Eigen::Index k) {
   }
 }
 
-// All nodes at once to where they want to be: a few pivots mostly, but without a cap's proof.
+// Moves all nodes to their preferred sets at once. Usually a few pivots, but without the proof for a cap.
 bool Pivoting::pivot(DenseAnswer& answer) {
   constexpr int together = 60;
-  const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding there is a surer way
+  const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding, descend() is safer
   for (int n = 0; n < most; ++n, ++answer.pivots) {
     balance();
     const std::vector<At> before = at_;
     for (Eigen::Index k = 0; k < nodes_; ++k) {
       at(k) = wanted(k);
-      // After a while only the first by number, which cannot go round in circles (Murty 1974).
+      // After a while, only the first node by number moves, which cannot cycle (Murty 1974).
       if (n >= together && at_ != before) break;
     }
     if (at_ == before) return true;
@@ -142,7 +142,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
   return false;
 }
 
-// The nearest bounds, and what is then missing of the load from all that have room.
+// Moves pressures to the nearest bounds; nodes with room share the missing load.
 void Pivoting::make_feasible() {
   p_ = p_.cwiseMax(0).cwiseMin(problem_.cap);
   const double carried = p_.sum();
@@ -157,8 +157,8 @@ void Pivoting::make_feasible() {
     at(k) = p_[k] <= 0 ? At::zero : p_[k] >= problem_.cap ? At::cap : At::elastic;
 }
 
-// With every node at a bound nothing fixes the offset: it is between the gaps of the two kinds, unless two
-// nodes would rather exchange pressure.
+// With every node at a bound, the offset is only bracketed by the gaps of the two sets, unless two nodes
+// should exchange pressure.
 bool Pivoting::let_two_go() {
   gap_ = matrix_ * p_ - problem_.heights;
   Eigen::Index open = -1, full = -1;
@@ -173,7 +173,7 @@ bool Pivoting::let_two_go() {
   return true;
 }
 
-// The active-set method for a convex quadratic programme (Nocedal & Wright 2006, §16.5): feasible throughout,
+// Active-set method for a convex quadratic programme (Nocedal & Wright 2006, §16.5): feasible throughout,
 // one bound at a time.
 bool Pivoting::descend(DenseAnswer& answer) {
   make_feasible();

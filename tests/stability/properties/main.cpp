@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties of contacts over random scenes. A scene that breaks one is made smaller as long as it goes on
-// breaking it, and printed as a script to run.
+// Properties of contacts over random scenes. A scene that breaks a property is reduced while it still
+// breaks it, then printed as a script.
 //
 //   test_properties                              every family, as many scenes each as in CI
 //   test_properties family=events scenes=100000  one family for a night
 //   test_properties family=events seed=7 first=42 scenes=1   one scene again
 //   test_properties family=explain cells=1000 scenes=120     tiles of up to so many cells a side
 //
-// ASPERITY_SCENES and ASPERITY_SEED stand for scenes= and seed= where those are not given;
-// ASPERITY_SHARE=0.05 takes a twentieth of what each family takes in CI, =2.5 two and a half times as many.
+// ASPERITY_SCENES and ASPERITY_SEED are defaults of scenes= and seed=. ASPERITY_SHARE=0.05 runs a twentieth
+// of each family's scenes in CI, 2.5 runs two and a half times as many.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -35,9 +35,9 @@ const Family* const families[] = {&conditions,         &monotony, &rescaling, &s
 struct Settings {
   std::string family;
   std::uint64_t seed = 1, first = 0;
-  int scenes = 0;    // as the family says
-  int cells = 0;     // the same
-  double share = 1;  // of those
+  int scenes = 0;    // the family's own
+  int cells = 0;     // the family's own
+  double share = 1;  // of the family's scenes
 };
 
 [[noreturn]] void usage(const std::string& word) {
@@ -71,7 +71,7 @@ Settings read(int count, char** words) {
   return settings;
 }
 
-// `beyond`: counts the scenes of which doubles hold no more.
+// `beyond` counts scenes that double precision cannot resolve.
 Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt, int& beyond) {
   try {
     return family.check(trial, salt);
@@ -92,7 +92,6 @@ struct Failure {
   Broken broken;
 };
 
-// The smallest scene found that breaks the same property.
 Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   const double begin = seconds();
   int beyond = 0;
@@ -110,7 +109,7 @@ Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   return failure;
 }
 
-// Returns how many scenes broke a property.
+// Returns the number of scenes that break a property.
 int run(const Family& family, const Settings& settings) {
   constexpr int shown_of_each = 1;
   const double begin = seconds();
@@ -161,7 +160,7 @@ int run(const Family& family, const Settings& settings) {
 int main(int count, char** words) {
   using namespace asperity::stability;
   const Settings settings = read(count, words);
-  asperity::set_thread_count(1);  // the scenes are small; several families run side by side instead
+  asperity::set_thread_count(1);  // small scenes; several families run in parallel
   int broken = 0;
   bool known = settings.family.empty();
   for (const Family* family : families)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same bodies seen otherwise: mirrored, transposed, shifted round by whole cells (where the boundary lets
-// them, and for boxes, which do not know where they are), or exchanged. The pressures are those of before,
-// seen otherwise: to the last bit for boxes, to 1e-8 of the greatest for half-spaces, whose sums run in
-// another order, solved to 1e-12. Loads far past full contact are left to other families: on a free tile they
-// sink it by so many times its roughness that no double holds 1e-12 of that.
+// Mirrored, transposed, shifted (periodic boundaries and boxes) or exchanged bodies have the same
+// pressures, mapped accordingly: bit for bit for boxes, within 1e-8 of the greatest for half-spaces solved
+// to 1e-12, whose sums run in another order. Loads far beyond full contact are excluded: a free tile sinks
+// so deep that doubles cannot hold 1e-12.
 #include <cmath>
 #include <functional>
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double allowed = 1e-8;  // of the greatest pressure
 
-// Where node (i, j) of the view lies in the original.
+// Maps node (i, j) of the view to the original.
 struct View {
   const char* name;
   int nx, ny;
