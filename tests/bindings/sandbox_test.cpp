@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a script may not reach unless it is trusted: other programs, C libraries, bytecode, hooks and
-// metatables of native values, and files outside the run.
+// Untrusted scripts cannot reach other programs, C libraries, bytecode, hooks, native metatables, or files
+// outside the run.
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::sandbox_test {
@@ -74,7 +74,7 @@ TEST_F(Sandbox, HooksAndMetatablesOfNativeValuesAreOutOfReach) {
 }
 
 TEST_F(Sandbox, OriginalsCannotBeMetOnTheStack) {
-  // The reader of load is called by the original; so are handlers of its errors.
+  // Original functions call the reader of load and error handlers.
   EXPECT_EQ(run("local met = {}\n"
                 "local function look() for level = 0, 12 do\n"
                 "  local info = debug.getinfo(level, 'f') or debug.getinfo(level)\n"
@@ -186,7 +186,7 @@ TEST_F(Sandbox, TrustGivesTheWholeOfLua) {
             "");
   EXPECT_EQ(run("lab.surface.flat{ cells=2, size=1 }:write '" + (folder / "s.npy").string() + "'"), "");
   EXPECT_TRUE(std::filesystem::exists(folder / "s.npy"));
-  // Globals are strict all the same.
+  // Globals are strict for trusted scripts too.
   EXPECT_NE(run("print(undefined_thing)"), "");
 }
 
