@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events found in recordings whose truth is known: counts, loads within four standard errors, dwells within
-// two steps of time, over noise, drift, slow ramps, short holds and overshoot; and what is said where the
-// noise is too much.
+// Event detection on recordings with known truth: counts, loads within four standard errors, dwells within
+// two time steps, despite noise, drift, slow ramps, short holds and overshoot; warnings if the noise is too
+// large.
 #include "engine/recording/event_detection.hpp"
 
 #include <filesystem>
@@ -23,7 +23,7 @@ std::string kinds(const Protocol& protocol) {
   return all;
 }
 
-// What differs from the truth, "" if nothing does.
+// The first difference from the truth, or "".
 std::string difference(const SyntheticPress& press, const SyntheticTruth& truth, const Protocol& found) {
   std::string wanted;
   for (const SyntheticHold& hold : press.holds) {
@@ -48,10 +48,10 @@ std::string difference(const SyntheticPress& press, const SyntheticTruth& truth,
         found.recording()->spans.begin(), found.recording()->spans.end(), [&](const RecordedSpan& s) {
           return s.kind == RecordedSpan::Kind::hold && s.end > truth.holds[k].begin + 0.4 * hold.dwell;
         });
-    // A load on its way down to a hold counts as held once it is within two per cent.
+    // After overshoot, a hold begins once the load is within two per cent.
     const double settling = hold.overshoot > 0 ? 1.5 * hold.rise * std::min(1.0, 0.02 / hold.overshoot) : 0;
     const double drift = std::abs(press.drift) * 0.02;
-    // A sample of a ramp within the level, at either end.
+    // Samples of both ramps within the level.
     const double corners = 0.002 * hold.load;
     if (std::abs(pressed.value - hold.load) > 4 * span.load_error + drift + corners)
       return "a load of " + of(pressed.value) + " where " + of(hold.load) + " was held, to " +
@@ -79,7 +79,7 @@ SyntheticPress random_press(std::mt19937_64& random) {
   double last = 0;
   for (int k = 0; k < holds; ++k) {
     SyntheticHold hold;
-    // No load within a tenth of the one before, which without a rest would be the same hold.
+    // Without a rest, loads within ten per cent would be one hold.
     do hold.load = 100 * std::pow(10, uniform(random));
     while (std::abs(hold.load - last) < 0.1 * std::max(hold.load, last));
     last = hold.load;
@@ -124,8 +124,8 @@ Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   return outcome;
 }
 
-// Protocols by the hundred, with holds of 25 samples and more, ramps of up to 40, steps between holds
-// without a rest, zeros off by up to 30 % of the lowest hold, and cells missing in every third recording.
+// Hundreds of protocols: holds of at least 25 samples, ramps of up to 40, direct steps between holds, zero
+// offsets up to 30 % of the lowest hold, missing cells in every third recording.
 TEST(EventDetection, FindsWhatWasDone) {
   for (const double noise : {0.0, 0.001, 0.005, 0.01, 0.02, 0.05}) {
     std::mt19937_64 random(17);
@@ -139,7 +139,7 @@ TEST(EventDetection, FindsWhatWasDone) {
   }
 }
 
-// Up to noise in which the lowest hold drowns: what is found is the truth, or it is said that it may not be.
+// With noise up to the lowest hold, the result is true or carries a warning.
 TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   int wrong = 0, said = 0;
   for (const double noise : {0.1, 0.2, 0.5, 1.0, 3.0}) {
@@ -160,8 +160,7 @@ TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   EXPECT_GT(said, 500);
 }
 
-// A press that shoots over by 5 to 30 %, and a zero that drifts by half a per cent of the highest load a
-// hold.
+// Overshoot of 5 to 30 %; the zero drifts by half a per cent of the highest load per hold.
 TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   for (const double noise : {0.0, 0.002, 0.005}) {
     std::mt19937_64 random(29);
@@ -184,7 +183,7 @@ TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   }
 }
 
-// Ramps of hundreds of samples to holds of eight, told or said not to be.
+// Ramps of hundreds of samples and holds of eight are found or reported.
 TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   for (const double noise : {0.0, 0.001, 0.01}) {
     for (unsigned seed = 0; seed < 200; ++seed) {
@@ -200,7 +199,7 @@ TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   }
 }
 
-// Four presses with turns, as a logger at 10 Hz writes them.
+// Four presses with turns, sampled at 10 Hz.
 SyntheticPress four_presses() {
   SyntheticPress press;
   press.step = 0.1;
@@ -208,7 +207,7 @@ SyntheticPress four_presses() {
   return press;
 }
 
-// F8: noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
+// Slow waves of filtered noise, y(k) = r y(k-1) + e, are not holds.
 TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   for (const double share : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -242,7 +241,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   }
 }
 
-// F8: a sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
+// A sensor saturated at 50 kN in a hold of 78 kN shows a constant reading.
 TEST(EventDetection, F8AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
@@ -259,7 +258,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
   }
 }
 
-// F8: compression recorded as negative is not told as a turn under load.
+// Negative compression must not be reported as a turn under load.
 TEST(EventDetection, F8NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;
@@ -272,8 +271,8 @@ TEST(EventDetection, F8NegativeCompressionIsSaid) {
       << error;
 }
 
-// After a filter neighbouring readings are alike, and what is no press must not become one unsaid. The error
-// of a load may then be told too small, so loads are looked at in the count alone.
+// Filtered noise has correlated neighbours and must not become a press unnoticed. Load errors may then be
+// underestimated, so only counts are checked.
 TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   for (const double noise : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -291,7 +290,7 @@ TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   }
 }
 
-// A recording of samples at one a second, with an angle where it is given.
+// One sample per second, with an optional angle.
 struct Sample {
   double load;
   double angle = 0;
@@ -430,7 +429,7 @@ TEST(EventDetection, AMillionSamplesTakeNoLonger) {
   EXPECT_EQ(difference(press, truth, detect_events(recording)), "");
 }
 
-// Loads are rounded to digits that mean something, which one wild sample must not take from all others.
+// One extreme sample must not coarsen the rounding of all loads.
 TEST(EventDetection, OneSampleFarTooHighLeavesEveryPressItsLoad) {
   const std::filesystem::path file =
       std::filesystem::path(ASPERITY_TEST_DATA) / "../fuzz/corpus/press_recording/one_sample_too_high.csv";

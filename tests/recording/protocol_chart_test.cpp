@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a protocol's chart shows: a recording with what was found in it, recorded times, dwells that add up,
-// or events one by one.
+// Charts of protocols: a recording with its detected events, recorded times, cumulated dwells, or single
+// events.
 #include "engine/recording/protocol_chart.hpp"
 
 #include <numbers>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stray readings on ramps, holds and rests leave the presses of a recording as they were; short presses and
-// sudden releases are not taken for stray.
+// Stray readings leave the presses unchanged; short presses and sudden releases are not stray.
 #include "engine/recording/stray_readings.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +34,7 @@ PressRecording recorded(const std::vector<double>& loads, double step = 1) {
   return recording;
 }
 
-// 20 s of rise to 40 N, 80 s of hold and 20 s of fall, two readings a second.
+// 20 s rise to 40 N, 80 s hold, 20 s fall, two readings per second.
 std::vector<double> one_press() {
   std::vector<double> loads;
   for (int k = 0; k <= 480; ++k) {
@@ -53,7 +52,7 @@ std::vector<std::string> stray_warnings(const Listener& listener) {
   return found;
 }
 
-// One press of 40 N for 80 s, whatever the readings from `first` on are.
+// Replaces readings from `first` on and expects one press of 40 N for 80 s.
 void expect_one_press(std::size_t first, const std::vector<double>& readings) {
   std::vector<double> loads = one_press();
   std::copy(readings.begin(), readings.end(), loads.begin() + static_cast<std::ptrdiff_t>(first));
@@ -105,7 +104,7 @@ std::vector<double> operator+(std::vector<double> a, const std::vector<double>& 
 }
 std::vector<double> times(std::size_t count, double load) { return std::vector<double>(count, load); }
 
-// No reading is called stray, and the presses are these.
+// Expects no stray reading and the presses `wanted`.
 void expect_kept(const std::vector<double>& loads, const std::string& wanted) {
   Listener listener;
   EXPECT_EQ(kinds(detect_events(recorded(loads), {}, listener)), wanted);
@@ -226,7 +225,6 @@ class RandomRecording {
       count += length;
     }
   }
-  // A sensor's greatest reading, zero, or anything between.
   double value() {
     const double kind = uniform(), sign = uniform() < 0.5 ? -1 : 1;
     return kind < 0.25 ? sign * 1e4 * highest_ : kind < 0.5 ? 0 : sign * highest_ * (0.5 + 3 * uniform());

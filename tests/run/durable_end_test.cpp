@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run waits for before its manifest says that it is done: this program's own fsync and rename stand
-// before those of the system and keep the order in which files are brought to the disk.
+// A run's files are on disk before its manifest says done. This program replaces fsync and rename and
+// records their order.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -105,7 +105,7 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   EXPECT_GT(last("sync " + root), said);
 }
 
-// Small results share a file and a wait for the disk: what came since the last one is waited for at the end.
+// Small results share a file and an fsync; the end of the run waits for the last ones.
 TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
@@ -131,7 +131,7 @@ TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone)
   EXPECT_LT(first("sync " + log), last("to " + run.path().string() + "/manifest.json"));
 }
 
-// What it takes to go on after a cut is there before the script begins.
+// Files needed to resume are durable before the script begins.
 TEST_F(DurableEnd, F2ScriptAndManifestAreOnTheDiskFromTheBeginning) {
   RunSetup setup;
   setup.script_name = "s.lua";

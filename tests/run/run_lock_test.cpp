@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lock of a run directory: one holder at a time, named to all others, and none once its process has
-// ended.
+// The lock of a run directory: one holder, named in errors, released when its process ends.
 #include "engine/run/run_lock.hpp"
 
 #include <sys/utsname.h>
@@ -28,7 +27,7 @@ class RunLockTest : public InFolder {
     return "`" + folder.string() + "` is being written by process " + std::to_string(process) + " on " +
            system.nodename;
   }
-  // Another process that holds the lock until it is killed.
+  // A process that holds the lock until killed.
   pid_t holder(const RunLock::Ask& ask = RunLock::ask_system) const {
     int ready[2];
     EXPECT_EQ(::pipe(ready), 0);
@@ -76,7 +75,7 @@ TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// Who has just taken up what a dead process left has not yet written its name.
+// A new holder may not have written its name yet.
 TEST_F(RunLockTest, F1WhoIsNamedLives) {
   const pid_t child = holder();
   kill(child);
@@ -93,7 +92,7 @@ TEST_F(RunLockTest, F1WhoIsNamedLives) {
       "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
 }
 
-// Of many at once one holds it: until all others have been refused.
+// One of many processes succeeds, and holds the lock until all others are refused.
 TEST_F(RunLockTest, F1OfManyOneHasIt) {
   constexpr int comers = 8;
   int until[2];
@@ -152,8 +151,7 @@ TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
                 (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
 }
 
-// What cannot be known of a holder is no sign of its end: behind barriers neither the start of the machine
-// nor the name space of processes can be read, and a signal to another process is not permitted.
+// An unknown holder counts as alive: a sandbox hides boot time and process namespace and forbids signals.
 TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   utsname system{};
   ::uname(&system);
@@ -163,7 +161,7 @@ TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
 }
 
-// F1: a child that works for this process holds the folder as long as either of them.
+// A child process shares the lock; the lock lasts as long as either.
 TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   const std::string held = "bad_state: " + held_by(::getpid());
   std::shared_ptr<RunLock> parent = RunLock::take(folder);
@@ -178,7 +176,7 @@ TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// F1: the child of a holder that was killed dies with it, a moment later.
+// The child of a killed holder dies shortly after.
 TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
@@ -201,7 +199,6 @@ TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// Text that is no name stands for nobody.
 TEST_F(RunLockTest, ATornNameHoldsNothing) {
   for (const char* text : {"", "{\"process\":1", "[]\n", "{}\n", "\n"}) {
     std::ofstream(folder / ".lock") << text;
@@ -232,7 +229,7 @@ TEST_F(RunLockTest, S3AnotherNameOfItsFileKeepsItsBytes) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// The file may be replaced between its opening and the lock.
+// The file may be replaced between opening and locking.
 TEST_F(RunLockTest, OfAFileThatWasReplacedLocksTheNewOne) {
   int asked = 0;
   const std::shared_ptr<RunLock> lock = RunLock::take(folder, [&](int descriptor) {
