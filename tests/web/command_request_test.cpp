@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command reaches a confined process as it was given, whatever bytes are in it.
+// Commands reach a confined process unchanged, with any bytes.
 #include "bindings/web/confined/command_request.hpp"
 
 #include <gtest/gtest.h>

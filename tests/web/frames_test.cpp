@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames that arrive in pieces: taken when they are whole, and refused before they are where they are none.
+// Frames in pieces: accepted when complete, refused early when invalid.
 #include "bindings/web/confined/frames.hpp"
 
 #include <gtest/gtest.h>
