@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of optical instruments: MetroPro, PLU, AL3D, NMS and FRT, whichever the input's first byte names,
-// with the rest of the input as the file. Blocks of FRT and tags of AL3D may lie about their lengths.
+// MetroPro, PLU, AL3D, NMS and FRT: the first byte of the input selects the format, the rest is the file.
+// Stated lengths may be wrong.
 #include <array>
 
 #include "tests/fuzz/height_map.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds a script of the fuzzer: a prelude that takes away what reaches files and library functions
-// that work long without a look at the clock (the program ends the process for those), a clock, and a
-// count of instructions. The limits raise the stop flag, as those of the program do.
+// Limits for fuzzed scripts: a prelude without file access and without long library functions (the program
+// kills the process for these), a clock and an instruction count. Limits raise the stop flag, as in the
+// program.
 #pragma once
 
 #include <chrono>

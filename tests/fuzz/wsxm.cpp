@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WSxM images: a header that says where its numbers begin and what they span.
+// WSxM images: a header with the data's offset and range.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_wsxm(const std::uint8_t* data, std::size_t size) {
