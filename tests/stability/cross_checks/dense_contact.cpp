@@ -71,7 +71,6 @@ class Pivoting {
   double slack_ = 0;  // m: rounding error of the gaps
 };
 
-// Solves for the offset and the pressures of the free nodes: equal gaps and the load.
 void Pivoting::balance() {
   std::vector<Eigen::Index> moving;
   p_ = Eigen::VectorXd::Zero(nodes_);
@@ -82,7 +81,7 @@ void Pivoting::balance() {
   }
   const auto m = static_cast<Eigen::Index>(moving.size());
   const Eigen::VectorXd held = matrix_ * p_;
-  // Scales the offset so that the last row and column match the others in size.
+  // Scales the offset's row and column to the size of the others.
   const double unit = matrix_(0, 0);
   Eigen::MatrixXd a(m + 1, m + 1);
   Eigen::VectorXd b(m + 1);
@@ -122,7 +121,7 @@ At Pivoting::wanted(Eigen::Index k) {
   }
 }
 
-// Moves all nodes to their preferred sets at once. Usually a few pivots, but without the proof for a cap.
+// Moves all nodes to their preferred sets at once: few pivots, but no proof for a cap.
 bool Pivoting::pivot(DenseAnswer& answer) {
   constexpr int together = 60;
   const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding, descend() is safer
@@ -131,7 +130,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
     const std::vector<At> before = at_;
     for (Eigen::Index k = 0; k < nodes_; ++k) {
       at(k) = wanted(k);
-      // After a while, only the first node by number moves, which cannot cycle (Murty 1974).
+      // Later only the first node by number moves, which cannot cycle (Murty 1974).
       if (n >= together && at_ != before) break;
     }
     if (at_ == before) return true;
@@ -142,7 +141,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
   return false;
 }
 
-// Moves pressures to the nearest bounds; nodes with room share the missing load.
+// Clamps pressures to their bounds; nodes with room share the missing load.
 void Pivoting::make_feasible() {
   p_ = p_.cwiseMax(0).cwiseMin(problem_.cap);
   const double carried = p_.sum();
@@ -157,8 +156,8 @@ void Pivoting::make_feasible() {
     at(k) = p_[k] <= 0 ? At::zero : p_[k] >= problem_.cap ? At::cap : At::elastic;
 }
 
-// With every node at a bound, the offset is only bracketed by the gaps of the two sets, unless two nodes
-// should exchange pressure.
+// With every node at a bound, the gaps of the two sets only bracket the offset, unless two nodes should
+// exchange pressure.
 bool Pivoting::let_two_go() {
   gap_ = matrix_ * p_ - problem_.heights;
   Eigen::Index open = -1, full = -1;
@@ -173,8 +172,7 @@ bool Pivoting::let_two_go() {
   return true;
 }
 
-// Active-set method for a convex quadratic programme (Nocedal & Wright 2006, §16.5): feasible throughout,
-// one bound at a time.
+// Active-set method (Nocedal & Wright 2006, §16.5): feasible throughout, one bound at a time.
 bool Pivoting::descend(DenseAnswer& answer) {
   make_feasible();
   for (const int most = answer.pivots + 3000; answer.pivots < most; ++answer.pivots) {

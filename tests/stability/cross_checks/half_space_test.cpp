@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The half-space solver against the dense direct solution on random scenes of up to 24 x 24 cells: elastic,
-// capped and hardening, periodic and free, from light to full contact.
+// The half-space solver against the dense direct solution: elastic, capped and hardening, periodic and
+// free, light to full contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ DenseProblem dense(const Trial& trial, const State& state) {
   problem.boundary = geometry.boundary();
   problem.modulus = contact_modulus(geometry, {}, {}, {});
   problem.heights.resize(static_cast<Eigen::Index>(h.size()));
-  // Heights relative to the highest node keep the digits of light contacts.
+  // Subtracting the highest node keeps the digits of light contacts.
   const double highest = geometry.combined_range().max;
   for (std::size_t k = 0; k < h.size(); ++k) problem.heights[static_cast<Eigen::Index>(k)] = h[k] - highest;
   problem.cap = trial.cap();
@@ -60,7 +60,7 @@ TEST_P(AgainstDense, PressuresAndApproachAgree) {
       worst = std::max(worst, std::abs(p[k] - answer.pressure[static_cast<Eigen::Index>(k)]));
     EXPECT_LE(worst, pressures * peak)
         << script(trial, "seed " + std::to_string(seed) + ", scene " + std::to_string(n), "");
-    // On a periodic flat the approach is zero; the displacement of one cell sets the scale.
+    // A periodic flat has no approach; the displacement of one cell sets the scale.
     const double length =
         std::abs(answer.offset) + peak * std::sqrt(trial.scene.lower.grid().cell_area()) / problem.modulus;
     EXPECT_NEAR(state.approach(), answer.offset, approaches * length) << n;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weierstrass–Mandelbrot heights against the multiprecision sum of their definition
-// (engine/study/exact/weierstrass_mandelbrot_height.hpp), at random nodes and for orders whose phases no
-// hardware float holds.
+// Heights against the multiprecision sum of engine/study/exact/weierstrass_mandelbrot_height.hpp, for
+// orders whose phases no hardware float holds.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every kind of solve is refused for every reason: a stop, too little memory, impossible values, a
-// tolerance below double precision. Each error says what was reached or what to do. The pair keeps its
-// specimens, load and memory, and its next press returns the bits of a pair that was never refused.
+// Every solve is refused for a stop, too little memory, impossible values, and a tolerance below double
+// precision. The error names the result reached or a cure. The pair is unchanged, and its next press
+// returns the same bits as without a refusal.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -77,7 +77,7 @@ std::vector<Path> paths() {
            {PressBy::approach, 1e-6, {}, {2e-6}}}};
 }
 
-// Raises the process's stop flag after a delay, from another thread; the destructor lowers the flag.
+// Raises the process's stop flag after a delay; the destructor lowers the flag.
 class Stopper {
  public:
   explicit Stopper(double seconds)
@@ -112,7 +112,6 @@ class Refusals : public testing::TestWithParam<Path> {
     EXPECT_GT(memory::held(), before);
   }
 
-  // Returns the code of the error, if any, and expects the pair unchanged.
   std::optional<ErrorCode> refused(const PressRequest& request, Monitor& monitor) {
     const std::string lower = pair_.lower().digest(), upper = pair_.upper().digest();
     const bool under_load = pair_.under_load();
@@ -147,7 +146,7 @@ TEST_P(Refusals, AStopAskedForBefore) {
 }
 
 TEST_P(Refusals, AStopAskedForOnTheWay) {
-  // On a busy machine the stopping thread may wake after the press has ended: retry.
+  // On a busy machine the press may end before the stop: retry.
   constexpr std::array shares = {0.05, 0.2, 0.4, 0.6, 0.8};
   constexpr std::size_t tries = 20 * shares.size();
   int times = 0;
@@ -165,7 +164,7 @@ TEST_P(Refusals, AStopAskedForOnTheWay) {
     expect_unharmed();
     ++times;
   }
-  // A small box contact ends before a thread has started.
+  // A small box contact ends before a thread starts.
   const bool boxes = GetParam().scene.elasticity.is<BoxOptions>();
   EXPECT_GE(times, boxes ? 0 : 1);
 }
@@ -214,7 +213,6 @@ TEST_P(Refusals, AToleranceThatNoDoubleMeets) {
   pair_ = SpecimenPair(scene);
   if (const auto code = refused(GetParam().request, Monitor::silent())) {
     EXPECT_EQ(code, ErrorCode::not_converged);
-    // `on_failure` = best returns the best iterate, not marked as converged.
     scene.accuracy.on_failure = Accuracy::OnFailure::best;
     const State best = SpecimenPair(scene).press(GetParam().request);
     EXPECT_FALSE(best.converged());

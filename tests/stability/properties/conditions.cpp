@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact conditions of a state: the certificate, 0 <= p <= H, gap >= 0, the load, no negative energy or
-// plastic volume, no NaN, and valid bounds on the algebraic error. Sums use long double and share no code
-// with the solver.
+// Contact conditions: certificate, 0 <= p <= H, gap >= 0, load, no negative energy or plastic volume, no
+// NaN, valid algebraic bounds. Sums use long double and no code of the solver.
 #include <cmath>
 #include <limits>
 
@@ -14,7 +13,6 @@ namespace {
 
 std::string text(double value) { return exact(value); }
 
-// Scalars of a state under their script names.
 struct Scalar {
   const char* name;
   double (*value)(const State&);
@@ -66,7 +64,7 @@ std::optional<Broken> field_is_wrong(const Trial& trial, const State& state) {
         return Broken{"no pressure passes the hardness", where + " over " + text(trial.cap())};
     }
   }
-  // Throws if a height is not a number.
+  // Throws for a height that is not finite.
   state.deformed("lower");
   state.deformed("upper");
   return {};
@@ -118,7 +116,7 @@ std::optional<Broken> plasticity_is_wrong(const State& state) {
   return {};
 }
 
-// Reference: a solve at tolerance 1e-13, exact within its own bounds.
+// Compares with a solve at tolerance 1e-13, exact within its own bounds.
 std::optional<Broken> bounds_are_wrong(const Trial& trial, const State& state) {
   Trial tight = trial;
   tight.scene.accuracy.tolerance = 1e-13;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a contact. Repeating an event, or a lighter one, changes less than ten times the tolerance of
-// the first change. A load followed by a greater load ends in the state of the greater load alone. Turns
-// without load change nothing. Gaps are accurate to the tolerance times the rms height, so volumes are
-// compared with the larger of the plastic volume and the rms height over the yielded area.
+// Memory of a contact. A repeated or lighter event changes less than ten times the tolerance of the first.
+// A load and a greater load end like the greater load alone. Turns without load change nothing. Volumes are
+// compared with the larger of the plastic volume and the rms height over the yielded area, because gaps are
+// accurate to the tolerance times the rms height.
 #include <cmath>
 #include <limits>
 
@@ -43,7 +43,7 @@ Verdict turns_change_nothing(const Trial& trial, const Stream& stream) {
 }
 
 constexpr double allowed = 10;  // tolerances
-// An rms this small relative to the approach is the rounding of a flat.
+// An rms height this small, relative to the approach, is rounding of a flat.
 constexpr double flat = 1e-3;
 
 double greatest(const Surface& surface) {
@@ -51,8 +51,7 @@ double greatest(const Surface& surface) {
   return std::max(std::abs(heights.min), std::abs(heights.max));
 }
 
-// Volume below which a solve cannot detect yielding: the gap tolerance and the rounding of heights, over
-// the area at its hardness.
+// Smallest detectable plastic volume: gap tolerance and rounding of heights, over the yielded area.
 double unseen(const Trial& trial, const State& state) {
   const double rms = rms_height(state), length = rms > flat * state.approach() ? rms : state.approach();
   const double ground = state.plastic_fraction() * state.geometry().grid().area();
@@ -68,11 +67,11 @@ Trial taking_the_best(const Trial& trial) {
   return result;
 }
 
-// Flattened heights may be too even to reach the tolerance in double precision: then nothing is compared.
+// Flattened heights may be too even for the tolerance: nothing is compared.
 std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double pressure,
                             std::optional<State>& state) {
   Trial pressed = trial;
-  pressed.scene = pair.scene();  // the current heights
+  pressed.scene = pair.scene();  // current heights
   state = pair.press(under(pressure));
   if (state->converged()) return {};
   if (doubles_hold_no_more(pressed, *state)) {
@@ -82,7 +81,7 @@ std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double press
   return Broken{"the certificate is met", exact(state->residual()) + " by " + std::string(state->solver())};
 }
 
-// A load greater by one ulp has no predicted result: its change of the surface is the error of both solves.
+// One ulp more load has no predicted result: the change is the error of both solves.
 Verdict the_ground_fits(const Trial& trial, SpecimenPair pair, const State& first) {
   std::optional<State> again;
   const double more = std::nextafter(trial.pressure, std::numeric_limits<double>::infinity());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Predictions of `explain` against presses by pressure, approach and flattening on tiles of up to 256 cells
-// a side, cell aspects up to 1000, elastic, capped and hardening; and on elastic bodies with adhesion.
-// Trials are not counted as cost and leave the pair unchanged. A trial on all cells predicts the exact
-// number of transforms. Of 1800 scenes (150 each of seeds 1, 5 to 8, 41, 42, 51 and 53 to 56), in percent,
+// Predictions of `explain` against presses on tiles of up to 256 cells a side, cell aspects up to 1000:
+// elastic, capped, hardening, and elastic with adhesion. Trials cost nothing and leave the pair unchanged;
+// a trial on all cells predicts the exact number of transforms. Of 1800 scenes (150 each of seeds 1, 5 to
+// 8, 41, 42, 51 and 53 to 56), in percent,
 //
 //                                             within a factor of two   under a quarter
 //     by pressure, 1798 presses               100                      0
@@ -10,22 +10,14 @@
 //     by flattening, 1674                     99.8                     0
 //     of bodies that attract, 744             99.9                     0
 //
-// The bar does not hold on tiles of up to 1000 cells a side (749 presses, 120 scenes each of seeds 61 and
-// 62, cells=1000), some predicted from coarser grids: 98.3, 96.2, 93.7 and 100 within a factor of two; 0.4,
-// 1.3, 1.3 and 0 under a quarter. Trials on at most 96² cells test the coarse prediction (150 scenes each
-// of seeds 41 and 42, all tiles and larger tiles),
-//
-//     by pressure, 300 and 115 presses        98.0, 94.8               0, 0
-//     by approach, 288 and 117                97.6, 94.0               0.3, 0.9
-//     by flattening, 277 and 105              96.0, 89.5               0.4, 1.0
-//     of bodies that attract, 107 and 23      98.1, 95.7               0, 0
-//
-// Presses under a quarter stall on the full grid only; `explain` states their rate. White noise, spikes and
-// few peaks have the largest errors.
+// Of tiles of up to 1000 cells a side (seeds 61 and 62, cells=1000), some predicted from coarser grids,
+// 93.7 to 100 % are within a factor of two and 0 to 1.3 % under a quarter: the bar does not hold. Coarse
+// trials alone, at most 96² cells (seeds 41 and 42): 96.0 to 98.1 % and 0 to 0.4 %, for larger tiles 89.5
+// to 95.7 % and 0 to 1.0 %. White noise, spikes and few peaks have the largest errors.
 //
 //   ASPERITY_FIT=1 test_properties family=explain scenes=300 seed=31
 //
-// prints the shares and the best-fitting constants a, b of engine/accuracy/expected_transforms.cpp.
+// prints the shares and the best constants a, b of engine/accuracy/expected_transforms.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,12 +43,12 @@ namespace {
 struct Pressed {
   ExpectedTransforms expected, by_few_cells;
   double taken = 0;
-  bool fewer = false;  // the tile has more cells than the coarse trial
+  bool fewer = false;  // the tile exceeds the coarse trial
 };
 double octaves(const ExpectedTransforms& expected, double taken) {
   return std::log2(std::max(expected.transforms, 1.0) / std::max(taken, 1.0));
 }
-// Predictions for one control, and the required shares of larger tiles from coarse grids.
+// Predictions for one control, and required shares for larger tiles by coarse trials.
 struct Controls {
   const char* name;
   double within_two, under_a_quarter;
@@ -70,13 +62,12 @@ std::array<Controls, 4>& by_control() {
                                             {"pressure or approach of bodies that attract", 0.9, 0.02}}};
   return of_run;
 }
-// Required of all tiles by coarse trials; `bar` is required of `explain`, which must never be under a
-// quarter.
+// Required of all tiles by coarse trials; `explain` itself must reach `bar`, never under a quarter.
 constexpr double within_two_of_all = 0.9, under_a_quarter_of_all = 0.015, bar = 0.9;
-// Allowed deviation of a run's count, in standard deviations.
+// Allowed deviation in standard deviations.
 constexpr double deviations = 3;
 
-// `known`: a state whose press need not be repeated.
+// A `known` state replaces the press.
 Verdict foretell(const Scene& scene, PressBy by, double value, const State* known,
                  std::vector<Pressed>& presses) {
   const PressRequest request{by, value, {}};
@@ -95,7 +86,7 @@ Verdict foretell(const Scene& scene, PressBy by, double value, const State* know
   try {
     now.taken =
         known != nullptr ? known->cost().total.transforms : pair.press(request).cost().total.transforms;
-  } catch (const Error&) {  // the family `controls` tests refusals
+  } catch (const Error&) {  // `controls` tests refusals
     return {};
   }
   presses.push_back(now);
@@ -105,7 +96,7 @@ Verdict foretell(const Scene& scene, PressBy by, double value, const State* know
                 exact(now.taken) + " transforms, and " + exact(now.expected.transforms) + " were said", line};
 }
 
-// None if a press misses its tolerance: other families test this.
+// Other families test missed tolerances.
 std::optional<State> pressed_if_solved(const Trial& trial) {
   try {
     return pressed(trial);
@@ -115,8 +106,8 @@ std::optional<State> pressed_if_solved(const Trial& trial) {
   }
 }
 
-// The same bodies with adhesion whose range is of the order of the roughness; few, nearly square cells
-// only, because such presses take thousands of transforms.
+// Adds adhesion with a range of the order of the roughness. Few, nearly square cells: such presses take
+// thousands of transforms.
 Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_t salt) {
   constexpr double most_nodes = 150 * 150, tolerance = 1e-6;
   const Grid& grid = trial.scene.lower.grid();
@@ -137,7 +128,7 @@ Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_
     if (Verdict verdict = foretell(scene, PressBy::pressure, trial.pressure, nullptr, presses))
       return verdict;
     return foretell(scene, PressBy::approach, state.approach(), nullptr, presses);
-  } catch (const Error& error) {  // refused: the adhesion is too strong
+  } catch (const Error& error) {  // adhesion too strong
     if (error.code() != ErrorCode::bad_value) throw;
     return {};
   }

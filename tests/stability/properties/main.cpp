@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties of contacts over random scenes. A scene that breaks a property is reduced while it still
-// breaks it, then printed as a script.
+// Properties of contacts over random scenes. A failing scene is reduced and printed as a script.
 //
 //   test_properties                              every family, as many scenes each as in CI
 //   test_properties family=events scenes=100000  one family for a night
 //   test_properties family=events seed=7 first=42 scenes=1   one scene again
 //   test_properties family=explain cells=1000 scenes=120     tiles of up to so many cells a side
 //
-// ASPERITY_SCENES and ASPERITY_SEED are defaults of scenes= and seed=. ASPERITY_SHARE=0.05 runs a twentieth
-// of each family's scenes in CI, 2.5 runs two and a half times as many.
+// Defaults: ASPERITY_SCENES for scenes=, ASPERITY_SEED for seed=. ASPERITY_SHARE=0.05 runs a twentieth of
+// CI's scenes.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -109,7 +108,6 @@ Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   return failure;
 }
 
-// Returns the number of scenes that break a property.
 int run(const Family& family, const Settings& settings) {
   constexpr int shown_of_each = 1;
   const double begin = seconds();

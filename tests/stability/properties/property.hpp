@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A family of properties of every contact, checked on one random scene at a time. A check returns the first
-// broken property; a thrown Error counts as broken.
+// A property of every contact, checked on random scenes. A check returns the first broken property; a
+// thrown Error is a failure.
 #pragma once
 
 #include <algorithm>
@@ -22,36 +22,34 @@ namespace asperity::stability {
 struct Broken {
   std::string property;  // unchanged while a scene is reduced
   std::string how;       // with numbers
-  std::string lines{};   // Lua that shows the failure, after `c` and `st` of the script
+  std::string lines{};   // Lua after `c` and `st` of the script
 };
 using Verdict = std::optional<Broken>;  // none: all hold
 
 struct Family {
   const char* name;
   Wanted wanted;
-  // `salt` seeds the check's own draws: equal for a scene and its reductions.
+  // `salt` seeds the check's own draws, equal for a scene and its reductions.
   Verdict (*check)(const Trial& trial, std::uint64_t salt);
   int scenes;  // per run
-  // Property of all scenes of a run together; may print statistics.
+  // Property of a whole run; may print statistics.
   Verdict (*after)() = nullptr;
 };
 
-// False while a scene is reduced, so that `after` ignores it.
+// False while a scene is reduced.
 extern bool counts_scenes;
-// Number of the scene being checked, for printing.
 extern std::uint64_t scene_in_turn;
 
 extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
     explain;
 
-// A fresh contact under the trial's pressure. Throws BeyondDoubles if rounding prevents its tolerance.
+// A fresh contact. Throws BeyondDoubles if rounding prevents the tolerance.
 inline State pressed_by(const Scene& scene, double pressure) {
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 inline State pressed(const Scene& scene, double pressure);
 inline State pressed(const Trial& trial) { return pressed(trial.scene, trial.pressure); }
 
-// Thrown for a scene that double precision cannot resolve.
 struct BeyondDoubles {};
 
 inline double rms_height(const State& state) {
@@ -63,7 +61,7 @@ inline double rms_height(const State& state) {
 }
 
 // Whether a solve ended at rounding level. Gaps are differences of displacements, heights and plastic
-// displacements (pressure differences over the hardening); the certificate weights them by H/p̄ for a
+// displacements (pressure differences over the hardening); the certificate weights gaps by H/p̄ for a
 // distant hardness.
 inline bool doubles_hold_no_more(const Trial& trial, const State& state) {
   constexpr double ends_within = 100;  // times rounding; measured 63
@@ -93,8 +91,7 @@ inline State pressed(const Scene& scene, double pressure) {
   }
 }
 
-// Heights of the upper body in the lower frame, without turn or shift, and back: columns are exchanged.
-// Empty under a flat.
+// Exchanges columns: upper heights to the lower frame, and back. Empty under a flat.
 inline Field turned_over(const Field& heights) {
   Field result(heights.nx(), heights.ny());
   for (int j = 0; j < heights.ny(); ++j)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rescaling lengths, moduli and loads by powers of two changes only the exponents of a state's numbers.
+// Powers of two in lengths, moduli and loads change only exponents.
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A trial: a random scene and its mean pressure, drawn by key from a seed; its simpler neighbours, used to
-// reduce a failing scene; and its Lua script. The shortest decimals that restore every bit print the
-// heights.
+// A trial: a random scene and its mean pressure, drawn by key from a seed; simpler neighbours for
+// reduction; and a Lua script, whose decimals restore every bit.
 #pragma once
 
 #include <cstdint>
@@ -21,40 +20,37 @@ struct Trial {
 
   bool half_space() const { return scene.elasticity.is<HalfSpaceOptions>(); }
   bool rough_pair() const { return std::holds_alternative<Surface>(scene.upper); }
-  // Smaller hardness of the two bodies, Pa; infinite without plasticity.
+  // Smaller hardness of both bodies, Pa; infinite without plasticity.
   double hardness() const;
   bool hardens() const;
-  // Upper bound of the pressure, Pa: the hardness unless the material hardens.
+  // Upper bound of the pressure, Pa: the hardness, without hardening.
   double cap() const;
 };
 
-// Constraints of a family on its scenes.
 struct Wanted {
   enum class Model { any, box, half_space };
   Model model = Model::any;
   bool yields = false;  // every scene has a finite hardness
   bool pair = false;    // two rough bodies
   std::optional<double> tolerance{};
-  double lightest = 1e-12, heaviest = 1e3;  // relative to the pressure that about flattens the roughness
+  double lightest = 1e-12, heaviest = 1e3;  // relative to the pressure of full flattening
   int most_cells = 48;                      // per side
-  double longest = 1.5;                     // greatest |log10| of the cell aspect ratio
+  double longest = 1.5;                     // greatest |log10| of the cell aspect
 };
 
 // Scene `index` of a seed, independent of earlier draws.
 Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted);
 
-// Simpler neighbours, largest simplification first: fewer cells, one body, no yielding, plainer heights,
-// rounder numbers.
+// Simpler neighbours, largest simplification first.
 std::vector<Trial> simpler(const Trial& trial);
 
-// A Lua script that builds the scene bit for bit, presses it and runs `lines`; `comment` is its first line.
+// Lua: builds the scene bit for bit, presses, runs `lines`; `comment` is the first line.
 std::string script(const Trial& trial, const std::string& comment, const std::string& lines);
 
 // The shortest decimal that restores every bit.
 std::string exact(double value);
 
-// The scene with other heights or another grid. `upper` is used only for a rough upper body; each field is
-// in its body's own frame.
+// Other heights or grid, each field in its body's frame; `upper` is for a rough upper body only.
 Scene with_heights(const Scene& scene, const Grid& grid, Field lower, Field upper);
 
 }  // namespace asperity::stability

@@ -25,7 +25,7 @@ Field window(const Field& field, int x, int y, int nx, int ny) {
   return result;
 }
 
-// The window from (x, y), with unchanged cell size. The upper body keeps the heights above the window.
+// The window from (x, y) with the same cell size, in both bodies.
 Trial cropped(const Trial& trial, int x, int y, int nx, int ny) {
   const Grid& old = trial.scene.lower.grid();
   const Grid grid = make_grid(nx, ny, nx * old.hx(), ny * old.hy());
@@ -94,12 +94,11 @@ void plainer_heights(const Trial& trial, std::vector<Trial>& found) {
   found.push_back(with_each_height(trial, [](double) { return 0.0; }));
   for (const int bits : {1, 3, 6, 12, 24})
     found.push_back(with_each_height(trial, [=](double z) { return rounded(z, greatest, bits); }));
-  // Heights below the middle become equal.
   const double middle = 0.5 * (lower.min + lower.max);
   found.push_back(with_each_height(trial, [=](double z) { return z < middle ? lower.min : z; }));
 }
 
-// Changes the units of length, modulus and pressure, then uses as few digits as possible.
+// Changes units, then reduces digits.
 void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
   const Grid& grid = trial.scene.lower.grid();
   const auto rescaled = [&](double length, double stress) {
