@@ -36,7 +36,7 @@ TEST(Al3d, HeightsAreMetresLineByLine) {
   EXPECT_EQ(s.grid(), (Grid{4, 2, 4e-6, 4e-6}));
   EXPECT_EQ(s.height(1, 1), static_cast<double>(2e-6F));
   EXPECT_EQ(s.height(0, 0), static_cast<double>(5e-6F));
-  EXPECT_TRUE(std::isnan(s.height(1, 0)));  // single precision reads the rounded text
+  EXPECT_TRUE(std::isnan(s.height(1, 0)));  // rounded in the text
   EXPECT_TRUE(std::isnan(s.height(3, 0)));
   EXPECT_EQ(s.measured(), 6U);
 }

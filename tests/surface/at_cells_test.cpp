@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Changing the cells of a surface: generators are run again, operations preserve the recipe, other surfaces
-// are sampled or interpolated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +20,7 @@
 namespace asperity::at_cells_test {
 namespace {
 
-// Greatest difference at common nodes, relative to the peak-to-valley height.
+// At common nodes, relative to the peak-to-valley height.
 double difference(const Surface& coarse, const Surface& fine) {
   const int step_x = fine.grid().nx / coarse.grid().nx, step_y = fine.grid().ny / coarse.grid().ny;
   double worst = 0;
@@ -132,7 +130,7 @@ TEST(AtCells, BlastedSurfaceIsTheSameUpToItsSums) {
 
 TEST(AtCells, SelfAffineOfTooFewCellsIsSampledInstead) {
   const Surface surface = self_affine_surface(self_affine(96));
-  const AtCells coarse = at_cells(surface, 24, 24);  // under two cells per wave
+  const AtCells coarse = at_cells(surface, 24, 24);  // under two per wave
   EXPECT_EQ(coarse.how, AtCells::How::sampled);
   EXPECT_EQ(difference(coarse.surface, surface), 0);
   EXPECT_NE(coarse.surface.recipe(), nullptr);

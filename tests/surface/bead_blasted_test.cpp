@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bead-blasted surfaces: the shape of one dent, exact requested numbers, grid independence, and refusals.
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/core/constants.hpp"
 
@@ -77,7 +76,7 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
   const BeadBlastedOptions options = one_dent();
   const Surface s = bead_blasted_surface(options);
   const Field& z = s.heights();
-  // The dent's centre is the deepest node; the undisturbed surface has height `ground`.
+  // The deepest node is the dent's centre; the surroundings have height `ground`.
   std::size_t deepest = 0;
   for (std::size_t k = 0; k < z.size(); ++k)
     if (z[k] < z[deepest]) deepest = k;
@@ -89,22 +88,21 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
   };
   const double ground = at(200e-6, 0);
   EXPECT_NEAR(at(0, 200e-6), ground, 1e-6 * (ground - z[deepest]));
-  // Depth before scaling: a²/2R; the rim's height at the centre, 4e-15 of its crest, is neglected.
+  // Depth a²/2R; the rim's height at the centre is 4e-15 of its crest.
   const double depth = 40e-6 * 40e-6 / (2 * 125e-6);
   const double scale = (ground - z[deepest]) / depth;
-  // Crest c: c · ∫ rim = half of the paraboloid's volume, π a⁴/8R.
+  // c · ∫ rim = half of the paraboloid's volume, π a⁴/8R.
   const double a = 40e-6, width = 0.2 * a, radius = 1.15 * a;
   const double rim_area = 2 * pi * radius * width * std::sqrt(pi);
   const double crest = 0.5 * pi * std::pow(a, 4) / (8 * 125e-6) * 2 / rim_area;
   for (const double r : {5e-6, 10e-6, 20e-6, 30e-6, 40e-6, 46.25e-6, 52.5e-6, 60e-6, 75e-6}) {
     const double floor = std::min(0.0, (r * r - a * a) / (2 * 125e-6));
     const double rim = crest * std::exp(-std::pow((r - radius) / width, 2));
-    // The centre is within half a cell of the deepest node: r is known to 0.9 µm; slopes reach 0.4.
+    // The centre is within half a cell of the deepest node (0.9 µm); slopes reach 0.4.
     EXPECT_NEAR((at(r, 0) + at(-r, 0) + at(0, r) + at(0, -r)) / 4 - ground, scale * (floor + rim),
                 0.02 * scale * depth)
         << r;
   }
-  // Half of the removed volume is piled up.
   double below = 0, above = 0;
   for (const double height : z.values()) (height < ground ? below : above) += height - ground;
   EXPECT_LT(above, -below);
@@ -112,7 +110,7 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
 }
 
 TEST(BeadBlasted, DentsWrapRoundTheTile) {
-  // The variance of a surface with one wrapped dent does not depend on the dent's position.
+  // The position of one wrapped dent does not change the variance.
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     BeadBlastedOptions options = one_dent(200, 200);
@@ -125,7 +123,7 @@ TEST(BeadBlasted, DentsWrapRoundTheTile) {
 }
 
 TEST(BeadBlasted, AFinerGridIsTheSameSurface) {
-  // At common nodes, grids differ by the sampling error of sums, which falls with the cell size.
+  // Common nodes differ by the sampling error of sums, which falls with the cell size.
   for (const bool fine : {true, false}) {
     BeadBlastedOptions options = example(64, 80);
     if (fine)
@@ -161,12 +159,12 @@ TEST(BeadBlasted, SeedsDiffer) {
 }
 
 TEST(BeadBlasted, TheTextureIsItsShareOfRa) {
-  // Texture before the final scaling by c: surface = c (dents + texture).
+  // Final scaling: surface = c (dents + texture).
   BeadBlastedOptions options = example();
   const Surface with = bead_blasted_surface(options);
   options.fine.reset();
   const Surface without = bead_blasted_surface(options);
-  // Dents and texture are independent: c is the least-squares share of the dents.
+  // c: least-squares share of the dents, which are independent of the texture.
   double cross = 0, square = 0;
   for (std::size_t k = 0; k < with.heights().size(); ++k) {
     cross += with.heights()[k] * without.heights()[k];
@@ -188,7 +186,7 @@ TEST(BeadBlasted, TheNumberOfDentsIsRounded) {
 }
 
 TEST(BeadBlasted, SameBitsForAnyNumberOfThreads) {
-  // 1200 cells over three dents: threads share the rows of a dent.
+  // Threads share the rows of a dent.
   BeadBlastedOptions options = example(1200, 1100);
   options.fine.reset();
   set_thread_count(1);
@@ -200,12 +198,12 @@ TEST(BeadBlasted, SameBitsForAnyNumberOfThreads) {
 
 TEST(BeadBlasted, SmallTilesAndOblongCells) {
   BeadBlastedOptions options = example(16, 40);
-  options.grid.size_x = 60e-6;  // a dent overlaps itself
+  options.grid.size_x = 60e-6;  // overlaps itself
   options.grid.size_y = 90e-6;
   options.fine.reset();
   const Surface s = bead_blasted_surface(options);
   EXPECT_NEAR(mean_magnitude(s), 3e-6, 3e-18);
-  options = example(400, 40);  // cells of 1.25 x 12.5 µm
+  options = example(400, 40);  // 1.25 x 12.5 µm
   options.fine.reset();
   EXPECT_NEAR(mean_magnitude(bead_blasted_surface(options)), 3e-6, 3e-18);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readers allocate for the bytes of a file, never for the size its header claims.
+// Memory follows the bytes of a file, never its header.
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/surface/io/read.hpp"
@@ -30,7 +30,7 @@ std::string x3p_of(const std::string& cells, const std::string& points,
       claimed);
 }
 
-// Reads the bytes with 128 KiB of counted memory.
+// Limit: 128 KiB of counted memory.
 std::optional<Error> refusal(const std::string& bytes, const std::string& format = "") {
   const std::int64_t before = memory::held();
   memory::set_limit(before + 131072);
@@ -76,7 +76,7 @@ TEST(Claims, PointsThatSpanALatticeDoNotMakeIt) {
   EXPECT_NE(error->sentence().find("200 points for 200 x 200 places"), std::string::npos) << error->what();
 }
 
-// 40,000 empty elements compress well, but their tree would exceed the memory limit.
+// Empty elements compress well; their tree exceeds the limit.
 TEST(Claims, TheTreeOfMainXmlIsCountedAndBounded) {
   std::string xml = "<X>";
   for (int k = 0; k < 40000; ++k) xml += "<a/>";

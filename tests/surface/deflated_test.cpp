@@ -27,7 +27,6 @@ TEST(Gzip, AFileInsideIsReadAsItIs) {
   EXPECT_EQ(read_profile(SourceFile("a.csv.gz", gzipped("x [mm],z [um]\n0,1\n1,2\n2,4\n"))).size(), 3);
 }
 
-// The extension before .gz decides: .xyz means points.
 TEST(Gzip, TheEndingBeforeGzCounts) {
   EXPECT_EQ(inside_gzip(SourceFile("a.XYZ.gz", gzipped("1")), Monitor::silent())->extension(), "xyz");
   EXPECT_EQ(inside_gzip(SourceFile("a.gz", gzipped("1")), Monitor::silent())->extension(), "");

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Helpers for tests of readers and writers: scratch folders, files from bytes, uncompressed zip archives,
-// optional measured files, errors as values.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -56,7 +54,7 @@ inline std::string sample(const std::string& name) {
   return std::string(ASPERITY_TEST_DATA) + "/../data/" + name;
 }
 
-// Path in the folder ASPERITY_MEASURED; empty if unset.
+// Path below ASPERITY_MEASURED; empty if unset.
 inline std::string measured(const std::string& name) {
   const char* const directory = std::getenv("ASPERITY_MEASURED");
   return directory == nullptr || *directory == '\0' ? std::string() : std::string(directory) + "/" + name;
@@ -83,8 +81,8 @@ std::string raw(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-// Passes truncated copies and copies with flipped bytes (keyed by `seed`) to `attempt`, which must return
-// or throw Error.
+// Passes truncated copies, and copies with flipped bits keyed by `seed`, to `attempt`, which must return or
+// throw Error.
 template <class Attempt>
 void damage(const std::string& whole, std::uint64_t seed, int flips, Attempt&& attempt) {
   const auto harmless = [&](const std::string& bytes, const std::string& what) {

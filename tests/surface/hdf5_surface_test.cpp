@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces in HDF5 files, of this program and of others, and their XDMF files.
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
 
 #include <gtest/gtest.h>

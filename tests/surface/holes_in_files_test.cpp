@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Missing points survive writing and reading: equal holes and, in double formats, equal bits. Also: other
-// programs' marks for missing points, and marks that contradict heights.
+// Missing points in files: equal holes and, in double formats, equal bits; marks of other programs;
+// contradictory marks.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -147,7 +147,7 @@ TEST(HolesInFiles, FilesSayHowManyPointsAreMissing) {
   EXPECT_EQ(*content.number("not_measured"), 7);
 }
 
-// Each format's mark for a missing second point of the first stored line.
+// The second point of the first stored line is missing.
 TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
   struct Example {
     std::string name, bytes;
@@ -208,7 +208,7 @@ TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
   }
 }
 
-// X3P marks holes by NaN; checksums cover the stored entries.
+// X3P: NaN without a mask; checksums cover the stored entries.
 TEST(HolesInFiles, ChecksumsOfX3pAreRight) {
   const Scratch scratch;
   write_surface(holed(Holes::scattered), scratch.path("a.x3p"));
@@ -230,7 +230,7 @@ TEST(HolesInFiles, ChecksumsOfX3pAreRight) {
   EXPECT_EQ(xml.find("ValidPoints"), std::string::npos);
 }
 
-// GWY marks holes by a mask, explained in the metadata.
+// GWY: a mask over the mean, explained in the metadata.
 TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
   const Scratch scratch;
   const Surface surface = holed(Holes::corners);
@@ -242,7 +242,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
     EXPECT_NE(at, std::string::npos) << from;
     return bytes.replace(at, from.size(), to);
   };
-  // Without the metadata, the mask is an ordinary mask and the points have the mean.
+  // An unexplained mask is ordinary: its points have the mean.
   testing::Warnings warnings;
   const Surface taken = read_surface(SourceFile("a.gwy", with("Not measured", "Not Measured")), {}, warnings);
   EXPECT_TRUE(taken.complete());
@@ -251,7 +251,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
   EXPECT_NEAR(taken.height(0, 0), sum / static_cast<double>(surface.measured()), 1e-20);
   ASSERT_EQ(warnings.all.size(), 1U);
   EXPECT_NE(warnings.all[0].find("has a mask, which is not applied"), std::string::npos);
-  // A mask edited by another program no longer matches the metadata.
+  // The changed mask no longer matches the metadata.
   EXPECT_EQ(
       message_of([&] { read_surface(SourceFile("a.gwy", with("4 points", "5 points"))); }),
       "\"a.gwy\" says of the map 0 \"height\" that it was not measured at \"5 points, those under th...\", "
@@ -265,7 +265,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
                   [](const std::string& bytes) { read_surface(SourceFile("a.gwy", bytes)); });
 }
 
-// HDF5 marks holes by NaN or, as in netCDF, by a fill-value attribute.
+// HDF5: NaN or a fill-value attribute, as in netCDF.
 TEST(HolesInFiles, FillValuesOfHdf5AreHoles) {
   ReadOptions options;
   options.size_x = options.size_y = 1e-3;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// One square hole with sides of `share` of the map.
+// A square hole, `share` of each side.
 template <class Height>
 Field with_hole(int n, double share, Height&& height) {
   Field field(n, n);
@@ -34,7 +34,7 @@ double worst(const Field& a, const Field& b) {
   return most;
 }
 
-// Greatest residual of the five-point Laplacian over missing nodes.
+// Five-point Laplacian over missing nodes.
 double worst_residual(const Field& before, const Field& after) {
   double most = 0;
   for (int j = 0; j < after.ny(); ++j)
@@ -59,7 +59,7 @@ TEST(Holes, IterationsDoNotGrowWithTheHole) {
   }
 }
 
-// i^2 - j^2, i j and i^3 - 3 i j^2 are harmonic for the five-point Laplacian.
+// These polynomials are harmonic for the five-point Laplacian too.
 TEST(Holes, HarmonicFunctionsComeBack) {
   const int n = 301;
   const auto height = [](int i, int j) {
@@ -109,7 +109,7 @@ TEST(Holes, ScatteredPointsLinesAndRims) {
   }
 }
 
-// The solution is a straight line between both ends.
+// The solution is a straight line.
 TEST(Holes, OneRowAndOneColumn) {
   const int n = 4097;
   for (const bool upright : {false, true}) {

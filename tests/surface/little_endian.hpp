@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Instrument files for tests, built from the published layouts without the code under test.
+// Instrument files built from published layouts, without the code under test.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Optical instruments' files for tests, built from the published layouts without the code under test; and
-// zlib compression.
+// Optical instruments' files from published layouts, without the code under test; zlib compression.
 #pragma once
 
 #include <zlib.h>
@@ -34,7 +33,7 @@ inline std::string deflated_as(std::string_view plain, int window) {
 inline std::string gzipped(std::string_view plain) { return deflated_as(plain, MAX_WBITS + 16); }
 inline std::string zlib_packed(std::string_view plain) { return deflated_as(plain, MAX_WBITS); }
 
-// A compressed Digital Surf object: lengths of the pieces, then the pieces.
+// Lengths of the pieces, then the pieces.
 inline std::string sur_pieces(const std::vector<std::string>& plain) {
   Bytes b;
   b.put(static_cast<std::uint32_t>(plain.size()));
@@ -92,7 +91,7 @@ struct PluExample {
   }
 };
 
-// Each line of heights is padded with `pad` bytes.
+// `pad` bytes follow each line.
 struct Al3dExample {
   std::vector<std::pair<std::string, std::string>> tags{{"Cols", "4"},
                                                         {"Rows", "2"},

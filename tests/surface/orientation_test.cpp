@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Orientation: y points up, whichever line a file stores first. Samples of every format fix the line of j =
-// 0; writers match their readers; masks follow the heights; traces keep their order.
+// y points up, whichever line a file stores first; masks follow the heights.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +41,7 @@ std::string npy_example(const std::vector<double>& heights) {
   return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + head + "\n" + raw(heights);
 }
 
-// Lines 1 2 3 and 4 5 6 in file order, in every map format.
+// 1 2 3 and 4 5 6 in file order.
 std::map<std::string, std::string> maps_of_two_lines() {
   using namespace testing;
   const std::vector<double> six{1, 2, 3, 4, 5, 6};
@@ -112,7 +111,7 @@ TEST(Orientation, EveryFormatNamesItsSource) {
   }
 }
 
-// Not square, with oblong cells, holes that distinguish all corners, and the maximum on the top line.
+// Oblong cells, holes that distinguish all corners, maximum on the top line.
 Surface marked(int nx, int ny) {
   Field z(nx, ny);
   for (int j = 0; j < ny; ++j)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text headers: reliable entries are used, others ignored; doubtful tables are refused with the missing
-// information.
+// Reliable entries of text headers are used, others ignored; doubtful tables are refused.
 #include "engine/surface/io/own_head.hpp"
 
 #include "engine/surface/io/read.hpp"
@@ -83,7 +82,7 @@ TEST(OwnHead, CountsThatContradictTheTableAreRefused) {
 
 TEST(OwnHead, ASpacingIsThatOfNodesAndALengthThatContradictsItIsRefused) {
   const std::string rest = std::string("dy 20 um\ncolumns 3\nZ unit nm\n") + map;
-  for (const char* length : {"20 um", "30 um"})  // between outer nodes, or over all cells
+  for (const char* length : {"20 um", "30 um"})  // between outer nodes; of all cells
     EXPECT_NEAR(surface_of("Profiler\ndx 10 um\nX Range: " + std::string(length) + "\n" + rest).grid().size_x,
                 30e-6, 1e-18);
   EXPECT_NE(message_of([&] {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums of plane waves against the direct sum in long double.
 #include "engine/surface/generators/plane_waves.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +41,7 @@ Field sum(const std::vector<PlaneWave>& waves, int nx, int ny) {
   return sum_of_plane_waves(nx, ny, waves, Monitor::silent(), "waves");
 }
 
-// About twenty places along a side, including both ends.
+// About twenty places, including both ends.
 std::vector<int> probes(int n) {
   std::vector<int> places;
   for (int k = 0; k < n; k += std::max(1, n / 19)) places.push_back(k);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading in general: format recognition, missing information, holes and bad paths. Each format has its own
-// test.
+// Format recognition, missing information, holes and bad paths; each format has its own test.
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/format.hpp"
 
@@ -154,7 +153,7 @@ TEST(Read, HolesStayHolesUnlessFilled) {
 }
 
 TEST(Read, InterpolationContinuesPlanesThroughHoles) {
-  // A plane is harmonic for any cell shape; all holes are interior.
+  // A plane is harmonic on cells of any shape; all holes are interior.
   const Scratch scratch;
   std::string text;
   for (int j = 0; j < 30; ++j) {
@@ -195,7 +194,6 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
   ReadProfileOptions only_unit;
   only_unit.unit = 1e-6;
-  // Heights and positions have separate units.
   EXPECT_NE(message_of([&] {
               read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
             }).find("does not say the unit of its positions; give `unit_xy` in the call"),
@@ -229,7 +227,6 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
 }
 
-// Two columns under a header are a trace, read as a profile or as a surface.
 TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
   for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
                            "Position [mm];Height [um]\n"}) {
@@ -253,7 +250,7 @@ TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
             std::string::npos);
 }
 
-// An implausible size indicates a wrong header or unit.
+// An implausible size reveals a wrong header or unit.
 TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
   const auto warnings = [](const std::string& text, const ReadOptions& options) {
     testing::Warnings heard;
@@ -290,7 +287,7 @@ TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
   }
 }
 
-// A sparse file is refused without reading.
+// Refused without reading the sparse file.
 TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
   const std::string path = scratch.write("large.npy", "\x93NUMPY");
@@ -312,7 +309,7 @@ TEST(Read, LimitOfCells) {
             std::string::npos);
   ReadProfileOptions options;
   options.spacing = options.unit = 1;
-  EXPECT_EQ(read_profile(path, options).size(), 65537);  // a trace may exceed the limit of a map
+  EXPECT_EQ(read_profile(path, options).size(), 65537);  // traces may exceed the limit
 }
 
 TEST(Read, MeasuredFilesThatAreNotWhatTheyClaim) {

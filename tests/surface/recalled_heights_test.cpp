@@ -38,7 +38,6 @@ WeierstrassMandelbrotOptions fractal() {
 
 using Make = std::function<Surface(Monitor&)>;
 
-// Stored heights return the same surface, also on other cells.
 void expect_the_same_again(const Make& make, int kept) {
   Shelf shelf;
   ShelfMonitor monitor(shelf);
@@ -60,7 +59,7 @@ void expect_the_same_again(const Make& make, int kept) {
 TEST(RecalledHeights, AreTheSurfaceThatWasMade) {
   expect_the_same_again([](Monitor& monitor) { return self_affine_surface(waves(), monitor); }, 1);
   expect_the_same_again([](Monitor& monitor) { return weierstrass_mandelbrot(fractal(), monitor); }, 1);
-  // Dents and texture are stored separately.
+  // Dents and texture are separate.
   expect_the_same_again([](Monitor& monitor) { return bead_blasted_surface(blast(), monitor); }, 2);
 }
 

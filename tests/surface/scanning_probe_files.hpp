@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scanning probes' and profilers' files of three columns and two lines, built without the code under test.
+// Files of three columns and two lines, built without the code under test.
 #pragma once
 
 #include "tests/surface/files.hpp"
@@ -122,7 +122,6 @@ struct WsxmExample {
   }
 };
 
-// A TIFF of Park's tags only.
 struct ParkExample {
   std::uint32_t image_type = 0, nx = 3, ny = 2, swapped = 0, number_type = 2, version = 0x01000002;
   double size_x = 3, size_y = 4, gain = -2, scale = 0, offset = 0;
@@ -163,7 +162,6 @@ inline std::string opdx_name(const std::string& name) {
 inline std::string opdx_item(const std::string& name, int type, const std::string& value) {
   return opdx_name(name) + static_cast<char>(type) + value;
 }
-// Preceded by a four-byte length.
 inline std::string opdx_sized(const std::string& value) {
   return Bytes().put(std::uint8_t{4}).put(static_cast<std::uint32_t>(value.size())).text(value).bytes();
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readers of scanning probes and stylus profilers: units, orientation, missing points, choice of the map,
-// header faults. Nanoscope has its own test.
+// Units, orientation, missing points, choice of the map, header faults.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -178,7 +177,7 @@ TEST(Wsxm, HeightsSpanTheAmplitude) {
   const Surface s = read(
       "a.top", testing::WsxmExample{.type = "short"}(raw(std::vector<std::int16_t>{0, 2, 3, 4, 50, 100})));
   EXPECT_NEAR(s.height(0, 1) - s.height(2, 0), 5e-9, 1e-21);
-  // Rounding to six printed digits is no scale.
+  // Rounding to six digits is no scale.
   const Surface digits = read(
       "a.stp", testing::WsxmExample{.amplitude = "5.00001 nm"}(raw(std::vector<double>{1, 2, 3, 4, 5, 6})));
   EXPECT_NEAR(digits.height(0, 1), 6e-9, 1e-21);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Uncompressed zip archives built byte by byte, so that headers can be wrong.
+// Uncompressed zip archives with arbitrary headers.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ inline std::uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-// `claimed` overrides the stated size of entry 1.
+// `claimed`: stated size of entry 1.
 inline std::string zip_of(const std::vector<std::pair<std::string, std::string>>& entries,
                           std::optional<std::uint64_t> claimed = {}, int method = 0) {
   std::string body, directory;

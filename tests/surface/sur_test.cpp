@@ -161,7 +161,7 @@ TEST(Sur, EachFaultIsSaid) {
   EXPECT_EQ(refusal(SurExample{.dz = 0}(six)), "\"a.sur\" gives 0 as the height of one step");
 }
 
-// Missing points are stored 2 steps below the least height, 89120 steps of 0.1 nm.
+// Missing: 2 steps below the least height, 89120 steps of 0.1 nm.
 TEST(Sur, MeasuredFile) {
   const std::string path = testing::measured("sur-2.sur");
   if (path.empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
@@ -173,7 +173,7 @@ TEST(Sur, MeasuredFile) {
   EXPECT_EQ(s.grid().ny, 484);
   EXPECT_NEAR(s.grid().hx(), 3.484e-6, 1e-12);
   const double step = static_cast<double>(1e-7F) * 1e-3;
-  EXPECT_NEAR(s.height(0, 483), 101477 * step, 1e-18);  // the first stored line is the top
+  EXPECT_NEAR(s.height(0, 483), 101477 * step, 1e-18);  // first stored line: top
   EXPECT_NEAR(s.height_range().min, 89120 * step, 1e-18);
   EXPECT_NEAR(s.height_range().max, 103880 * step, 1e-18);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SUR files read back within half a step, with exact holes and line order.
 
 #include <cmath>
 #include <cstdint>
@@ -38,7 +37,7 @@ T number_at(const std::string& bytes, std::size_t at) {
   return little_endian<T>(bytes.data() + at);
 }
 
-// m; the header states mm.
+// m; stated in mm.
 double step_of(const std::string& bytes) { return static_cast<double>(number_at<float>(bytes, 128)) * 1e-3; }
 
 TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
@@ -48,7 +47,7 @@ TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
       for (const bool holes : {false, true}) {
         const Surface surface = rough(unit, share * unit, holes), found = back(scratch, surface);
         const double step = step_of(bytes_of(scratch.path("a.sur")));
-        // The step is fine relative to the roughness at any offset.
+        // The step is fine at any offset.
         EXPECT_LT(step, unit * 1e-6) << unit << ", " << share;
         EXPECT_EQ(found.measured(), surface.measured());
         EXPECT_EQ(found.grid().nx, surface.grid().nx);
@@ -64,7 +63,7 @@ TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
       }
 }
 
-// The file stores the spacing in single precision: its rounding is no contradiction.
+// The spacing is stored in single precision: its rounding is no contradiction.
 TEST(SurWriter, TheSizeThatWasWrittenIsNotWarnedOf) {
   const Scratch scratch;
   const Surface surface = rough(1e-6, 0, false);
@@ -108,7 +107,7 @@ TEST(SurWriter, HeaderSaysWhatItHolds) {
     EXPECT_TRUE(bytes.substr(512, comment).starts_with("Heights are rounded to steps of "));
     EXPECT_EQ(bytes.substr(512, comment).find("points were not measured") != std::string::npos,
               !surface.complete());
-    // Missing points are stored two below the least number.
+    // Missing points: two below the least number.
     std::int32_t least = std::numeric_limits<std::int32_t>::max(), most = -least;
     std::size_t missing = 0;
     for (std::size_t k = 0; k < 54; ++k) {

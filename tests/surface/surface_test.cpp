@@ -114,7 +114,7 @@ TEST(Surface, HolesAreKeptAndCounted) {
   EXPECT_TRUE(std::isnan(surface.height(2, 1)));
   EXPECT_EQ(surface.height(1, 1), ramp()(1, 1));
   EXPECT_EQ(surface.height_range().max, ramp()(1, 1));
-  // The digest includes holes but not the sign of a NaN.
+  // The digest ignores the sign of a NaN.
   Field other = field;
   other(2, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Surface::with_holes(grid, other).digest(), surface.digest());
