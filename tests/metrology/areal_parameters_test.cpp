@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Areal parameters of five maps with formulas (tests/reference/metrology_maps.csv), on which two
-// independent programs agree, and of exact gauges.
+// Five maps with formulas (tests/reference/metrology_maps.csv), on which two independent programs agree,
+// and exact gauges.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -263,7 +263,7 @@ TEST(ArealGauges, SineHasNoAspectOfTextureButABound) {
 }
 
 TEST(ArealGauges, CurveOfGaussianHeights) {
-  // The k-th of 65536 heights has the ratio (k - 0.5)/65536; bisection solves σ √2 erfinv(1 - 2p).
+  // Height k of 65536 has the ratio (k - 0.5)/65536; bisection solves σ √2 erfinv(1 - 2p).
   Array<double> heights(65536);
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const double wanted = 1 - 2 * (static_cast<double>(k) + .5) / 65536;
@@ -319,7 +319,7 @@ TEST(ArealParameters, OnlyWhatIsReadIsComputed) {
   EXPECT_EQ(p.groups_computed(), 0);
   p.heights();
   EXPECT_EQ(p.groups_computed(), 1);
-  p.core();  // the curve is computed too
+  p.core();  // and the curve
   p.volumes();
   EXPECT_EQ(p.groups_computed(), 4);
   const ArealParameters copy = p;

@@ -11,7 +11,7 @@
 namespace asperity::areal_uncertainty_test {
 namespace {
 
-// A quarter of a rough map: quarters of a scaled map differ as measured maps do.
+// A quarter of a scaled map: quarters differ as measured maps do.
 Surface rough_map(std::uint64_t seed, double roll_off_cells) {
   constexpr int cells = 128;
   SelfAffineOptions options;
@@ -26,7 +26,6 @@ Surface rough_map(std::uint64_t seed, double roll_off_cells) {
                                [&](int i, int j) { return whole.height(i, j); });
 }
 
-// Compares the tiles' estimate with the scatter over maps of one process.
 TEST(ArealUncertainty, IsTheScatterOfSuchMaps) {
   constexpr int maps = 40;
   struct Sums {
@@ -66,7 +65,7 @@ TEST(ArealUncertainty, IsNotSaidOfTilesThatAreTooSmall) {
 }
 
 TEST(ArealUncertainty, OfSixteenKnownTilesIsTheirScatter) {
-  // Tile n of the noise map is scaled by n + 1, so Sa is proportional to 1 … 16.
+  // Tile n has noise times n + 1, so Sa is proportional to 1 … 16.
   const Surface noise = testing::white_noise(10, 10, 10, 10, 3);
   const Surface map = testing::make_surface(41, 43, 41, 43, [&](int i, int j) {
     if (i >= 40 || j >= 40) return 0.0;

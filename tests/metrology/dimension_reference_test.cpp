@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fractal dimensions against independent values: 15 Weierstrass–Mandelbrot surfaces and means over 20
-// seeds, whole and cut; fractional Brownian profiles by every method.
+// Independent values: 15 Weierstrass–Mandelbrot surfaces, means over 20 seeds, whole and cut; fractional
+// Brownian profiles.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -15,7 +15,7 @@
 namespace asperity::dimension_reference_test {
 namespace {
 
-// The published surface, 150 x 150 cells; peak-to-valley 0.1·(cells - 1) cell widths.
+// 150 x 150 cells; peak-to-valley 0.1·(cells - 1) cell widths.
 Surface published_surface(double D, double span, std::uint64_t seed) {
   WeierstrassMandelbrotOptions options;
   options.nx = options.ny = 150;
@@ -29,7 +29,7 @@ Surface published_surface(double D, double span, std::uint64_t seed) {
   return Surface(raw.grid(), std::move(z));
 }
 
-// Cuts each row at its maximum less `fraction` of its peak-to-valley.
+// Each row is cut at its maximum less `fraction` of its peak-to-valley.
 double dimension_cut(const Surface& surface, double fraction) {
   std::vector<Profile> profiles;
   for (int j = 0; j < surface.grid().ny; ++j) {
@@ -82,7 +82,7 @@ constexpr Row table[] = {
 
 constexpr int seeds = 20;
 
-// Means over seeds 1 … 20, within half a unit of the last printed digit.
+// Within half a unit of the last printed digit.
 TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
   std::vector<double> values(std::size(table) * seeds * 3);
   parallel_for(static_cast<std::int64_t>(std::size(table)) * seeds, [&](std::int64_t k) {
@@ -113,7 +113,7 @@ TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
     EXPECT_GT(sum[1], sum[2]);
     kept[{row.span, row.D}] = (sum[2] - 1) / (sum[0] - 1);
   }
-  // Remaining share of D - 1 after a cut of 20 %.
+  // Share of D - 1 left by a cut of 20 %.
   const double left[][3] = {
       {2.1, .822, .889}, {2.3, .835, .895}, {2.5, .865, .908}, {2.7, .904, .927}, {2.9, .939, .945}};
   for (const auto& [D, A, B] : left) {
@@ -122,16 +122,16 @@ TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
   }
 }
 
-// Mean and scatter over 30 exact fractional Brownian profiles; 0: unknown.
+// Over 30 exact fractional Brownian profiles; 0: unknown.
 struct Estimate {
   double mean, scatter;
 };
 struct EstimatorRow {
   int n;
   double D;
-  Estimate steep;  // length method, slopes much over 1
-  double tenth;    // length method, standard deviation 0.1·n spacings
-  double one;      // length method, standard deviation 1 spacing
+  Estimate steep;  // length, slopes much over 1
+  double tenth;    // length, standard deviation 0.1·n spacings
+  double one;      // length, standard deviation 1 spacing
   Estimate structure, psd;
   double box;
 };
@@ -164,7 +164,7 @@ FractalDimension measured(std::span<const Array<double>> heights, DimensionMetho
   return fractal_dimension(profiles, options);
 }
 
-// Tolerance: three standard errors of the difference of two means of 30, plus half a printed digit.
+// Three standard errors of the difference of two means of 30, and half a printed digit.
 TEST(DimensionReference, OfFractionalBrownianProfiles) {
   const int count = 30;
   for (const EstimatorRow& row : estimators) {

@@ -58,11 +58,11 @@ TEST(DimensionScaling, NamesTheStepsOverWhichADimensionIsConstant) {
   EXPECT_EQ(running_dimension({steps, logs, 2, -0.5}, 1.21, 1 << 20, 1, 0.5),
             "D runs from 1.05 between steps of 1 and 2 to 1.31 between steps of 16 and 32: no one dimension "
             "describes these steps; it is constant within 0.042 over `steps={4, 8, 16, 32}`");
-  // For one short profile the same numbers may be scatter.
+  // For one short profile, scatter is possible.
   EXPECT_EQ(running_dimension({steps, logs, 2, -0.5}, 1.21, 128, 1, 0.5), "");
 }
 
-// Nearly all fractals are accepted; the scatter of a few looks like a trend.
+// The scatter of a few looks like a trend.
 TEST(DimensionScaling, OfFractionalBrownianProfilesIsBelieved) {
   int refused = 0, all = 0;
   for (const double D : {1.1, 1.3, 1.5, 1.8})
@@ -100,7 +100,7 @@ TEST(DimensionScaling, IsBelievedOverStepsThatScale) {
   EXPECT_NEAR(found.D, 1.3, 0.04);
 }
 
-// On exact profiles the stated error covers the bias of box counting without much excess.
+// The error covers the bias of box counting without much excess.
 TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
   constexpr int count = 24;
   for (const double D : {1.1, 1.3, 1.5, 1.7, 1.9})
@@ -109,7 +109,7 @@ TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
           fractal_dimension(brownian_profiles(count, samples, D, 40), with(DimensionMethod::box));
       EXPECT_TRUE(found.resolved) << found.reason;
       const double bias = box_counting_bias(found.D, samples);
-      // Three standard errors of the mean, and the interpolation error of the table.
+      // Three standard errors of the mean, and the table's interpolation error.
       const double scatter = std::sqrt(found.error * found.error - bias * bias);
       EXPECT_NEAR(found.D + bias, D, 3 * 1.7 * scatter / std::sqrt(1.0 * count) + 0.012)
           << D << " " << samples;
@@ -117,7 +117,7 @@ TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
     }
 }
 
-// Box counts hardly show the structure function's trend, and miss more than their error.
+// Box counts hardly show the structure function's trend, and exceed their error.
 TEST(DimensionScaling, BoxesAreBelievedOnlyWhereTheStructureFunctionIs) {
   for (const double hurst : {0.1, 0.3, 0.5, 0.8}) {
     const Surface s = smooth_below(2, hurst);

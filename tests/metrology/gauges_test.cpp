@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of kind `cells` of tests/reference/metrology_gauges.csv, within 1e-9: sampled values by definition,
-// on which two independent programs agree. An unknown parameter fails.
+// Rows of kind `cells` of tests/reference/metrology_gauges.csv, on which two independent programs agree,
+// within 1e-9. Unknown parameters fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ Surface ridges(int n, double period, double degrees) {
   });
 }
 
-// Reduces the angle to one period, so that equal heights have equal bits.
+// One period of angles, so that equal heights have equal bits.
 double wave(int i, int period) { return std::sin(2 * pi * (i % period) / period); }
 
 Surface gauge(const std::string& name) {
@@ -109,7 +109,7 @@ TEST(Gauges, EveryRowOfCellsToTheNinthDigit) {
     for (std::string& cell : row) std::getline(cells, cell, ',');
     const std::string &name = row[0], &parameter = row[1], &exact = row[2].empty() ? row[4] : row[2];
     if (row[3] != "cells" || name.starts_with('#')) continue;
-    // areal_parameters_test.cpp tests slopes of a periodic map; no program uses the overestimating rule.
+    // Periodic slopes: areal_parameters_test.cpp. No program uses the overestimating rule.
     if (name == "fractalP1" || parameter == "Sdr_edgeproduct_WRONG") continue;
     double found = std::numeric_limits<double>::quiet_NaN();
     if (const auto t = traces.find(name); t != traces.end()) {
@@ -130,7 +130,7 @@ TEST(Gauges, EveryRowOfCellsToTheNinthDigit) {
   EXPECT_EQ(rows, 67);
 }
 
-// A levelled plane is rounding noise of 1e-15 of its heights, with a meaningless skewness.
+// Rounding noise of 1e-15 has a meaningless skewness.
 TEST(ArealParameters, OfAPlaneLessItsPlaneAreNotDefined) {
   const ArealParameters p(plane(true), {.F = 1, .S = {}, .L = {}});
   EXPECT_GT(p.prepared().peak_to_valley(), 0);
@@ -140,7 +140,7 @@ TEST(ArealParameters, OfAPlaneLessItsPlaneAreNotDefined) {
   for (const char* name : {"Ssk", "Sku", "Sal", "Str", "Std", "Smr1", "Spd", "S10z"})
     EXPECT_EQ(p.why_not(name), "all heights are equal but for rounding of the map that was prepared") << name;
   EXPECT_EQ(p.why_not("Sq"), "");
-  // A hundred-millionth of the tilt is still a texture.
+  // A hundred-millionth of the tilt is a texture.
   const ArealParameters fine(
       map_of(64, 64, 1, 1, [](int i, int j) { return i + 1e-8 * ((i * 7 + j * 3) % 5); }),
       {.F = 1, .S = {}, .L = {}});

@@ -12,7 +12,6 @@ using testing::make_surface;
 
 double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 
-// All terms up to the degree, with coefficients of similar size.
 double polynomial(double x, double y, int degree) {
   double sum = 0;
   for (int a = 0; a <= degree; ++a)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registration: exact placements, accuracy on worn, noisy, holed and tilted pairs, uncertainties, refusals.
-// ASPERITY_WHOLE=1 runs the number of problems reported in docs/guide.md and prints percentiles.
+// ASPERITY_WHOLE=1 runs as many problems as docs/guide.md reports and prints percentiles.
 #include "engine/metrology/registration.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +67,6 @@ std::string refusal(const Surface& after, const Surface& before, const Registrat
   return refusal([&] { registered(after, before, options); });
 }
 
-// Over nodes measured in both maps.
 double greatest_difference(const Surface& a, const Surface& b) {
   double greatest = 0;
   for (std::size_t k = 0; k < a.measured_heights().size(); ++k) {
@@ -114,7 +112,7 @@ TEST(Registration, WhatWasTurnedCounterClockwiseIsTurnedBack) {
   const Surface turned = rotated(map, 0.5 * pi);
   const Registration r = registered(turned, map);
   EXPECT_NEAR(r.angle, -0.5 * pi, 1e-8);
-  // The centre of 96 x 120 nodes moves to the centre of 120 x 96.
+  // The centre of 96 x 120 nodes maps to the centre of 120 x 96.
   EXPECT_NEAR(r.shift_x, 12 * cell, 1e-6 * cell);
   EXPECT_NEAR(r.shift_y, -12 * cell, 1e-6 * cell);
   EXPECT_EQ(r.overlap, 1);
@@ -127,7 +125,7 @@ TEST(Registration, TiltAndLiftAreThoseOfTheMapAfter) {
   const double angle = 30 * degree;
   const Grid grid = make_grid(128, 128, 128 * cell, 128 * cell);
   Field z = waves.sampled(5 * cell, -3 * cell, angle);
-  // In the later map's frame: a slope of 0.02 along x is (0.02 cos 30°, 0.02 sin 30°) before.
+  // A later slope of 0.02 along x is (0.02 cos 30°, 0.02 sin 30°) before.
   const double middle = 63.5 * cell;
   for (int j = 0; j < 128; ++j)
     for (int i = 0; i < 128; ++i) z(i, j) += 7e-6 + 0.02 * (i * cell - middle);
@@ -139,14 +137,13 @@ TEST(Registration, TiltAndLiftAreThoseOfTheMapAfter) {
   EXPECT_NEAR(r.tilt_x, 0.02 * std::cos(angle), 1e-5);
   EXPECT_NEAR(r.tilt_y, 0.02 * std::sin(angle), 1e-5);
   EXPECT_NEAR(r.lift, 7e-6, 1e-10);
-  // Registration removes tilt and lift.
   EXPECT_LT(greatest_difference(r.surface, before), 0.05e-6);
 }
 
 TEST(Registration, CellsAndSizesMayDiffer) {
   WornPairKind kind = clean(150, 110);
   const Surface before(make_grid(150, 110, 150 * cell, 110 * cell), WaveSurface(kind, 4).sampled(0, 0, 0));
-  // The same surface on cells of 0.8 x 1.25 µm with a common first node.
+  // Cells of 0.8 x 1.25 µm, common first node.
   WornPairKind other = kind;
   other.nx = 120;
   other.ny = 80;
@@ -184,7 +181,6 @@ TEST(Registration, HolesOfTheMapAfterStayHoles) {
   EXPECT_TRUE(std::isnan(r.surface.height(30, 40)));
   EXPECT_FALSE(std::isnan(r.surface.height(29, 40)));
   EXPECT_LT(greatest_difference(r.surface, map), 1e-12);
-  // Holes of the earlier map do not enter the registered map.
   EXPECT_TRUE(registered(map, after, turns_up_to(1)).surface.complete());
 }
 
@@ -271,7 +267,7 @@ WornPairKind named(const char* name) {
   return kind;
 }
 
-// Sanitizers skip these many problems: the tests of Registration use the same memory.
+// The tests of Registration cover the same memory under sanitizers.
 class RegistrationAccuracy : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -314,7 +310,7 @@ TEST_F(RegistrationAccuracy, AlongALay) {
   EXPECT_GE(e.share(0.1, 0.015), 0.9);
 }
 
-// Interpolating only one of two noisy maps biases least squares to half-cell shifts.
+// Interpolating only one of two noisy maps biases the shift by half a cell.
 TEST_F(RegistrationAccuracy, NoiseDoesNotDrawItToHalfACell) {
   WornPairKind kind = named("half");
   kind.least_noise = kind.most_noise = 0.05;
@@ -323,8 +319,7 @@ TEST_F(RegistrationAccuracy, NoiseDoesNotDrawItToHalfACell) {
   EXPECT_LT(std::hypot(e.mean_x, e.mean_y), 0.01);
 }
 
-// Smoothing lowers unworn nodes next to worn ones by less than the noise; they count as unworn and define
-// the zero of wear.
+// Smoothing lowers nodes next to worn ones by less than the noise: they count as unworn, the zero of wear.
 TEST_F(RegistrationAccuracy, LiftIsThatOfGroundThatIsNotWorn) {
   WornPairKind kind = named("lift");
   kind.nx = kind.ny = 160;
@@ -417,7 +412,6 @@ TEST(Registration, RefusesGroundThatRepeats) {
   };
   const Surface after = with_noise(map(3), 1e-8, 1), before = with_noise(map(0), 1e-8, 2);
   EXPECT_NE(refusal(after, before, turns_up_to(5)).find("the ground repeats itself"), std::string::npos);
-  // With `at_most` the ambiguity is resolved.
   RegistrationOptions near = turns_up_to(5);
   near.at_most = 5 * cell;
   EXPECT_NEAR(registered(after, before, near).shift_x, 3 * cell, 0.01 * cell);
@@ -485,7 +479,7 @@ TEST(Registration, OptionsOutOfRange) {
   EXPECT_EQ(refusal(map, map, options), "`at_most` is 0 m; give the greatest shift, above zero");
 }
 
-// One format stores lines from the top, the other from the bottom.
+// Formats store lines from the top or the bottom.
 TEST(Registration, OneScanInTwoFormatsNeedsNoTurn) {
   const testing::Scratch scratch;
   Surface scan = ground(80, 64);

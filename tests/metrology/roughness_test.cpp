@@ -26,7 +26,7 @@ TEST(Roughness, OfACosineProfile) {
   EXPECT_DOUBLE_EQ(r.valley, -A);
 }
 
-// The slope of forward differences is the wave's slope times sinc(π/n).
+// Forward differences: the wave's slope times sinc(π/n).
 TEST(Roughness, OfASineProductSurface) {
   const int n = 256;
   const double h = 3e-6, L = 2e-3;
@@ -114,7 +114,6 @@ TEST(Roughness, OfEqualHeightsIsZeroAndNeverNaN) {
   EXPECT_EQ(roughness(Profile(1, {0.1})).mean, 0.1);
 }
 
-// Scaling by a power of two changes no digit from 1e-160 m to 1e150 m.
 TEST(Roughness, ScalesExactly) {
   const auto height = [](int i, int j) { return std::sin(1.0 * i * i + j) + 0.2 * j; };
   const Roughness one = roughness(make_surface(31, 17, 1, 1, height));
@@ -130,7 +129,6 @@ TEST(Roughness, ScalesExactly) {
   }
 }
 
-// Multiples of 2^-20 stay exact on an offset of 2^30.
 TEST(Roughness, IsIndifferentToAnOffset) {
   const Stream stream(3, "offset");
   const auto height = [&](int i, int j) {

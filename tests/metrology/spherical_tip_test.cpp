@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dilation by a sphere: planes, grooves, cosines, a brute-force maximum, and laws of mathematical
-// morphology.
+// Planes, grooves, cosines, a brute-force maximum, and laws of mathematical morphology.
 #include "engine/metrology/spherical_tip.hpp"
 
 #include <algorithm>
@@ -28,7 +27,7 @@ Surface rough(int nx, int ny, double height, std::uint64_t seed = 1, bool wraps 
       wraps ? periodic() : SurfaceTraits{});
 }
 
-// t(x) by search: a lattice over the disc, refined around its forty best points.
+// A lattice over the disc, refined around its forty best points.
 double tried(const Surface& s, Point at, double radius) {
   struct Try {
     double x, y, t;
@@ -95,7 +94,7 @@ TEST(SphericalTip, BottomsInAGrooveWhereBothWallsMeetIt) {
     }
 }
 
-// Peak to valley under the tip, relative to A cos(2πx/λ).
+// Peak to valley relative to A cos(2πx/λ).
 double kept(double radius, double wavelength, double amplitude, int cells) {
   const Surface wave = make_surface(
       cells, 4, wavelength, 4 * wavelength / cells,
@@ -108,14 +107,14 @@ TEST(SphericalTip, LosesAmplitudeWhereTheCosineCurvesMoreThanTheTip) {
   // R = 2 µm, λ = 2 µm, A = 0.1 µm; A q² R = 1.97.
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 4096), 0.80538, 5e-6);
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 64), 0.80538, 2e-3);
-  // The amplitude is kept for A q² R < 1 only.
+  // The amplitude is complete for A q² R < 1 only.
   const double critical = 0.1e-6 * std::pow(2 * pi / 2e-6, 2);
   EXPECT_NEAR(kept(0.99 / critical, 2e-6, 0.1e-6, 4096), 1, 1e-6);
   EXPECT_LT(kept(1.2 / critical, 2e-6, 0.1e-6, 4096), 1 - 1e-4);
 }
 
 TEST(SphericalTip, IsTheGreatestOverTheDisc) {
-  // On gentle patches interior points decide, on twisted patches edges.
+  // Gentle patches: inner points; twisted patches: edges.
   for (const bool wraps : {true, false})
     for (const double height : {0.02e-6, 0.3e-6, 3e-6}) {
       const Surface s = rough(12, 9, height, 3, wraps);
@@ -123,7 +122,6 @@ TEST(SphericalTip, IsTheGreatestOverTheDisc) {
         const SphericalTip tip(s, radius);
         const Stream stream(7, "places");
         for (std::uint64_t k = 0; k < 20; ++k) {
-          // The disc stays inside a surface with a rim.
           const Point at{stream.uniform(2 * k, 5e-6, 6e-6), stream.uniform(2 * k + 1, 5e-6, 6e-6)};
           const double t = tip.height(at), by_hand = tried(s, at, radius);
           EXPECT_GE(t, by_hand - 1e-13 * radius) << height << ", " << radius << ", " << k;
@@ -175,7 +173,7 @@ TEST(SphericalTip, WrapsOnAPeriodicSurfaceAndEndsWithAnyOther) {
   const Surface ends = make_surface(16, 4, 16e-6, 4e-6, ridge);
   EXPECT_GT(SphericalTip(wraps, 10e-6).height({14e-6, 1e-6}), 0.5e-6);
   EXPECT_EQ(SphericalTip(ends, 10e-6).height({14e-6, 1e-6}), 0);
-  EXPECT_EQ(SphericalTip(ends, 10e-6).height({-50e-6, 300e-6}), 1e-6);  // the rim's height continues outside
+  EXPECT_EQ(SphericalTip(ends, 10e-6).height({-50e-6, 300e-6}), 1e-6);  // the rim's height
   EXPECT_NEAR(SphericalTip(wraps, 10e-6).height({14e-6, 1e-6}),
               SphericalTip(wraps, 10e-6).height({14e-6 - 48e-6, 1e-6 + 40e-6}), 1e-20);
 }
@@ -189,7 +187,6 @@ TEST(SphericalTip, StandsOnFlatsAndOnSingleNodes) {
       for (const Surface& s : {dilated(flat, 2e-6), closed(flat, 2e-6)})
         for (const double h : s.heights().values()) EXPECT_EQ(h, 3e-6);
     }
-  // A single row is a line: the tip touches its edges.
   const Surface line = make_surface(5, 1, 5e-6, 1e-6, [](int i, int) { return 0.5e-6 * i; });
   EXPECT_NEAR(SphericalTip(line, 1e-6).height({2.2e-6, 0}), 1.1e-6 + 1e-6 * (std::sqrt(1.25) - 1), 1e-20);
 }
@@ -281,7 +278,7 @@ TEST(Closing, GrowsWithTheRadiusAndNeedlesChangeNothing) {
 }
 
 TEST(Closing, LeavesWhatTheTipCanEnter) {
-  // A sphere wider than the tip: the tip reaches every inner point.
+  // A sphere wider than the tip.
   const Surface bowl = make_surface(64, 64, 32e-6, 32e-6, [](int i, int j) {
     const double r2 = std::pow((i - 32) * 0.5e-6, 2) + std::pow((j - 32) * 0.5e-6, 2);
     return r2 / (2 * 50e-6);

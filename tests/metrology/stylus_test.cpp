@@ -152,7 +152,7 @@ TEST(Stylus, TheEffectOfTheTipIsThatOfTheTraces) {
   EXPECT_DOUBLE_EQ(felt.effect.amplitude_ratio, amplitude[1] / amplitude[0]);
   EXPECT_NEAR(felt.effect.mean_lift, lift, 1e-12 * lift);
   EXPECT_EQ(felt.effect.greatest_lift, most);
-  EXPECT_LT(felt.effect.rms_slope_ratio, 0.95);  // a blunt tip does not reach steep valleys
+  EXPECT_LT(felt.effect.rms_slope_ratio, 0.95);  // steep valleys are out of reach
   EXPECT_GT(lift, 0);
 }
 
@@ -216,7 +216,6 @@ TEST(Stylus, LinesStayInsideASurfaceWithARim) {
             "a trace of `length` 110 um does not fit on a surface that is not periodic, with nodes over 96 "
             "um x 45 um"
             "; give a `length` of at most 106 um, its diagonal");
-  // One node has no length.
   const Surface node = make_surface(1, 1, 1e-3, 1e-3, [](int, int) { return 0.0; });
   EXPECT_EQ(
       refusal([&] { Stylus(short_traces()).scan(node, 1, 1); }),

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces and profiles with known answers, and the text of expected errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,8 +44,7 @@ inline Surface white_noise(int nx, int ny, double size_x, double size_y, std::ui
   });
 }
 
-// Exact fractional Brownian motion of Hurst exponent H, increments of variance 1, by circulant embedding
-// (Davies & Harte 1987).
+// Exact fractional Brownian motion, increments of variance 1, by circulant embedding (Davies & Harte 1987).
 inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
   const int m = 2 * n;
   const auto covariance = [H](double k) {

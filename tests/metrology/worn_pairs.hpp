@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registration problems with known answers. A sum of plane waves is sampled twice, the second time turned
-// and shifted; its highest part is worn, and tilt, noise and holes are added. Draws by key are equal on
-// every machine.
+// Registration problems with known answers: a sum of plane waves, sampled before and, turned and shifted,
+// after; then wear, tilt, noise and holes. Draws by key are equal on every machine.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +38,7 @@ struct WornPair {
   double lift;                     // m
 };
 
-// Heights at R(angle)(p - c) + c + shift for every node p; c: centre of the nodes.
+// Heights at R(angle)(p - c) + c + shift; c: centre of the nodes.
 class WaveSurface {
  public:
   WaveSurface(const WornPairKind& kind, std::uint64_t seed) : kind_(kind) {
@@ -64,7 +63,7 @@ class WaveSurface {
     Field z(kind_.nx, kind_.ny);
     std::vector<double> cosines(static_cast<std::size_t>(kind_.nx)), sines(cosines.size());
     for (const Wave& wave : waves_) {
-      // A rotated wave is a wave: its phase is a sum over columns and rows.
+      // The phase is a sum over columns and rows.
       const double qx = wave.qx * cosine + wave.qy * sine, qy = -wave.qx * sine + wave.qy * cosine;
       const double start =
           wave.phase + wave.qx * (cx + shift_x) + wave.qy * (cy + shift_y) - qx * cx - qy * cy;
@@ -134,7 +133,6 @@ inline void tilt(Field& z, double across_x, double across_y) {
     for (int i = 0; i < z.nx(); ++i) z(i, j) += across_x * i / z.nx() + across_y * j / z.ny();
 }
 
-// Shift and angle are given, all else is drawn.
 inline WornPair worn_pair(const WornPairKind& kind, std::uint64_t seed, double shift_x, double shift_y,
                           double angle) {
   const Stream draw(seed, kind.name);
