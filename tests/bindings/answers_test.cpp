@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers to common mistakes: bare numbers in another unit, values of another type; errors name the
-// script's line and a cure.
+// Common mistakes: bare numbers in another unit, values of another type. Errors name the line and a cure.
 #include <vector>
 
 #include "tests/bindings/lua_test.hpp"
@@ -186,7 +185,7 @@ TEST_F(Answers, M2APeriodicFunctionHasNoStepAtTheRim) {
         "continue across the rim");
 }
 
-// Names of arguments may contain digits.
+// Names may contain digits.
 TEST_F(Answers, M1ArgumentsMayHaveDigitsInTheirNames) {
   EXPECT_EQ(value("require 'asperity.arguments'({ H1=1, x_2=3 }, 'H1=2', 'x_2=4').H1"), "2");
   EXPECT_NE(run("require 'asperity.arguments'({ H1=1 }, '1H=2')").find("is no argument of this script"),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua values read by the engine, and script functions that fail, return wrong values, yield, or call the
-// laboratory.
+// Script functions that fail, return wrong values, yield, or call the laboratory.
 #include "bindings/lua/registry/argument.hpp"
 
 #include "tests/bindings/lua_test.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.budget and lab.sensitivity in scripts: calls of `ask`, results, printing, and refusals with their
-// place. tests/statistics checks the numbers.
+// lab.budget and lab.sensitivity in scripts; tests/statistics checks the numbers.
 #include <string>
 
 #include "engine/core/parallel.hpp"
@@ -18,7 +17,7 @@ class BudgetTest : public LuaTest {
   }
 };
 
-// Known parts: a seed scatter, an error of 1/cells, and a gain uncertainty of 2 %.
+// Known parts: seed scatter, an error of 1/cells, a gain uncertainty of 2 %.
 TEST_F(BudgetTest, HasAShareOfEachPartAndWhatHalvingItTakes) {
   ASSERT_EQ(run(R"(
     local off = { 0.9, 1.1, -0.4, -1.2, -0.4 }
@@ -41,7 +40,6 @@ TEST_F(BudgetTest, HasAShareOfEachPartAndWhatHalvingItTakes) {
             "true) ~= nil"));
 }
 
-// Real area of a small face with all options of a budget.
 constexpr const char* area_of_faces = R"(
   asked = 0
   function area(x)
@@ -68,11 +66,11 @@ TEST_F(BudgetTest, HeavyRunsAreSpreadWithTheSameBits) {
   EXPECT_EQ(run("two = budget()"), "");
   set_thread_count(threads);
   EXPECT_TRUE(holds("one.runs == 5 * 2 + 1 + 16")) << value("one.runs");
-  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // the first replicate: twice on two grids
+  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // the first replicate, twice on two grids
   EXPECT_TRUE(holds("one.value == two.value and one.low == two.low and one.high == two.high"));
   EXPECT_TRUE(holds("one.parts[1].share == two.parts[1].share and one.seconds > 0"));
   EXPECT_TRUE(holds("one.low < one.value and one.value < one.high")) << value("one");
-  // The function refers to a bench, which cannot be copied: runs are sequential.
+  // A bench cannot be copied: sequential runs.
   ASSERT_EQ(run("local bench = lab.contact{ lower=lab.surface.sine{ cells=8, size='1 mm', amplitude='1 um', "
                 "material=lab.material 'steel' }, upper=lab.rigid, boundary='periodic', "
                 "effects={ elasticity='half_space' } } asked = 0 "

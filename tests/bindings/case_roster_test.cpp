@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of an ensemble's cases in a shared store: round trip, results despite failures, other builds
-// ignored, names of cases in messages.
+// The list of an ensemble's cases in a shared store.
 #include "bindings/lua/ensemble/case_roster.hpp"
 
 #include <gtest/gtest.h>

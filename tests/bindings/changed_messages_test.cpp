@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Each script ends in the new message of the list of changed messages.
+// Each script ends in its new message.
 #include <fstream>
 #include <string>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// accuracy={ estimate=true } and accuracy={ error= } in scripts: values, errors without an estimate,
-// conflicting keys.
+// accuracy={ estimate=true } and accuracy={ error= } in scripts.
 #include "bindings/lua/contact/discretisation_error.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -92,7 +91,7 @@ TEST_F(AccuracyOfContact, AnErrorChoosesTheCells) {
   EXPECT_EQ(run("st = pressed{ error=0.05, of={ 'approach', 'energy' } }"), "");
 }
 
-// Interpolation between 32 x 32 nodes gave an area error of 11 % where 3 % was requested.
+// Interpolated from 32 x 32 nodes, the area had an error of 11 % instead of 3 %.
 TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
   ASSERT_EQ(run("local pi = math.pi\n"
                 "function waves(n, accuracy, noise)\n"
@@ -125,7 +124,6 @@ TEST_F(AccuracyOfContact, LimitsOfAChoiceAreKeys) {
   EXPECT_NE(run("contact{ error=1e-3, at_most={ cells=4 } }").find("`cells` is 4"), std::string::npos);
 }
 
-// The explained time and memory must include the chosen cells.
 TEST_F(AccuracyOfContact, AnExplainedChoiceCountsTheFinestCellsAllowed) {
   ASSERT_EQ(run("c = contact{ error=0.03, at_most={ cells=512 } }\np = c:explain{ pressure='500 MPa' }"), "");
   EXPECT_NE(value("tostring(p)").find(" 512 x 512 cells are the most within 512 cells a side"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The dry run refuses and accepts the same scenes as a run before its first solve, with the same messages,
-// without making surfaces.
+// Without making surfaces, the dry run refuses the same scenes as a run before its first solve, with the
+// same messages.
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::dry_scene_test {
@@ -26,7 +26,7 @@ class DryScene : public LuaTest {
 };
 
 const char* const refused[] = {
-    // An effect needs a missing material.
+    // Missing material.
     "contact{ lower=rough(), upper=lab.rigid, boundary='periodic', effects={ elasticity='half_space' } }",
     "contact{ lower=rough{ material=al }, upper=rough(), boundary='periodic', effects={ "
     "elasticity='half_space' } }",
@@ -35,7 +35,7 @@ const char* const refused[] = {
     "contact{ lower=rough(), upper=lab.rigid, effects={ elasticity='box' } }",
     "contact{ lower=rough(), upper=lab.rigid, effects={ elasticity={ model='box', stiffness=1e12 }, "
     "plasticity={} } }",
-    // The material lacks the property.
+    // Missing property of a material.
     "contact{ lower=rough{ material=lab.material{ young='1 GPa' } }, upper=lab.rigid, boundary='free', "
     "effects={ elasticity='half_space' } }",
     "contact{ lower=rough{ material=lab.material{ young='1 GPa', poisson=0.3 } }, upper=lab.rigid, "
@@ -54,7 +54,7 @@ const char* const refused[] = {
     "interlocking={} } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='box' }, accuracy={ "
     "precision='single' } }",
-    // The cells cannot represent the surface.
+    // Cells too coarse for the surface.
     "rough{ short_wave='40 um' }",
     "rough{ long_wave='3 mm' }",
     "lab.surface.sine{ cells=32, size='1 mm', amplitude='1 um', wavelength='50 um' }",
@@ -62,7 +62,7 @@ const char* const refused[] = {
     "lab.surface.bead_blasted{ cells=32, size='1 mm', ra='1 um' }",
     "lab.surface.bead_blasted{ cells=128, size='1 mm', ra='1 um', fine={ hurst=0.8, roll_off='50 um', "
     "short_wave='2 um' } }",
-    // Bodies do not match.
+    // Mismatched bodies.
     "contact{ lower=rough{ material=al }, upper=rough{ cells=64 }, effects={ elasticity='box' } }",
     "contact{ lower=rough{ material=al }, upper=rough{ size='2 mm', short_wave='200 um' }:mirrored(), "
     "effects={ "

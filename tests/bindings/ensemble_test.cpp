@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.ensemble: order and values are independent of the number of threads; transfer of values into cases;
-// failing cases.
+// Order and values do not depend on the number of threads.
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -62,7 +61,7 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  // Returns the script's result as text, or "error: " and the message.
+  // The result as text, or "error: " and the message.
   std::string run(const std::string& script) {
     lua_State* L = state_.get();
     lua_settop(L, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every function and method has an example, and every example runs alone after the preamble of the
-// reference.
+// Every example runs alone after the preamble of the reference.
 #include <vector>
 
 #include "bindings/lua/editor/help.hpp"

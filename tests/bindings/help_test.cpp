@@ -118,7 +118,6 @@ TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
       "lists what there is");
 }
 
-// Parts of names and words of sentences find their topics.
 TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
   const std::pair<const char*, const char*> wanted[] = {
       {"weierstras", "lab.surface.weierstrass_mandelbrot: "},

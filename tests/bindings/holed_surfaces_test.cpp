@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Missing points and surface arithmetic in scripts: fields, methods, operators, errors.
 #include <string_view>
 #include <vector>
 

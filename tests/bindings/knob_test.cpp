@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Knobs: values, given values, bounds, kinds, and equal values in the cases of an ensemble.
 #include "tests/bindings/lua_test.hpp"
 
 #include "engine/core/error.hpp"
@@ -200,7 +199,7 @@ TEST(GivenKnobTest, HasANameAndAQuantity) {
   for (const char* bad : {"m=1", " m", "m\n", "\"m\""})
     EXPECT_NE(refusal(bad, "3").find("is no name of a knob"), std::string::npos) << bad;
   for (const char* bad : {"", "fast", "5 Mpp"}) {
-    // The page and the prompt have no command-line options.
+    // Page and prompt have no command-line options.
     EXPECT_TRUE(refusal("m", bad).starts_with("the knob `m`: ")) << refusal("m", bad);
     EXPECT_EQ(refusal("m", bad).find("--"), std::string::npos) << refusal("m", bad);
   }

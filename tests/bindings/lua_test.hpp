@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fixture for the bindings: a run in its own folder, a session and a Lua state. The tests are linked with
-// both builds of Lua, whose errors unwind differently.
+// A run in its own folder, a session and a Lua state. The tests are linked with both builds of Lua, whose
+// errors unwind differently.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class LuaTest : public testing::Test {
     std::filesystem::remove_all(folder);
   }
 
-  // Replaces the state, with the session's present settings.
+  // Replaces the state.
   void open() {
     state.reset();
     if (session.dry_run) {
@@ -64,7 +64,7 @@ class LuaTest : public testing::Test {
     open();
   }
 
-  // Runs a chunk named script.lua; returns "" or the error's text.
+  // Runs script.lua; returns "" or the error's text.
   std::string run(const std::string& code) { return execute(code, 0); }
   // tostring() of an expression, or "error: " and the text.
   std::string value(const std::string& expression) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Outside the overlap of two turned bodies the gap is missing in values, sums and pictures; all other
-// numbers are finite.
+// Without overlap of the bodies the gap is missing in values, sums and pictures; other numbers are finite.
 #include <gtest/gtest.h>
 
 #include "tests/bindings/lua_test.hpp"

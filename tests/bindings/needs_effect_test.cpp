@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tests/scripts/needs_effect.lua must request every field, method and option that needs an effect, without
-// the effect.
+// tests/scripts/needs_effect.lua must request every name that needs an effect, without the effect.
 #include <fstream>
 #include <iterator>
 #include <set>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Option tables are checked for names, types, units and ranges; all problems are reported together.
 #include "bindings/lua/registry/options.hpp"
 
 #include "tests/bindings/lua_test.hpp"

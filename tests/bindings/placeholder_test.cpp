@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dry run: heavy calls return placeholders that check names and pass through arithmetic and text; the check
-// stops where the script's path depends on a placeholder.
+// Dry runs return placeholders that check names and pass through arithmetic; the check stops where the
+// script's path depends on one.
 #include "bindings/lua/registry/placeholder.hpp"
 
 #include "tests/bindings/lua_test.hpp"

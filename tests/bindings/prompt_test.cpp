@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The prompt: shown values, incomplete lines, surviving variables.
 #include "bindings/lua/editor/prompt.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -107,7 +106,6 @@ TEST_F(PromptTest, ALineThatFailsLeavesEveryVariableAsItWas) {
   EXPECT_EQ(say("x = 2; y = 3; x = nil; error('on purpose', 0)"), "error: on purpose");
   EXPECT_EQ(say("x"), "1");
   EXPECT_NE(say("y").find("was never set"), std::string::npos);
-  // Errors inside functions have a traceback.
   say("function deep() error 'inside' end");
   EXPECT_NE(say("deep()").find("in function 'deep'"), std::string::npos);
   EXPECT_EQ(say("error 'bare'"), "error: prompt:1: bare");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions name their record types; help, completion, the reference, the editor's types and the dry run
-// know the fields.
+// Functions name their record types, whose fields help, completion, reference, editor types and dry run
+// know.
 #include "bindings/lua/registry/record_type.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<std::string> offered(const std::string& script, const std::vector<Li
 }
 
 TEST_F(RecordTypes, AreNamedByAllThatGivesThem) {
-  // Tables whose columns the script names are not records.
+  // The script names the columns of these tables.
   const std::set<std::string> open = {"lab.ensemble", "notebook:rows", "table:rows", "study:rows",
                                       "StudyChoice.knobs"};
   std::set<std::string> named;
@@ -96,7 +96,6 @@ TEST_F(RecordTypes, HelpOnWhatGivesThemListsTheirFields) {
   EXPECT_NE(help_text("surface:roughness").find("  Sq         Rq by its areal name (number, m)"),
             std::string::npos)
       << help_text("surface:roughness");
-  // Also nested records, and fields without their record.
   EXPECT_NE(help_text("tiltStage:raise").find("TiltTrial: "), std::string::npos);
   EXPECT_NE(help_text("State.cost").find("seconds"), std::string::npos);
   EXPECT_NE(help_text("law:on").find("needs interlocking"), std::string::npos);
@@ -195,7 +194,7 @@ TEST_F(RecordTypes, ADryRunFindsMisspeltFields) {
             std::string::npos);
   EXPECT_NE(run("print(lab.stylus{}:scan(s).tip_effect.mean_lfit)").find("(did you mean `mean_lift`?)"),
             std::string::npos);
-  // Accepted: fields of effects, lists of any length, optional numbers.
+  // Accepted: fields of effects, any list index, optional numbers.
   EXPECT_EQ(run("local r = law:on(st) local x = r.mu + r.strengthening * r.interlocking_force\n"
                 "local t = stage:raise{} x = t.trials[7].held / #t.probes\n"
                 "x = st.cost.by_effect.estimate.seconds + s:spectrum().C[50]\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls from Lua: engine errors become Lua errors with the script's line, and failed calls release
-// everything in both builds of Lua.
+// Engine errors become Lua errors with the script's line; failed calls release everything in both builds of
+// Lua.
 #include "bindings/lua/registry/registry.hpp"
 
 #include <memory>
@@ -16,7 +16,7 @@ using Guard = LuaTest;
 using Method = LuaTest;
 using LabModule = LuaTest;
 
-// Sets the global `s` and returns the surface for observation.
+// Sets the global `s`.
 std::shared_ptr<Surface> give_surface(lua_State* L, int cells) {
   auto surface =
       std::make_shared<Surface>(flat_surface({make_grid(cells, cells, 1e-3, 1e-3)}, Monitor::silent()));
@@ -51,7 +51,6 @@ TEST_F(Guard, TheLineIsThatOfTheCallAlsoThroughPcallAndMetamethods) {
 TEST_F(Guard, AFailedCallFreesWhatItHeld) {
   collect();
   const std::int64_t before = memory::held();
-  // The function fails halfway through the grid.
   const std::string error =
       run("lab.surface.from_function{ cells=256, size=1, height=function(x, y)\n"
           "  if y > 0.5 then error('no height here') end return 0 end }");
@@ -80,7 +79,7 @@ TEST_F(Guard, AMemoryErrorWhileResultsAreDeliveredLeaksNothing) {
   collect();
   const long held = surface.use_count();
   const std::int64_t before = memory::held();
-  memory::set_limit(before + (1 << 20));  // a table of 512 x 512 heights needs four times more
+  memory::set_limit(before + (1 << 20));  // 512 x 512 heights need four times this
   const std::string error = run("local h = s:heights()");
   memory::set_limit(0);
   EXPECT_NE(error.find("not enough memory"), std::string::npos) << error;
@@ -145,7 +144,7 @@ TEST_F(Guard, ARaisedStopFlagEndsTheNextCall) {
 
 TEST_F(Guard, GarbageDoesNotCountAgainstTheMemoryLimit) {
   collect();
-  // 8 MiB per surface: room for two, not for dropped ones.
+  // 8 MiB per surface: room for two.
   memory::set_limit(memory::held() + (20 << 20));
   EXPECT_EQ(run("local s for k = 1, 12 do s = lab.surface.flat{ cells=1024, size=k } end"), "");
   EXPECT_EQ(run("local s = lab.surface.flat{ cells=1024, size=1 }\n"

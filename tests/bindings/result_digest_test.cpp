@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digests of heavy results include every number except costs.
 #include "bindings/lua/registry/result_digest.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A host that rounds upward gets the same results and keeps its rounding mode.
+// A host that rounds upward gets the same results and keeps its mode.
 #include <cfenv>
 
 #include "tests/bindings/lua_test.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a Lua state: small blocks come from one region and are reused; other blocks are counted by the
-// byte; a limit covers both.
+// Small blocks of a Lua state come from one region and are reused; others are counted by the byte; a limit
+// covers both.
 #include "bindings/lua/runtime/state_heap.hpp"
 
 #include <gtest/gtest.h>
@@ -171,7 +171,7 @@ TEST_F(StateMemory, AFreshStateIsForTheMostPartInItsRegion) {
   EXPECT_LE(all - outside, static_cast<std::int64_t>(StateHeap::region_bytes));
 }
 
-// The first collection of a new state waits as after a full collection.
+// A new state starts as after a full collection.
 TEST_F(StateMemory, TheFirstCollectionWaitsUntilThereIsTwiceAsMuch) {
   EXPECT_EQ(run("local gone = false\n"
                 "do setmetatable({}, { __gc=function() gone = true end }) end\n"

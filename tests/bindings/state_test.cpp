@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua states: strict globals, seeded random numbers, error values as text, stops.
 #include "bindings/lua/runtime/state.hpp"
 
 #include "tests/bindings/lua_test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of cases as bytes, bit for bit; values that bytes cannot carry; equality of functions.
+// Rows of cases as bytes, bit for bit; equality of functions.
 #include "bindings/lua/ensemble/stored_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -164,7 +164,6 @@ TEST(CaseBytes, KeepAllThatACaseFound) {
   result.drew = true;
   result.transforms = 1234.5;
   result.seconds = 0.1;
-  // The case's own surface keeps its identity.
   lua_newtable(bench.L());
   surface->push(bench.L());
   lua_setfield(bench.L(), -2, "s");
@@ -192,7 +191,7 @@ TEST(CaseBytes, KeepAFailure) {
   EXPECT_EQ(found.failure, result.failure);
 }
 
-// Digests of rows are in journals, which later versions replay.
+// Later versions replay digests in journals.
 TEST(PackedValueDigest, IsThatOfEarlierJournals) {
   const Bench bench;
   Record record;
@@ -229,7 +228,7 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
   }
 }
 
-// Shards with differently typed script paths must have equal digests.
+// The spelling of the script's path must not change digests.
 TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
   struct Typed {
     ScriptSpelling script;
@@ -257,7 +256,7 @@ TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
     EXPECT_EQ(content(other, plain).lines, first.lines) << other.script.path;
   }
   EXPECT_NE(content(typed[0], "\n" + plain).lines, first.lines);
-  // Functions that read the script's name or search path depend on both.
+  // These functions read the script's name or search path.
   for (const char* body :
        {"return function() return { y = arg[0] } end", "local a = arg return function() return a end",
         "package.path = package.path .. ';x/?.lua' return function() return {} end"})

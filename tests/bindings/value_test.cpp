@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Native values in scripts: printing, comparison, lifetime, refusals.
 #include "bindings/lua/registry/value.hpp"
 
 #include <memory>
@@ -80,7 +79,7 @@ TEST_F(NativeValue, EveryDeclaredFieldCanBeRead) {
     ASSERT_NE(entry.type, nullptr);
     for (const Getter& field : entry.type->fields) {
       const std::string text = value(std::string(entry.global) + "." + field.name);
-      // Only quantities of absent effects may be errors.
+      // Only quantities of absent effects are errors.
       EXPECT_TRUE(text.rfind("error: ", 0) != 0 || text.find("plasticity") != std::string::npos)
           << entry.global << "." << field.name << ": " << text;
     }

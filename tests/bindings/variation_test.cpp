@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A replay's values replace the script's in matching calls and are checked alike.
 #include "bindings/lua/registry/variation.hpp"
 
 #include "tests/bindings/lua_test.hpp"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision in scripts: calls, results, refusals, files of the run.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The log of a bench reads back as performed, by protocol or by hand, with its measurements; a detected,
-// run and logged recording returns the same events.
+// The log of a bench reads back as performed, with its measurements.
 #include "engine/recording/bench_log.hpp"
 
 #include <numbers>

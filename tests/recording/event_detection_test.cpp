@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Event detection on recordings with known truth: counts, loads within four standard errors, dwells within
-// two time steps, despite noise, drift, slow ramps, short holds and overshoot; warnings if the noise is too
-// large.
+// Recordings with known truth: loads within four standard errors and dwells within two time steps, despite
+// noise, drift, slow ramps, short holds and overshoot; warnings if the noise is too large.
 #include "engine/recording/event_detection.hpp"
 
 #include <filesystem>
@@ -48,7 +47,7 @@ std::string difference(const SyntheticPress& press, const SyntheticTruth& truth,
         found.recording()->spans.begin(), found.recording()->spans.end(), [&](const RecordedSpan& s) {
           return s.kind == RecordedSpan::Kind::hold && s.end > truth.holds[k].begin + 0.4 * hold.dwell;
         });
-    // After overshoot, a hold begins once the load is within two per cent.
+    // A hold begins once an overshoot is within two per cent.
     const double settling = hold.overshoot > 0 ? 1.5 * hold.rise * std::min(1.0, 0.02 / hold.overshoot) : 0;
     const double drift = std::abs(press.drift) * 0.02;
     // Samples of both ramps within the level.
@@ -79,7 +78,7 @@ SyntheticPress random_press(std::mt19937_64& random) {
   double last = 0;
   for (int k = 0; k < holds; ++k) {
     SyntheticHold hold;
-    // Without a rest, loads within ten per cent would be one hold.
+    // Without a rest, loads within ten per cent are one hold.
     do hold.load = 100 * std::pow(10, uniform(random));
     while (std::abs(hold.load - last) < 0.1 * std::max(hold.load, last));
     last = hold.load;
@@ -102,7 +101,7 @@ double lowest(const SyntheticPress& press) {
 }
 
 struct Outcome {
-  std::string difference;  // "" for the truth
+  std::string difference;  // "": the truth
   bool warned_of_noise = false, refused = false;
   std::string warnings;
 };
@@ -124,8 +123,8 @@ Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   return outcome;
 }
 
-// Hundreds of protocols: holds of at least 25 samples, ramps of up to 40, direct steps between holds, zero
-// offsets up to 30 % of the lowest hold, missing cells in every third recording.
+// Holds of at least 25 samples, ramps of up to 40, direct steps between holds, zero offsets up to 30 % of
+// the lowest hold, missing cells in every third recording.
 TEST(EventDetection, FindsWhatWasDone) {
   for (const double noise : {0.0, 0.001, 0.005, 0.01, 0.02, 0.05}) {
     std::mt19937_64 random(17);
@@ -139,7 +138,7 @@ TEST(EventDetection, FindsWhatWasDone) {
   }
 }
 
-// With noise up to the lowest hold, the result is true or carries a warning.
+// With noise up to the lowest hold: the truth or a warning.
 TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   int wrong = 0, said = 0;
   for (const double noise : {0.1, 0.2, 0.5, 1.0, 3.0}) {
@@ -160,7 +159,7 @@ TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   EXPECT_GT(said, 500);
 }
 
-// Overshoot of 5 to 30 %; the zero drifts by half a per cent of the highest load per hold.
+// Overshoot of 5 to 30 %; per hold the zero drifts by half a per cent of the highest load.
 TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   for (const double noise : {0.0, 0.002, 0.005}) {
     std::mt19937_64 random(29);
@@ -183,7 +182,7 @@ TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   }
 }
 
-// Ramps of hundreds of samples and holds of eight are found or reported.
+// Ramps of hundreds of samples, holds of eight.
 TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   for (const double noise : {0.0, 0.001, 0.01}) {
     for (unsigned seed = 0; seed < 200; ++seed) {
@@ -199,7 +198,7 @@ TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   }
 }
 
-// Four presses with turns, sampled at 10 Hz.
+// Sampled at 10 Hz.
 SyntheticPress four_presses() {
   SyntheticPress press;
   press.step = 0.1;
@@ -241,7 +240,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   }
 }
 
-// A sensor saturated at 50 kN in a hold of 78 kN shows a constant reading.
+// A sensor saturated at 50 kN in a hold of 78 kN reads a constant.
 TEST(EventDetection, F8AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
@@ -258,7 +257,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
   }
 }
 
-// Negative compression must not be reported as a turn under load.
+// Negative compression is not a turn under load.
 TEST(EventDetection, F8NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;
@@ -271,8 +270,8 @@ TEST(EventDetection, F8NegativeCompressionIsSaid) {
       << error;
 }
 
-// Filtered noise has correlated neighbours and must not become a press unnoticed. Load errors may then be
-// underestimated, so only counts are checked.
+// Correlated noise must not become a press unnoticed. Load errors may be underestimated, so only counts are
+// checked.
 TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   for (const double noise : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -290,7 +289,7 @@ TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   }
 }
 
-// One sample per second, with an optional angle.
+// One sample per second.
 struct Sample {
   double load;
   double angle = 0;
@@ -429,7 +428,7 @@ TEST(EventDetection, AMillionSamplesTakeNoLonger) {
   EXPECT_EQ(difference(press, truth, detect_events(recording)), "");
 }
 
-// One extreme sample must not coarsen the rounding of all loads.
+// One extreme sample must not coarsen all loads.
 TEST(EventDetection, OneSampleFarTooHighLeavesEveryPressItsLoad) {
   const std::filesystem::path file =
       std::filesystem::path(ASPERITY_TEST_DATA) / "../fuzz/corpus/press_recording/one_sample_too_high.csv";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Press logs: rows become events, errors name line and column, and written protocols read back equal.
+// Rows become events, errors name line and column, written protocols read back equal.
 #include "engine/recording/press_log.hpp"
 #include "engine/core/files/source_file.hpp"
 
@@ -60,7 +60,6 @@ TEST_F(PressLog, RowsAreEvents) {
             "  3  rotate 90 deg (at 900 s, log.csv line 3)\n"
             "  4  press 152.78 MPa for 10 min (at 900 s, log.csv line 3)\n"
             "  5  release (at 1800 s, log.csv line 4)");
-  // The same doubles as in a script.
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).value, 152.78e6);
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).dwell, 600.0);
   EXPECT_EQ(p.events()[3].origin, "log.csv line 3");
@@ -134,7 +133,7 @@ TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// Twenty minutes exceed the ten between two presses.
+// Twenty minutes do not fit in ten.
 TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -198,7 +197,6 @@ TEST_F(PressLog, F8FormsOfLoggersAreRead) {
             std::string::npos);
 }
 
-// The caller may state what the log does not.
 TEST_F(PressLog, F8FormsThatAreSaid) {
   const auto said = [this](const std::string& log, const TableForm& form) {
     std::string lines;
@@ -235,7 +233,6 @@ TEST_F(PressLog, F8FormsThatAreSaid) {
       "`load`");
 }
 
-// Ambiguous or unreadable forms are refused with a correction.
 TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
@@ -272,7 +269,7 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// An angle is a stage reading; a turn has another name.
+// An angle is a stage reading, not a turn.
 TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -386,7 +383,7 @@ TEST_F(PressLog, FilesThatAreNoLogs) {
   EXPECT_NE(error_of([&] { read_press_log(path() + "x"); }).find("there is no file"), std::string::npos);
 }
 
-// A file from another country: semicolons, decimal commas, Latin-1, CRLF, notes.
+// Semicolons, decimal commas, Latin-1, CRLF, notes.
 TEST_F(PressLog, AFileAsItIsKept) {
   const Protocol p = read_press_log(ASPERITY_TEST_DATA "/../data/press_log.csv", listener);
   EXPECT_EQ(p.text(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press: units, missing cells, errors by line and column, and recognition of recordings.
+// Units, missing cells, errors by line and column, recognition.
 #include "engine/recording/press_recording.hpp"
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
   EXPECT_TRUE(refusal("time [s],load [N]\n").find("names columns but holds no row") != std::string::npos);
 }
 
-// An unknown unit does not hide that the table is a recording.
+// An unknown unit does not prevent recognition.
 TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   std::string text = "time [s],load [kN],angle [gon]\n";
   for (int k = 0; k < 120; ++k)

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of protocols: a recording with its detected events, recorded times, cumulated dwells, or single
-// events.
 #include "engine/recording/protocol_chart.hpp"
 
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings with absent rows: events outside gaps are found, possible events in gaps are refused or
-// reported as for empty cells, and uneven sampling loses no rows.
+// Events outside absent rows are found; possible events in gaps are refused or reported; uneven sampling is
+// no gap.
 #include "engine/recording/recording_holes.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ PressRecording recorded(const std::vector<double>& times, const std::function<do
   return recording;
 }
 
-// Row k is on line k + 2; `count` rows are absent, or their loads missing.
+// Row k is on line k + 2; `count` rows or their loads are missing.
 PressRecording without_rows(const PressRecording& all, std::size_t first, std::size_t count) {
   PressRecording recording;
   recording.name = all.name;
@@ -80,7 +80,7 @@ TEST(RecordingHoles, AHoldAfterAGapIsKept) {
   EXPECT_NE(found.recording()->text().find("some 46 more absent"), std::string::npos);
 }
 
-// Every second under load, every ten seconds otherwise: a hold counts despite long neighbouring steps.
+// Every second under load, otherwise every ten: the hold counts.
 TEST(RecordingHoles, AHoldBetweenLongStepsIsNeitherSwallowedNorAPeak) {
   std::vector<double> times{0};
   const auto go = [&](int count, double step) {
@@ -137,7 +137,6 @@ TEST(RecordingHoles, AGapInAHoldOrARestIsWarnedOf) {
   EXPECT_TRUE(brief.told("the load is missing while it changes, in the time between lines 100 and 103"));
 }
 
-// Absent rows and empty cells give the same events and warnings.
 TEST(RecordingHoles, AbsentRowsAndEmptyCellsGiveTheSameFinding) {
   const auto finding = [](const PressRecording& recording) {
     Listener listener;
@@ -202,7 +201,7 @@ TEST(RecordingHoles, UnevenStepsAreNoGaps) {
   }
 }
 
-// Gaps so frequent that they look like the sampling are reported too.
+// Frequent gaps look like the sampling: a warning.
 TEST(RecordingHoles, StepsTooUnevenToTellGapsAreWarnedOf) {
   PressRecording recording = two_levels(75, 0, 50);
   for (std::size_t first = 5; first + 21 < recording.time.size(); first += 15)

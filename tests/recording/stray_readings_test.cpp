@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stray readings leave the presses unchanged; short presses and sudden releases are not stray.
 #include "engine/recording/stray_readings.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +51,7 @@ std::vector<std::string> stray_warnings(const Listener& listener) {
   return found;
 }
 
-// Replaces readings from `first` on and expects one press of 40 N for 80 s.
+// Readings from `first` on do not change one press of 40 N for 80 s.
 void expect_one_press(std::size_t first, const std::vector<double>& readings) {
   std::vector<double> loads = one_press();
   std::copy(readings.begin(), readings.end(), loads.begin() + static_cast<std::ptrdiff_t>(first));
@@ -104,7 +103,7 @@ std::vector<double> operator+(std::vector<double> a, const std::vector<double>& 
 }
 std::vector<double> times(std::size_t count, double load) { return std::vector<double>(count, load); }
 
-// Expects no stray reading and the presses `wanted`.
+// No stray reading.
 void expect_kept(const std::vector<double>& loads, const std::string& wanted) {
   Listener listener;
   EXPECT_EQ(kinds(detect_events(recorded(loads), {}, listener)), wanted);
@@ -148,7 +147,7 @@ TEST(StrayReadings, SuddenReleasesAndOvershootsAreKept) {
   expect_kept(rest + times(20, 40) + times(3, 0) + times(20, 60) + rest, "prreprre");
 }
 
-// 300 recordings with up to ten stray readings each, in runs of up to three.
+// Up to ten stray readings, in runs of up to three.
 class RandomRecording {
  public:
   explicit RandomRecording(unsigned seed) : random_(seed) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings with known truth: holds, releases and turns on a jittering clock, with noise, zero drift,
-// missing cells, overshoot and any ramp.
+// Recordings with known truth: holds, releases and turns on a jittering clock, with noise, drift, missing
+// cells and overshoot.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +40,9 @@ struct SyntheticPress {
   std::vector<SyntheticHold> holds;
   double step = 0.1, jitter = 0.5;  // s, and share of the step
   double noise = 0;                 // N
-  double likeness = 0;              // correlation of neighbouring noise; 0.9: slow filter
-  double offset = 0, drift = 0;     // N, and N over the whole recording
-  double missing = 0;               // share of missing loads within holds and rests
+  double likeness = 0;              // correlation of neighbours; 0.9: slow filter
+  double offset = 0, drift = 0;     // N, and N over the recording
+  double missing = 0;               // share of missing loads
   double first_rest = 20;
 };
 
@@ -113,7 +113,7 @@ inline PressRecording play(const SyntheticPress& press, unsigned seed, Synthetic
         a.load + (b.load - a.load) * (b.time > a.time ? (t - a.time) / (b.time - a.time) : 0);
     scatter = press.likeness * scatter + fresh * normal(random);
     double reading = clean + press.offset + press.drift * t / end + press.noise * scatter;
-    // Loads may be missing only at least five samples from a corner.
+    // At least five steps from a corner.
     const bool steady = a.load == b.load && t - a.time > 5 * press.step && b.time - t > 5 * press.step;
     if (steady && uniform(random) < press.missing) reading = std::numeric_limits<double>::quiet_NaN();
     recording.time.push_back(t);

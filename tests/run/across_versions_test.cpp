@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Comparison with results of another minor version: values, digits, reported differences.
 #include "engine/run/across_versions.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +49,7 @@ TEST(AcrossVersions, NumbersAreComparedInTheDigitsThatAreKept) {
   EXPECT_EQ(other.differences[0].again, "1.00002");
 }
 
-// A mean that is zero within rounding has no digits to compare.
+// Rounding of a zero mean has no digits.
 TEST(AcrossVersions, RoundingOfAColumnIsNotCompared) {
   const auto then_and_now = [&](const std::string& one, const std::string& other) {
     return compared({row(R"("z":2.0)"), row(R"("z":)" + one)}, {row(R"("z":2.0)"), row(R"("z":)" + other)})
@@ -67,7 +66,7 @@ TEST(AcrossVersions, TextsVerdictsAndColumnsOfTheRecordMustBeThere) {
   EXPECT_EQ(compared({row(R"("t":1)")}, {row(R"("t":1,"u":1)")}).differences.size(), 0U);
   EXPECT_EQ(compared({verdict("true", "a")}, {verdict("true", "b")}).differences.size(), 0U);
   EXPECT_EQ(compared({verdict("true", "a")}, {verdict("false", "a")}).differences.size(), 1U);
-  // A column may share the name of a verdict's member.
+  // A column and a verdict's member may share a name.
   EXPECT_EQ(compared({row(R"("passed":1,"a":1)")}, {row(R"("passed":1,"a":2)")}).differences.size(), 1U);
 }
 

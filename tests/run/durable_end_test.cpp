@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run's files are on disk before its manifest says done. This program replaces fsync and rename and
-// records their order.
+// All files are on disk before the manifest says done. Replaces fsync and rename to record their order.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -105,7 +104,7 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   EXPECT_GT(last("sync " + root), said);
 }
 
-// Small results share a file and an fsync; the end of the run waits for the last ones.
+// The end of the run waits for results of a shared file.
 TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
@@ -131,7 +130,7 @@ TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone)
   EXPECT_LT(first("sync " + log), last("to " + run.path().string() + "/manifest.json"));
 }
 
-// Files needed to resume are durable before the script begins.
+// A resume needs both files.
 TEST_F(DurableEnd, F2ScriptAndManifestAreOnTheDiskFromTheBeginning) {
   RunSetup setup;
   setup.script_name = "s.lua";

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expectations: all forms, bounds, negative controls, undecidable cases.
 #include "engine/run/expectation.hpp"
 
 #include <cmath>
@@ -10,7 +9,7 @@
 namespace asperity::expectation_test {
 namespace {
 
-// The mean of mu rises with D by 0.1 a step; single seeds may fall.
+// Mean mu rises with D by 0.1 a step; single seeds may fall.
 Table study() {
   Table table;
   for (int k = 0; k < 3; ++k)
@@ -234,7 +233,7 @@ TEST(Expectation, RefusesToSayNothing) {
             "bad_value: `increasing_in` and `decreasing_in` both name `D`; keep one of them");
 }
 
-// A bound with a unit is converted to the column's unit.
+// A bound is converted to the column's unit.
 struct UnitCase {
   const char* column;    // its unit
   const char* quantity;  // of the bound
@@ -309,7 +308,6 @@ TEST(Expectation, B6SaysWhatWasWantedInTheUnitOfTheColumn) {
   EXPECT_EQ(judge(e, table).sentence, "`p` should be near 10 MPa within 1.5, but row 1 has 12 (1 of 1 row)");
   e.within = ExpectedValue(std::string_view("0.002 GPa"));
   EXPECT_EQ(judge(e, table).sentence, "`p` is near 10 MPa within 2 MPa (1 row, 12)");
-  // A quantity and a plain number are compared in the column's unit.
   Expectation between = about("p");
   between.at_least = ExpectedValue(std::string_view("5 MPa"));
   between.at_most = 20.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The journal: one whole numbered line per event, from any thread, until closed.
+// One whole numbered line per event, from any thread, until closed.
 #include "engine/run/journal.hpp"
 
 #include <limits>
@@ -74,7 +74,7 @@ TEST(Journal, WithoutAFileOnlyCounts) {
   EXPECT_EQ(journal.count(), 1);
 }
 
-// A resumed run repeats its lines; existing lines are not written twice.
+// A resumed run does not write existing lines twice.
 TEST_F(JournalTest, IsRepeatedUpToWhereItEndedAndThenGoesOn) {
   const auto first_lines = [](Journal& journal) {
     journal.write("begin", Json::object({{"seed", 1}}));
@@ -135,7 +135,7 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
   EXPECT_EQ(content_of(folder / "j.jsonl"), before);
 }
 
-// A power cut leaves zeros; the run rewrites its lines from there.
+// A power cut leaves zeros; the run rewrites lines from there.
 TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
   const auto lines = [](Journal& journal) {
     for (int k = 1; k <= 4; ++k) journal.write("row", Json::object({{"row", Json::object({{"k", k}})}}));
@@ -173,7 +173,7 @@ TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
   EXPECT_EQ(content_of(folder / "victim"), before);
 }
 
-// A copy of the run directory by hard links stays unchanged; the journal is complete.
+// A hard-linked copy stays unchanged; the journal is complete.
 TEST_F(JournalTest, S3AnotherNameOfTheFileKeepsItsBytes) {
   const std::filesystem::path file = folder / "j.jsonl", copy = folder / "copy";
   {

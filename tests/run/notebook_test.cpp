@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The notebook: journalled rows, a CSV complete after every write, expectations in the log.
+// Journalled rows and a CSV complete after every write.
 #include "engine/run/notebook.hpp"
 
 #include <thread>
@@ -64,7 +64,7 @@ TEST_F(NotebookTest, RowsOfManyThreadsAreAllThere) {
 
 TEST_F(NotebookTest, WritesAgainWhatTheDiskRefused) {
   write({{"a", 1.0}});
-  // A missing folder fails reliably in a test; a folder at the temporary name does not.
+  // A missing folder fails reliably; a folder at the temporary name does not.
   std::filesystem::rename(folder / "book.csv", folder / "kept.csv");
   Notebook lost("lost", folder / "gone" / "lost.csv", *journal, log);
   const std::vector<Entry> row = {{"a", 1.0}};
@@ -103,7 +103,7 @@ TEST_F(NotebookTest, WithoutAFileKeepsRowsInMemory) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
-// A resumed run that is interrupted while it repeats rows still has all rows.
+// The resumed run is interrupted while it repeats rows.
 TEST_F(NotebookTest, TheFileOfARunThatIsTakenUpNeverLosesARow) {
   write({{"N", 1.0}});
   write({{"N", 2.0}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stored results return bit for bit, damaged files are ignored, and the folder stays within its limit.
+// Stored results return bit for bit, damaged files are ignored, the folder has a limit.
 #include "engine/run/result_files.hpp"
 
 #include <chrono>
@@ -88,7 +88,7 @@ TEST_F(ResultFilesTest, CheapResultsAreNotWorthAFile) {
   EXPECT_FALSE(std::filesystem::exists(folder / "store"));
 }
 
-// A file cut at any length or with any bit flipped is never the result and never crashes.
+// Cut at any length, or one bit flipped: never the result, never a crash.
 TEST_F(ResultFilesTest, ATornOrAlteredFileIsNotTakenForTheResult) {
   ResultFiles writer(setup());
   keep(writer, "key", ramp());
@@ -109,13 +109,13 @@ TEST_F(ResultFilesTest, ATornOrAlteredFileIsNotTakenForTheResult) {
     write(altered);
     std::optional<FoundResult> found = ResultFiles(setup()).find("key");
     if (!found) continue;
-    ++harmless;  // bytes without meaning, such as padding
+    ++harmless;  // padding, for example
     EXPECT_EQ(found->number("approach"), 1.0 / 3);
     EXPECT_TRUE(std::ranges::equal(found->take("pressure").values(), ramp().values()));
     EXPECT_TRUE(std::ranges::equal(found->take("gap").values(), ramp().values()));
   }
   EXPECT_LT(harmless, whole.size() / 2);
-  // A result of another key under this name.
+  // A result of another key.
   write(whole);
   ResultFilesSetup elsewhere = setup("elsewhere");
   ResultFiles others(elsewhere);
@@ -165,7 +165,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
   EXPECT_EQ(count(tiny.folder), 0U);
 }
 
-// One user's script cannot fill a shared folder.
+// One user cannot fill a shared folder.
 TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
   const Field field = ramp(64, 64);
   ResultFilesSetup shared = setup();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results in memory: exact bits, bounded size, least recently used dropped first, a store as second level.
+// Least recently used results are dropped first; a store is the second level.
 #include "engine/run/result_memory.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(ResultMemory, GivesBackWhatWasKeptHoweverCheap) {
   EXPECT_EQ(found->text("t"), "a");
   EXPECT_EQ(found->cost.transforms, 3);
   EXPECT_EQ(found->take("f")(15, 15), 0.1);
-  EXPECT_EQ(memory.find("a")->take("f")(0, 0), 0.1);  // taking copies
+  EXPECT_EQ(memory.find("a")->take("f")(0, 0), 0.1);  // copied
   EXPECT_EQ(memory.counts().found, 2);
   EXPECT_EQ(memory.counts().missed, 1);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run directory: location, permitted writes, manifest, end of the run.
 #include "engine/run/run_directory.hpp"
 
 #include <sys/stat.h>
@@ -113,7 +112,7 @@ TEST_F(RunDirectoryTest, FilesGoUnderIt) {
   EXPECT_EQ(run.path_for("./c.png"), run.path() / "c.png");
 }
 
-// A script must read the press.csv it wrote, not the file next to the script.
+// A script must read the press.csv it wrote, not its neighbour's.
 TEST_F(RunDirectoryTest, WhatTheRunWroteIsReadBeforeWhatLiesBeside) {
   const fs::path beside = fs::current_path();
   fs::current_path(folder);
@@ -161,7 +160,6 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  // Includes the page's views.
   for (const std::string file :
        {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock", ".views/x", "./.views/a/b"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
@@ -243,7 +241,7 @@ TEST_F(RunDirectoryTest, AWatchdogMayEndItDuringWrites) {
         written = k + 1;
       }
     } catch (const Error&) {
-      // The journal is closed, as a script would see.
+      // A closed journal refuses events.
     }
   });
   while (written < 50) std::this_thread::yield();
@@ -266,7 +264,7 @@ TEST_F(RunDirectoryTest, AStuckWriterDoesNotHoldTheWatchdog) {
   book->write(row);
   fs::remove(run.path() / "book.csv");
   ASSERT_EQ(::mkfifo((run.path() / "book.csv").c_str(), 0600), 0);
-  std::thread writer([&] { book->write(row); });  // waits for a reader, holding the notebook
+  std::thread writer([&] { book->write(row); });  // holds the notebook
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_TRUE(run.finish(RunStatus::killed, "stuck", std::chrono::milliseconds(100)));
   EXPECT_EQ(manifest(run).find("status")->string(), "killed");
@@ -332,7 +330,7 @@ TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
   EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
 }
 
-// An interrupted run records its inputs, and their later changes are detected.
+// An interrupted run records its inputs.
 TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -354,7 +352,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
   EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far"), nullptr);
 }
 
-// A prepared directory is locked for the other process throughout; an unused one is removed.
+// The directory is locked throughout for the other process.
 TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
   RunSetup s = setup();
   s.out = folder / "above" / "r";
@@ -392,7 +390,6 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
     prepared.leave();
     EXPECT_FALSE(fs::exists(prepared.path)) << kind;
   }
-  // Folders that are no runs are unchanged.
   fs::create_directory(folder / "mine");
   std::ofstream(folder / "mine" / "data.csv") << "1";
   RunSetup s = setup();
@@ -402,7 +399,7 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
   EXPECT_EQ(files_in(folder / "mine"), 1U);
 }
 
-// A run killed before its first manifest may be started again.
+// A run killed before its first manifest may start again.
 TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -545,7 +542,7 @@ TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
   EXPECT_EQ(read_run(*s.out).journal.size(), 2U);
 }
 
-// Each of the run's own files and folders is replaced by a link.
+// A link replaces each of the run's own files and folders.
 TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -579,7 +576,7 @@ TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   EXPECT_EQ(error_of([&] { RunDirectory run(again); }), "");
 }
 
-// A linked table is replaced, not appended to.
+// A linked table is replaced.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
@@ -592,7 +589,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 
-// A copy by hard links (cp -al): resuming one leaves the other unchanged.
+// Resuming a run leaves its hard-linked copy (cp -al) unchanged.
 TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -626,7 +623,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   }
 }
 
-// A table with a second hard link is replaced too.
+// So is a table with a second hard link.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};

@@ -38,7 +38,6 @@ TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {
   }
   EXPECT_NE(all.find("rounding of the C library's functions"), std::string::npos) << all;
   EXPECT_EQ(all.find("memory"), std::string::npos);
-  // Earlier versions recorded fewer facts.
   EXPECT_TRUE(differing_machines(Json::object(), here).empty());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lock of a run directory: one holder, named in errors, released when its process ends.
+// One holder, named in errors; the lock ends with its process.
 #include "engine/run/run_lock.hpp"
 
 #include <sys/utsname.h>
@@ -27,7 +27,6 @@ class RunLockTest : public InFolder {
     return "`" + folder.string() + "` is being written by process " + std::to_string(process) + " on " +
            system.nodename;
   }
-  // A process that holds the lock until killed.
   pid_t holder(const RunLock::Ask& ask = RunLock::ask_system) const {
     int ready[2];
     EXPECT_EQ(::pipe(ready), 0);
@@ -75,7 +74,7 @@ TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// A new holder may not have written its name yet.
+// A new holder may not have written its name.
 TEST_F(RunLockTest, F1WhoIsNamedLives) {
   const pid_t child = holder();
   kill(child);
@@ -92,7 +91,7 @@ TEST_F(RunLockTest, F1WhoIsNamedLives) {
       "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
 }
 
-// One of many processes succeeds, and holds the lock until all others are refused.
+// One holds the lock until all others are refused.
 TEST_F(RunLockTest, F1OfManyOneHasIt) {
   constexpr int comers = 8;
   int until[2];
@@ -151,7 +150,7 @@ TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
                 (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
 }
 
-// An unknown holder counts as alive: a sandbox hides boot time and process namespace and forbids signals.
+// A sandbox hides boot time and process namespace and forbids signals: the holder counts as alive.
 TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   utsname system{};
   ::uname(&system);
@@ -161,7 +160,7 @@ TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
 }
 
-// A child process shares the lock; the lock lasts as long as either.
+// The lock lasts as long as either process.
 TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   const std::string held = "bad_state: " + held_by(::getpid());
   std::shared_ptr<RunLock> parent = RunLock::take(folder);
@@ -176,7 +175,6 @@ TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// The child of a killed holder dies shortly after.
 TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
