@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of unknown format: every reader examines the bytes before one reads them. Packed data may expand up
-// to 1032 times.
+// Unknown formats: every reader examines the bytes before one reads them. Unpacking expands up to 1032
+// times.
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "tests/fuzz/height_map.hpp"
 

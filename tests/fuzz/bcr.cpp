@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image Metrology files: a text header whose counts and units may contradict the data.
+// Image Metrology: counts and units of the text header may contradict the data.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_bcr(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gwyddion files: nested objects with wrong lengths and counts.
+// Gwyddion: nested objects with wrong lengths and counts.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_gwy(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gzip streams: truncated, wrong, or expanding greatly. Output is limited to 16 MiB or 128 bytes per byte,
-// and each reader's memory to a multiple.
+// Truncated, wrong or greatly expanding streams. Output limit: 16 MiB or 128 bytes per byte; memory: a
+// multiple.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_gzip(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readers of measured files are called for surfaces and profiles: without options, with usual ones, with
-// extreme sizes, and with holes left. Results have finite heights or permitted holes, on a grid of positive
-// size.
+// Calls a reader for surfaces and profiles: without options, with usual and extreme ones, with holes left.
+// Results have finite heights or permitted holes, on a grid of positive size.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +37,6 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
   ReadOptions surface;
   ReadProfileOptions profile;
   surface.format = profile.format = knobs.format;
-  // Options: none, usual, and extreme.
   for (const int told : {0, 1, 2, 3, 4}) {
     if (told > 0) {
       const bool usual = told == 1 || told == 4;

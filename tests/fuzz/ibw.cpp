@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Igor binary waves: inconsistent lengths and dimensions. The header's checksum is corrected first.
+// Igor binary waves: inconsistent lengths and dimensions under a corrected header checksum.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_ibw(const std::uint8_t* data, std::size_t size) {

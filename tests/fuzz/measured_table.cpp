@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables from loggers and spreadsheets. A table written as CSV reads back equal.
+// A table written as CSV reads back equal.
 #include "engine/core/files/source_file.hpp"
 #include "engine/statistics/table_operations.hpp"
 #include "engine/statistics/table_reader.hpp"
@@ -21,13 +21,13 @@ static void fuzz_measured_table(const std::uint8_t* data, std::size_t size) {
       const Table table = read_measured_table(SourceFile("table.csv", bytes), form, monitor);
       fuzz::require(table.rows() > 0 && !table.columns().empty(), "a table has rows and columns");
       fuzz::require(!table_text(table).empty(), "a table is shown");
-      TableForm commas;  // else one column of words reads as columns between blanks
+      TableForm commas;  // else a column of words becomes several
       commas.separator = Separator::comma;
       Table again;
       try {
         again = read_measured_table(SourceFile("table.csv", table.csv()), commas);
       } catch (const Error&) {
-        return;  // texts like numbers, and names with units, are ambiguous
+        return;  // ambiguous: texts like numbers, names with units
       }
       fuzz::require(again.columns().size() <= table.columns().size(), "no column is added");
     });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MetroPro, PLU, AL3D, NMS and FRT: the first byte of the input selects the format, the rest is the file.
-// Stated lengths may be wrong.
+// MetroPro, PLU, AL3D, NMS and FRT, selected by the first byte.
 #include <array>
 
 #include "tests/fuzz/height_map.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every function with an option table, and a Lua state with numbers, a surface, a material, a friction law
-// and a function.
+// Every function with an option table, and a Lua state with values for expressions.
 #pragma once
 
 #include <vector>
@@ -38,7 +37,7 @@ struct World {
     require(luaL_dostring(state.get(), prelude) == LUA_OK, "the world is made");
   }
   lua::Session session{Monitor::silent()};
-  lua::State state;  // expressions find these names on its stack
+  lua::State state;  // names for expressions on its stack
 };
 
 }  // namespace asperity::fuzz

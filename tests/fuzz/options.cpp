@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Option tables. The first line names a call ("lab.surface.sine"); the Lua expression after it is checked
-// by the call's option block, without computing. The expression may use `huge`, `nan`, `flat`, `steel`,
-// `law` and `call`.
+// Input: a call on the first line ("lab.surface.sine"), then a Lua expression for its option block; nothing
+// is computed. Values: `huge`, `nan`, `flat`, `steel`, `law`, `call`.
 #include <functional>
 
 #include "tests/fuzz/option_world.hpp"
@@ -22,7 +21,7 @@ static void fuzz_options(const std::uint8_t* data, std::size_t size) {
   lua_State* const L = world.state.get();
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = std::min(input.find('\n'), size);
-  // An unknown name also selects a function, so that a changed letter is useful.
+  // Unknown names also select a function, so that changed letters are useful.
   const lua::Function* function =
       functions[std::hash<std::string_view>()(input.substr(0, line)) % functions.size()];
   for (const lua::Function* one : functions)
@@ -38,7 +37,7 @@ static void fuzz_options(const std::uint8_t* data, std::size_t size) {
     memory::set_limit(0);
     lua_sethook(L, nullptr, 0, 0);
     const std::string& caller = lua::qualified_name(*function);
-    if (made)  // the state may enlarge its stack
+    if (made)  // its stack may grow
       fuzz::refused(
           room, [&] { function->options->check(lua::Argument(L, -1), caller); }, 1 << 16);
   }

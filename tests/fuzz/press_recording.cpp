@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press. The detected protocol is written as a press log and reads back equal.
+// The detected protocol, written as a press log, reads back equal.
 #include "engine/recording/press_recording.hpp"
 
 #include "engine/core/files/source_file.hpp"

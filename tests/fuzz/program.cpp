@@ -24,7 +24,6 @@ Target::Target(const char* its_name, Run runs, Prepare prepares)
 
 }  // namespace asperity::fuzz
 
-// Called by libFuzzer or replay.cpp.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   using namespace asperity::fuzz;
   constexpr const char* option = "--target=";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a target over all files of the given folders, for builds without libFuzzer. A failure ends the
-// program; the last printed name is the file.
+// Runs a target over folders of files, for builds without libFuzzer. After a failure, the last printed name
+// is the file:
 //
 //   PROGRAM --target=NAME FOLDER..
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scripts are checked and then run in a sandbox limited to 30000 instructions, 64 MiB and a fifth of a
-// second. Each must end with or without an error and release all its memory.
+// Checks and runs a script in a sandbox: at most 30000 instructions, 64 MiB and a fifth of a second. All
+// memory is released.
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits for fuzzed scripts: a prelude without file access and without long library functions (the program
-// kills the process for these), a clock and an instruction count. Limits raise the stop flag, as in the
-// program.
+// Limits of fuzzed scripts: a prelude without files and without long library functions (the program kills
+// the process for these), a clock and an instruction count. Limits raise the stop flag.
 #pragma once
 
 #include <chrono>
@@ -39,7 +38,6 @@ class TimeLimit {
   std::jthread thread_;
 };
 
-// Calls look() every thousand instructions, in coroutines too.
 inline int turns = 0;
 
 inline void look(lua_State* L, lua_Debug*) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ISO 25178-71 files, text and binary: counts and types may contradict the data.
+// ISO 25178-71, text and binary: counts and types may contradict the data.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_sdf(const std::uint8_t* data, std::size_t size) {

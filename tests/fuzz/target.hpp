@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Requirements of every target: the reader returns or throws an Error with a printable message, uses
-// counted memory up to a fixed multiple of the input, and releases all of it. A violation aborts for the
-// fuzzer.
+// Every reader must return or throw an Error with a printable message, use counted memory up to a fixed
+// multiple of the input, and release all. A violation aborts.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@
 
 namespace asperity::fuzz {
 
-// A reader and its preparation; a static Target in each source registers itself (program.cpp).
+// A reader and its preparation. A static Target in each source registers itself (program.cpp).
 struct Target {
   using Run = void (*)(const std::uint8_t* data, std::size_t size);
   using Prepare = void (*)();
@@ -59,8 +58,8 @@ class ListeningMonitor final : public Monitor {
   void warn(std::string_view sentence) override { require_good_message(std::string(sentence)); }
 };
 
-// Runs read() with at most `room` more bytes of counted memory; `kept` bytes may remain in a persistent
-// state. Returns true if read() threw.
+// Runs read() with at most `room` more bytes of counted memory; `kept` bytes may remain. Returns whether
+// read() threw.
 template <class Read>
 bool refused(std::size_t room, Read&& read, std::int64_t kept = 0) {
   const std::int64_t before = memory::held();

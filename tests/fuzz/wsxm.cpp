@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WSxM images: a header with the data's offset and range.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_wsxm(const std::uint8_t* data, std::size_t size) {

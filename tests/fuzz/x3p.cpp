@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X3P zip archives with wrong directories, sizes and checksums. Deflate expands up to 1032 times; two bytes
-// make a height. x3p_parts.cpp tests the content.
+// Wrong directories, sizes and checksums of the zip archive (content: x3p_parts.cpp). Deflate expands up to
+// 1032 times; two bytes make a height.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_x3p(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The content of an X3P archive, packed anew so that checksums match. Input: main.xml, a zero byte, the
-// number of valid-point bytes (two bytes, little-endian), the valid-point bytes, the points.
+// The content of an X3P archive, packed with right checksums. Input: main.xml, a zero byte, the number of
+// valid-point bytes (two bytes, little-endian), these bytes, the points.
 #include "tests/fuzz/height_map.hpp"
 #include "tests/surface/stored_zip.hpp"
 

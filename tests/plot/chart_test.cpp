@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts: omissions and their warnings, refusals, complete files.
 #include "engine/plot/chart.hpp"
 
 #include <cmath>
@@ -265,12 +264,11 @@ TEST(Chart, PanelsStandBelowEachOtherOverOneRange) {
   EXPECT_NE(script.find("set xrange [0.8:6.2]", first + 1), std::string::npos);
   EXPECT_NE(script.find("$panel1line0"), std::string::npos);
   EXPECT_NE(script.find("set lmargin at screen 0.13\n"), std::string::npos);
-  // Longer labels along y need more room on the left.
+  // Longer labels need more room.
   above.series[0].y = {0.003, 0.004, 0.005};
   EXPECT_EQ(chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings)
                 .find("set lmargin at screen 0.13\n"),
             std::string::npos);
-  // Different quantities have separate ranges.
   below.x.label = "force";
   EXPECT_EQ(
       chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings).find("[0.8:6.2]"),

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running gnuplot: literal text, equal bytes, error messages.
 #include "engine/plot/gnuplot.hpp"
 
 #include <cstdlib>

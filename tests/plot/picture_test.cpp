@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of fields: conserved means, true scale, strips, blanks, refusals.
 #include "engine/plot/picture.hpp"
 
 #include <cmath>
@@ -76,7 +75,6 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
   EXPECT_EQ(picture.cells.size(), 64U * 64U * sizeof(float));
 }
 
-// The title of the colour bar must not cover its numbers.
 TEST(Picture, F9AReliefNamesItsBarAboveIt) {
   PictureOptions options;
   options.view = PictureOptions::View::relief;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linked into every test program: a test that leaks file descriptors fails, and the failure names their
-// targets.
+// Part of every test program: a test that leaks file descriptors fails and names their targets.
 #include <gtest/gtest.h>
 
 #include <filesystem>

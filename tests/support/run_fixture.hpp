@@ -12,7 +12,6 @@
 
 namespace asperity {
 
-// A fresh folder for each test, removed afterwards.
 class InFolder : public testing::Test {
  protected:
   void SetUp() override {

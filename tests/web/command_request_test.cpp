@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands reach a confined process unchanged, with any bytes.
 #include "bindings/web/confined/command_request.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files beyond a run's limit are removed, its record last, without following links.
+// Removes files beyond a run's limit, the record last, without following links.
 #include "bindings/web/confined/disk_bound.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST_F(DiskBound, S2NoMoreFilesAreLeftThanMayBe) {
   put(".lock", 1, 0);
   EXPECT_NE(keep_within(folder / "run", 1 << 30, 10), "");
   EXPECT_LE(disk_use(folder / "run", 100).files, 10U);
-  EXPECT_TRUE(there(".lock"));  // the process that removes the others holds the lock
+  EXPECT_TRUE(there(".lock"));  // the remover holds the lock
 }
 
 TEST_F(DiskBound, LinksAreRemovedAndNotFollowed) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames in pieces: accepted when complete, refused early when invalid.
 #include "bindings/web/confined/frames.hpp"
 
 #include <gtest/gtest.h>

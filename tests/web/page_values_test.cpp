@@ -86,7 +86,6 @@ TEST(ReducedField, SaysSoWhereTheLastBlockIsSmaller) {
   for (const float value : small.values) ASSERT_EQ(value, 1.0F);
 }
 
-// Missing points stay missing, and their share is stated.
 TEST(ReducedField, HolesOfASurfaceAreMissing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Field heights(3, 2, 1e-6);
@@ -101,7 +100,7 @@ TEST(ReducedField, HolesOfASurfaceAreMissing) {
             base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)}));
   const Json whole = to_json(view_of(Surface(grid, Field(3, 2)), "map", 1));
   EXPECT_EQ(whole.find("fields")->list()[0].find("not_measured"), nullptr);
-  // A block is the mean of its measured points.
+  // The mean of the measured points.
   Field wide(4, 1, 2.0);
   wide(0, 0) = wide(2, 0) = wide(3, 0) = nan;
   const ReducedField small = reduced(wide, 2);
@@ -160,7 +159,7 @@ TEST(EventLog, GivesWhatComesAfterANumber) {
   EXPECT_FALSE(more);
 }
 
-// After the event of its end, the list must not show the run as running.
+// Once its end is announced, a run is not listed as running.
 TEST(PageRun, HasEndedForWhomeverHearsOfItsEnd) {
   const Folder folder;
   for (int repeat = 0; repeat < 200; ++repeat) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The system call filter alone: computations work, also under sanitizers; ways out of the process are
-// blocked.
+// The filter alone: computations work, also under sanitizers; ways out are blocked.
 #include "bindings/web/sandbox/system_calls.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +22,7 @@ class SystemCalls : public testing::Test {
   void SetUp() override {
     if (const std::string missing = load_system_call_filter(); !missing.empty()) GTEST_SKIP() << missing;
   }
-  // The work's result from a filtered child process; 100: no filter, 101: killed by a signal.
+  // The work's result behind the filter; 100: no filter, 101: killed by a signal.
   static int confined(const std::function<int()>& work) {
     const pid_t process = ::fork();
     if (process == 0) ::_exit(confine_system_calls(Confined::script).empty() ? work() : 100);
@@ -33,7 +32,7 @@ class SystemCalls : public testing::Test {
   }
 };
 
-// The undefined-behaviour sanitizer inspects a type when a thread starts, and aborts if it cannot.
+// The undefined-behaviour sanitizer inspects a type when a thread starts, or aborts.
 TEST_F(SystemCalls, WorkBesideTheMainOneBeginsBehindTheFilter) {
   EXPECT_EQ(confined([] {
               int sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nobody occupies every place of a room; the person with the least use is next.
+// The person with the least use is next.
 #include "bindings/web/runs/turns.hpp"
 
 #include <gtest/gtest.h>

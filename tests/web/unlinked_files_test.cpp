@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removed files that a script holds open count against the run's disk limit.
+// Removed but open files count against the disk limit.
 #include "bindings/cli/unlinked_files.hpp"
 
 #include <gtest/gtest.h>

@@ -193,7 +193,7 @@ TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
   EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
 }
 
-// A refusal lists commands in the parser's order, not the overview's.
+// A refusal lists commands in the parser's order.
 TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   std::istringstream overview(call({"help"}).output);
   std::string told;
@@ -203,7 +203,6 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   EXPECT_EQ(told,
             "run run replay press-log check explain cases status accuracy repl serve lesson help materials "
             "version ");
-  // All explanations begin in one column.
   std::istringstream lines(call({"help"}).output);
   std::set<std::size_t> columns;
   for (std::string line; std::getline(lines, line) && line.starts_with("asperity ");)
@@ -233,7 +232,7 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   const Outcome refused = call({"lesson", "fractal_dimension", "--copy"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.error.find("is there already"), std::string::npos) << refused.error;
-  EXPECT_EQ(call({"run", "02_fractal_dimension.lua"}).output, "mine\n");  // the edited copy remains
+  EXPECT_EQ(call({"run", "02_fractal_dimension.lua"}).output, "mine\n");  // the edited copy
   const Outcome ran = call({"lesson", "fractal_dimension", "--run", "--out", "found"});
   EXPECT_EQ(ran.status, 0) << ran.error;
   EXPECT_NE(ran.output.find("Why: "), std::string::npos);
@@ -241,7 +240,7 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
 }
 
-// Three holds, each followed by a quarter turn.
+// Three holds, each with a quarter turn.
 std::string rows_of_a_log(const char* mark, bool turns) {
   std::ostringstream rows;
   const double loads[] = {20e3, 30e3, 40e3};

@@ -9,22 +9,21 @@
 namespace asperity::scripts {
 
 struct Outcome {
-  int status = -1;    // of exit; undefined after a signal
-  int signal = 0;     // that ended the process, or 0
-  bool late = false;  // killed by the time limit
+  int status = -1;    // undefined after a signal
+  int signal = 0;     // 0 after exit
+  bool late = false;  // killed after `patience`
   std::string output, error;
 };
 
 struct Start {
-  std::vector<std::string> command;     // program and arguments
+  std::vector<std::string> command;     // with arguments
   std::filesystem::path folder;         // working folder
-  std::string interrupt_at;             // send SIGINT once stdout contains this; empty: never
-  std::chrono::seconds patience{1200};  // time limit before a kill
+  std::string interrupt_at;             // SIGINT once stdout contains this; empty: never
+  std::chrono::seconds patience{1200};  // before a kill
 };
 
 Outcome run_process(const Start& start);
 
-// A fresh folder, removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -39,8 +38,8 @@ class TemporaryFolder {
 
 std::string content_of(const std::filesystem::path& path);
 
-// Faults in a run's records: manifest.json and all lines of journal.jsonl must be JSON, CSV rows as long as
-// their header and terminated; no temporary files.
+// Faults: manifest.json or a line of journal.jsonl is no JSON, CSV rows differ in length or lack an end,
+// temporary files remain.
 std::vector<std::string> faults_of_run(const std::filesystem::path& run);
 
 }  // namespace asperity::scripts

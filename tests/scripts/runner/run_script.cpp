@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_script PROGRAM SCRIPT: runs a script with the program and checks the expectations at the head of the
-// script:
+// run_script PROGRAM SCRIPT: checks a run against the lines at the head of the script:
 //
 //   --! command: check              instead of run; or accuracy, explain
 //   --! flags: --limit-time 1s      options of the program (space between them)
