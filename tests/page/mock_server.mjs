@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A stand-in for `asperity serve` with the same interface and headers and invented physics, for cases the
-// real server does not produce on demand: a long run, a limit, a broken connection.
+// A stand-in for `asperity serve` with invented physics, for a long run, a limit or a broken connection on
+// demand.
 // Start: node mock_server.mjs DIST [PORT]
 
 import { createServer } from 'node:http';
@@ -112,7 +112,7 @@ const pixel = Buffer.from(
   'base64',
 );
 
-// A work-precision study as in its file: a failed setting has no error.
+// As in its file: a failed setting has no error.
 const study = `way,cells,end,error,seconds [s],reason
 finer grid,16,measured,0.0054,0.0005,
 finer grid,32,measured,0.00032,0.0013,
@@ -120,7 +120,7 @@ finer grid,32,measured,0.00032,0.0013,
 "tighter, 64 cells",64,failed,,,"no ""answer"", it says"
 `;
 
-/** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; above MOST the script fails. */
+/** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; the script fails above MOST. */
 function knobIn(line, given) {
   const found = /mock\.knob (\w+) (\S+) (\S+) (\S+) (\w+)(?: (\S+))?/.exec(line);
   if (!found) return undefined;
@@ -136,7 +136,7 @@ function knobIn(line, given) {
   };
 }
 
-/** Script lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
+/** Lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
     `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
     `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs, mock) {
@@ -249,7 +249,7 @@ function* eventsOf(script, knobs, mock) {
   yield { type: 'finished', status: 'done', exit: 0, seconds: 1.23 };
 }
 
-/** Two students of a room; the mock's token is the teacher's, or a student's with `room: 'student'`. */
+/** Two students; the mock's token is the teacher's, or a student's with `room: 'student'`. */
 const people = [
   {
     name: 'Ada',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page in Chromium against the stand-in server: user actions, and failures between page and server.
+// The page in Chromium against the stand-in server.
 
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
@@ -24,7 +24,7 @@ const ready = (page) =>
   on.until(page, () => document.querySelector('.lessons button, .lesson'), 'the lessons should be listed');
 const tab = (page, name) => page.click(`#tab-${name}`);
 
-/** Opens the page, runs the test, and expects no complaint of console or content policy. */
+/** Opens the page, runs the test, and expects no complaint. */
 async function visit(options, act) {
   const page = await on.openPage(browser, mock.url, options);
   try {
@@ -36,7 +36,7 @@ async function visit(options, act) {
   }
 }
 
-// The time depends on the machine and is only printed.
+// Printed only: the time depends on the machine.
 test('Start, OfFewRequestsAndBytes', async () => {
   const page = await on.openPage(browser, mock.url);
   await ready(page);
@@ -146,7 +146,6 @@ test('Lesson, PredictedBeforeItsTextIsRead', () =>
       ),
       'Kept here and with a saved run.',
     );
-    // A lesson without a comparison asks for no prediction.
     await page.click('.back');
     await page.waitForSelector('.lessons li:nth-child(2) button');
     await page.click('.lessons li:nth-child(2) button');
@@ -198,7 +197,7 @@ test('Run, OutputRowsExpectationsAndFiles', () =>
     );
     const preview = await (await page.$('.previews img')).boundingBox();
     const room = await page.$eval('.previews', (e) => e.clientWidth);
-    // The picture has its place's width, or the width its letters need.
+    // As wide as its place, or as its letters need.
     assert.ok(room > 300 && Math.abs(preview.width - Math.max(800, room)) < 4, `${preview.width} of ${room}`);
     assert.ok(Math.abs(preview.height - preview.width / 2) < 4, `in its own shape: ${preview.height}`);
     assert.deepEqual(await page.$$eval('.files button', (b) => b.map((e) => e.textContent)), ['tips.csv', 'chart.svg']);
@@ -229,7 +228,6 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     await page.$eval('#output', (e) => (e.scrollLeft = 0));
     await on.assertFits(page, 'a wide table');
     await on.assertAccessible(page, 'a wide table');
-    // Sentences after an empty line wrap.
     const sentence = 'And that is why friction is a coefficient. '.repeat(4);
     await on.run(page, `print "${wide}|"\nprint ""\nprint "${sentence}"\n`);
     await on.until(
@@ -240,7 +238,7 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     assert.equal(await on.text(page, '.output'), `${wide}|\n\n${sentence}\n`);
     assert.equal(
       await page.$eval('.output .prose', (e) => {
-        // A space at a line's end may overhang.
+        // A trailing space may overhang.
         const lines = [...e.getClientRects()];
         return lines.length > 3 && lines.every((l) => l.width < e.parentElement.clientWidth + 12);
       }),
@@ -372,7 +370,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
     await tab(page, 'chart');
-    // The second notebook of the run; from a list of columns, those of one unit.
+    // The second notebook; of a list, the columns of one unit.
     assert.deepEqual(
       await shown(
         'local none, book = 1, lab.notebook "big"\nfor N = 1, 8 do end -- mock.rows 9\n' +
@@ -388,7 +386,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
       ),
       { caption: 'mu against Ra [µm]: 16 points, 2 lines, one per face.', logX: true, logY: true },
     );
-    // Without column names in the text, the file name decides, otherwise columns that vary.
+    // Else the file name decides, or the columns that vary.
     const loop = 'for _, y in ipairs(all) do book:chart{ x=x, y=y } end -- mock.rows 9\n';
     assert.equal((await shown(`${loop}-- mock.file big-i-v.svg\n`)).caption, 'i against v [µm]: 9 points.');
     assert.equal((await shown(loop)).caption, 'v [µm] against i: 9 points.');
@@ -618,7 +616,7 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await knobSays(page, '1 MPa');
     await printed(page, 'pressure is 1000000');
     await on.finished(page);
-    // Run uses the script's own values, and the slider shows them.
+    // Run uses the script's own values.
     await page.click('#run');
     await printed(page, 'pressure is 10000000');
     await knobSays(page, '10 MPa');
@@ -664,7 +662,6 @@ test('Keyboard, Alone', () =>
       await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle !== 'none'),
       'the focus should be seen',
     );
-    // Enter on its button opens a lesson.
     await page.focus('#keys-button');
     for (let k = 0; k < 20 && !(await on.focused(page)).includes('What roughness'); ++k)
       await page.keyboard.press('Tab');
@@ -692,13 +689,11 @@ test('Keyboard, Alone', () =>
     assert.match(await on.focused(page), /Save tips\.csv|Enlarge chart\.svg/);
     await on.chord(page, 'Shift', 'F6');
     assert.match(await on.focused(page), /Script in Lua/);
-    // Arrow keys move a divider.
     await page.focus('#results-divider');
     const width = () => page.$eval('#results', (e) => e.clientWidth);
     const before = await width();
     await page.keyboard.press('ArrowLeft');
     assert.ok((await width()) > before);
-    // The list of keys returns the focus.
     await page.focus('#keys-button');
     await page.keyboard.press('Enter');
     assert.equal(await page.$eval('#keys', (e) => e.open), true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A saved run opened from disk in Chromium: pictures in sequence with play and pause, and runs at other
-// knob values, without a server. Everything is shown without scripts and on paper.
+// A saved run opened from disk in Chromium, without a server: pictures in sequence, and runs at other knob
+// values.
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
@@ -20,7 +20,7 @@ after(async () => {
   await mock?.close();
 });
 
-/** Saves the effect of `act` on the page; `look` checks the file opened from disk. */
+/** Saves the effect of `act`; `look` checks the file opened from disk. */
 async function saved(act, look) {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-saved-'));
   try {
@@ -88,12 +88,11 @@ test('Saved, PicturesAreGoneThroughByKeysAloneWithPlayAndPause', () =>
       await place(page, '7 of 7');
       await on.until(page, () => document.querySelector('.scrubber button').textContent === 'Play', 'it should end');
       await on.assertAccessible(page, 'a saved run');
-      // Paper shows all pictures and no controls.
       await page.emulateMediaType('print');
       assert.equal((await seen(page, '.frames figure')).length, 7);
       assert.deepEqual(await seen(page, '.scrubber'), []);
       await page.emulateMediaType('screen');
-      // So does a browser without scripts.
+      // Without scripts all pictures are shown, too.
       await page.setJavaScriptEnabled(false);
       await page.goto(address);
       assert.equal((await page.$$('.frames figure:not(.away)')).length, 7);
@@ -121,7 +120,7 @@ test('Saved, KnobsGoFromOneRecordedRunToTheNext', () =>
       const values = () => page.$$eval('.sliders output', (all) => all.map((e) => e.textContent));
       assert.match(await on.text(page, '.about + h2 + ul'), /pressure: 1 MPa \(1 MPa to 100 MPa\)cells: 3 one/);
       assert.match(await page.evaluate(() => document.body.innerText), /3 runs were recorded and are all in this file/);
-      // A knob that was never moved has no slider.
+      // An unmoved knob has no slider.
       assert.deepEqual(await page.$$eval('.sliders input', (all) => all.map((e) => [e.ariaLabel, e.max])), [['pressure', '2']]);
       assert.deepEqual(await values(), ['1 MPa']);
       const output = async () => (await seen(page, '.results pre')).join('').split('\n')[0];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page served by the program in Chromium: open, edit, run and stop a lesson, view its picture, mark an
-// error, complete a name, save the run.
+// The page served by the program, in Chromium.
 
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
@@ -53,7 +52,7 @@ async function visit(options, act) {
   }
 }
 
-// The time depends on the machine and is only printed.
+// Printed only: the time depends on the machine.
 test('Served, StartsWithFewRequestsAndBytes', () =>
   visit({}, async (page) => {
     const { requests, bytes, ms } = await on.start(page);
@@ -62,7 +61,7 @@ test('Served, StartsWithFewRequestsAndBytes', () =>
     assert.ok(bytes > 100_000 && bytes < 650_000, `${bytes} bytes`);
   }));
 
-// Column order as in the CSV: the notebook's order, then unordered columns by name, then later ones.
+// The notebook's order, then unordered columns by name, then later ones.
 for (const [name, columns, rows] of [
   ['order', 'z,m,a,also,extra', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1, extra=1, m=2, also=3, z=4 }'],
   ['lacking', 'z,m,a,late', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1 } book:write{ a=2, late=1, z=3 }'],
@@ -100,7 +99,7 @@ const titled = (page, text) =>
     text,
   );
 
-/** The server's confined processes, children of its threads. */
+/** Confined processes are children of the server's threads. */
 function processes() {
   const found = [];
   for (const task of readdirSync(`/proc/${server.pid}/task`)) {
@@ -193,8 +192,8 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
     await on.listen(page);
     await page.focus('.knobs input');
-    // The first move computes the surface, the second measures the full time. A full answer may replace the
-    // coarse one before it is drawn.
+    // The first move computes the surface, the second measures the full time. The full answer may hide the
+    // coarse one.
     let coarse;
     await on.comesTrue(async () => {
       await page.keyboard.press('ArrowRight');

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Teaching with the page in Chromium against the stand-in server: charts from scripts, results of a script,
-// a projector's window, colours, predictions, a room.
+// Teaching with the page in Chromium, against the stand-in server.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -33,7 +32,7 @@ async function visit(options, act, server = mock) {
 
 const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${rows}\nbook:chart{ ${chart} }\n`;
 
-/** Runs a script and shows its first chart, whose caption must state the number of points. */
+/** Shows a script's first chart, whose caption must state the number of points. */
 async function charted(page, script, points) {
   await on.run(page, script);
   await on.finished(page, 'Done|Failed');
@@ -64,7 +63,6 @@ test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
       places.every((y) => y > 0 && y < 1000),
       'the axis reaches both',
     );
-    // A column of the same unit can be added by hand.
     await charted(page, book(9, 'x="v", y="i"'), 9);
     await page.click('.axes summary');
     const [, , more] = (await page.$$('.charts select')).slice(-4);
@@ -93,14 +91,14 @@ test('Chart, AxesHaveTheScriptsWordsAndNoneIsCut', () =>
     assert.deepEqual(x, { text: 'place along the way', outside: [] });
     assert.match(y.text, /^how much of it.*… \[µm\]$/, 'the unit is not cut');
     assert.deepEqual(y.outside, []);
-    // An axis chosen by hand is labelled with its column.
+    // An axis chosen by hand has its column's label.
     await page.click('.axes summary');
     const [along] = (await page.$$('.axes select')).slice(0, 1);
     await along.select('level');
     const [other, same] = await labels();
     assert.equal(other.text, 'level');
     assert.match(same.text, /^how much of it/);
-    // Long lists of names are shortened, but not the unit.
+    // Long names are shortened, but not the unit.
     const many = Array.from({ length: 9 }, (_, k) => `"column ${k}"`).join(', ');
     await charted(page, `-- mock.wide 9\nlocal book = lab.notebook "wide"\nbook:chart{ x="i", y={ ${many} } }\n`, 81);
     assert.ok((await labels()).slice(0, 2).every((l) => l.outside.length === 0), JSON.stringify(await labels()));
@@ -140,7 +138,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
       await page.setViewport({ width, height });
       for (const n of [2, 5, 60]) {
         await charted(page, script(n), 2 * n);
-        await on.settled(page, () => page.$eval('.chart svg', (e) => e.outerHTML)); // a new window size redraws it
+        await on.settled(page, () => page.$eval('.chart svg', (e) => e.outerHTML)); // redrawn for the new size
         const labels = await ticks(page, 'x');
         assert.ok(labels.length >= 2 && labels.length <= n, `${width}: ${labels.length} of ${n} names`);
         if (n <= 5) assert.equal(labels.length, n, `${width}: every one of ${n} names`);
@@ -183,7 +181,7 @@ test('Chart, OfColumnsThatAVariableNames', () =>
       'v against level',
       'i against level',
     ]);
-    // File names decide where the text does not.
+    // File names decide.
     assert.deepEqual(
       await titles('local function draw(q) book:chart{ x="i", y=q } end -- mock.file big-v-i.svg mock.file big-level-i.svg\ndraw "v"\n'),
       ['big', 'level against i'],
@@ -207,7 +205,6 @@ for (const [width, height] of [
       }));
       assert.ok(seen.letters >= 13, `letters of ${seen.letters} px`);
       assert.deepEqual([seen.pane, seen.scrolls], [true, 'auto'], 'the drawing scrolls, not the pane');
-      // The keyboard opens the full view.
       await page.focus('.previews button');
       await page.keyboard.press('Enter');
       const whole = await (await page.$('.enlarged img')).boundingBox();
@@ -269,7 +266,6 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran(made), 'tab-chart');
     assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');
     assert.match(await on.text(page, '#output .end'), /^Failed after 100 ms: os\.exit\(3\)\.$/);
-    // A chosen tab remains until another script is opened.
     await page.click('#tab-table');
     assert.equal(await ran(made), 'tab-table');
     await page.click('.lessons button');
@@ -357,7 +353,6 @@ test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
     assert.match(await whose(), /^What roughness is.* · not of the open script$/);
     assert.equal(await grey(), 'grayscale(1)');
     await on.assertAccessible(page, 'results of another script');
-    // A reload keeps the script and time of results.
     const before = await whose();
     await page.reload();
     await on.until(page, () => /run \d/.test(document.querySelector('#results-of').textContent), 'they should be back');
@@ -505,7 +500,7 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
     assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=-0\.01 \}/);
     for (let k = 0; k < 5; ++k) await page.keyboard.press('Backspace');
     assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=nil \}/);
-    // An edit of the prediction edits the script's number, also after a reload.
+    // The prediction is the script's number, also after a reload.
     await page.reload();
     await on.until(page, () => document.querySelector('.guesses input')?.value === '0.5', 'the number should be kept');
     const verdict = 'You said 0.5 of the share of Ra: it is 0.96, 1.9 times too little.';
@@ -539,7 +534,7 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
         if (top !== null) e.scrollTop = top;
         return e.scrollTop;
       }, to);
-    // The editor follows the written text to its end; wait before scrolling back.
+    // The editor scrolls to the end first.
     await on.comesTrue(async () => (await scrolled(null)) >= 1300, 'the end should be shown');
     await on.settled(page, () => scrolled(null));
     await scrolled(1200);

@@ -125,7 +125,7 @@ TEST(Ledger, TextAndJsonSayTheSame) {
   ledger.add("contact:press", false, {1.5, 48, 3 << 20});
   ledger.add_effects(Effects{{"elasticity", {1.5, 48, 3 << 20}}});
   const LedgerReport report = ledger.report();
-  // The longest time sets the column width.
+  // The total time sets the column width.
   EXPECT_TRUE(std::regex_search(report.text(), std::regex("\n  contact:press +1 +1.5 s +48 +3 MiB\n")))
       << report.text();
   const Json json = Json::parse(report.json().text(), "ledger");

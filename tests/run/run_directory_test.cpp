@@ -112,7 +112,7 @@ TEST_F(RunDirectoryTest, FilesGoUnderIt) {
   EXPECT_EQ(run.path_for("./c.png"), run.path() / "c.png");
 }
 
-// A script must read the press.csv it wrote, not its neighbour's.
+// A script must read the press.csv it wrote, not the file in the working directory.
 TEST_F(RunDirectoryTest, WhatTheRunWroteIsReadBeforeWhatLiesBeside) {
   const fs::path beside = fs::current_path();
   fs::current_path(folder);
@@ -623,7 +623,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   }
 }
 
-// So is a table with a second hard link.
+// A table with a second hard link is replaced too.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
