@@ -81,7 +81,7 @@ void Pivoting::balance() {
   }
   const auto m = static_cast<Eigen::Index>(moving.size());
   const Eigen::VectorXd held = matrix_ * p_;
-  // Scales the offset's row and column to the size of the others.
+  // The offset's row and column get the size of the others.
   const double unit = matrix_(0, 0);
   Eigen::MatrixXd a(m + 1, m + 1);
   Eigen::VectorXd b(m + 1);
@@ -121,7 +121,7 @@ At Pivoting::wanted(Eigen::Index k) {
   }
 }
 
-// Moves all nodes to their preferred sets at once: few pivots, but no proof for a cap.
+// All nodes at once: few pivots, but no proof for a cap.
 bool Pivoting::pivot(DenseAnswer& answer) {
   constexpr int together = 60;
   const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding, descend() is safer
@@ -130,7 +130,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
     const std::vector<At> before = at_;
     for (Eigen::Index k = 0; k < nodes_; ++k) {
       at(k) = wanted(k);
-      // Later only the first node by number moves, which cannot cycle (Murty 1974).
+      // The first node by number cannot cycle (Murty 1974).
       if (n >= together && at_ != before) break;
     }
     if (at_ == before) return true;
@@ -141,7 +141,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
   return false;
 }
 
-// Clamps pressures to their bounds; nodes with room share the missing load.
+// Nodes with room share the missing load.
 void Pivoting::make_feasible() {
   p_ = p_.cwiseMax(0).cwiseMin(problem_.cap);
   const double carried = p_.sum();
@@ -156,8 +156,7 @@ void Pivoting::make_feasible() {
     at(k) = p_[k] <= 0 ? At::zero : p_[k] >= problem_.cap ? At::cap : At::elastic;
 }
 
-// With every node at a bound, the gaps of the two sets only bracket the offset, unless two nodes should
-// exchange pressure.
+// Only the gaps of both sets bracket the offset, unless two nodes should exchange pressure.
 bool Pivoting::let_two_go() {
   gap_ = matrix_ * p_ - problem_.heights;
   Eigen::Index open = -1, full = -1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Direct solution of a small half-space contact: minimise ½ p·Kp − h·p + Σ max(0, p − Y)²/(2K_h) over 0 <=
-// p <= H for a given mean. K is dense, from Love's (1929) closed form or the sum over waves; pivots move
-// all nodes at once (Kostreva 1978), or one at a time if this cycles. Shares no code with the engine's
-// solver. O(n³) a pivot: up to 24 x 24 cells.
+// A small half-space contact solved directly: minimise ½ p·Kp − h·p + Σ max(0, p − Y)²/(2K_h) over 0 <= p
+// <= H for a given mean. K is dense, from Love's (1929) closed form or the sum over waves; pivots move all
+// nodes (Kostreva 1978), or one at a time if this cycles. It shares no code with the engine's solver. O(n³) a
+// pivot: up to 24 x 24 cells.
 #pragma once
 
 #include <Eigen/Dense>

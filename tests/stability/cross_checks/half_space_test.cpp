@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The half-space solver against the dense direct solution: elastic, capped and hardening, periodic and
-// free, light to full contact.
+// The half-space solver against the dense direct solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +59,7 @@ TEST_P(AgainstDense, PressuresAndApproachAgree) {
       worst = std::max(worst, std::abs(p[k] - answer.pressure[static_cast<Eigen::Index>(k)]));
     EXPECT_LE(worst, pressures * peak)
         << script(trial, "seed " + std::to_string(seed) + ", scene " + std::to_string(n), "");
-    // A periodic flat has no approach; the displacement of one cell sets the scale.
+    // A periodic flat has no approach; one cell's displacement sets the scale.
     const double length =
         std::abs(answer.offset) + peak * std::sqrt(trial.scene.lower.grid().cell_area()) / problem.modulus;
     EXPECT_NEAR(state.approach(), answer.offset, approaches * length) << n;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every solve is refused for a stop, too little memory, impossible values, and a tolerance below double
-// precision. The error names the result reached or a cure. The pair is unchanged, and its next press
-// returns the same bits as without a refusal.
+// Stops, too little memory, impossible values and tolerances below double precision leave the pair
+// unchanged; the next press returns the same bits as without a refusal.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -77,7 +76,7 @@ std::vector<Path> paths() {
            {PressBy::approach, 1e-6, {}, {2e-6}}}};
 }
 
-// Raises the process's stop flag after a delay; the destructor lowers the flag.
+// Raises the stop flag after a delay; the destructor lowers it.
 class Stopper {
  public:
   explicit Stopper(double seconds)

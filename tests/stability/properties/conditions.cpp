@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact conditions: certificate, 0 <= p <= H, gap >= 0, load, no negative energy or plastic volume, no
-// NaN, valid algebraic bounds. Sums use long double and no code of the solver.
+// NaN, valid algebraic bounds. Sums in long double.
 #include <cmath>
 #include <limits>
 
@@ -64,7 +64,7 @@ std::optional<Broken> field_is_wrong(const Trial& trial, const State& state) {
         return Broken{"no pressure passes the hardness", where + " over " + text(trial.cap())};
     }
   }
-  // Throws for a height that is not finite.
+  // Throws for NaN.
   state.deformed("lower");
   state.deformed("upper");
   return {};
@@ -116,7 +116,7 @@ std::optional<Broken> plasticity_is_wrong(const State& state) {
   return {};
 }
 
-// Compares with a solve at tolerance 1e-13, exact within its own bounds.
+// A solve at tolerance 1e-13 is exact within its own bounds.
 std::optional<Broken> bounds_are_wrong(const Trial& trial, const State& state) {
   Trial tight = trial;
   tight.scene.accuracy.tolerance = 1e-13;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A press by pressure is repeated on fresh bodies by its approach, indentation or flattening. The load must
-// agree within the bounds, for about as many transforms; unreachable values (beyond full contact of a
-// periodic tile, on a flat) are refused by name. Cell aspects up to 1000.
-// Measured: all 4200 scenes converged (seeds 1 to 10, 9201 to 9204). More than 10 times + 60 transforms:
-// none of 7833 presses by approach or indentation, 2 of 3924 by flattening. Known failure, by flattening:
-// scene 2 of seed 11 (aspect 948).
+// The approach, indentation or flattening of a press, requested from fresh bodies, must return its load
+// within the bounds, for about as many transforms. Unreachable values (beyond full contact of a periodic
+// tile, on a flat) are refused by name. Cell aspects up to 1000.
+// Measured: 4200 scenes (seeds 1 to 10, 9201 to 9204) converged. More than 10 times + 60 transforms: none
+// of 7833 presses by approach or indentation, 2 of 3924 by flattening. Known failure, by flattening: scene
+// 2 of seed 11 (aspect 948).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,11 +19,11 @@ namespace asperity::stability {
 
 namespace {
 
-// Transforms relative to the press by pressure: expensive above 10 times + 60; the median is at most 3.
+// Transforms relative to the press by pressure: expensive above 10 times + 60; median at most 3.
 constexpr double most_times = 10, most_beside = 60, most_times_in_the_middle = 3;
-// Largest share of expensive presses: by approach or indentation; by flattening.
+// Share of expensive presses: by approach or indentation; by flattening.
 constexpr double most_dear[] = {0.001, 0.002};
-// From this many presses on, one more is allowed; a single scene may have none.
+// From this many presses on, one more is allowed.
 constexpr int many_presses = 100;
 // Above this cell aspect, this share of presses may fail.
 constexpr double longest_solved = 300, most_lost = 0.02;
@@ -51,7 +51,6 @@ bool beyond_doubles(const Trial& trial, PressBy by, double value) {
   return doubles_hold_no_more(best, SpecimenPair(best.scene).press({by, value, {}}));
 }
 
-// Whether more load changes nothing.
 bool full(const State& state) {
   const Grid& grid = state.grid();
   return state.contacts() == static_cast<std::int64_t>(grid.nodes());

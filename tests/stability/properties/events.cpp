@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a contact. A repeated or lighter event changes less than ten times the tolerance of the first.
-// A load and a greater load end like the greater load alone. Turns without load change nothing. Volumes are
-// compared with the larger of the plastic volume and the rms height over the yielded area, because gaps are
-// accurate to the tolerance times the rms height.
+// A repeated or lighter event changes less than ten times the tolerance of the first. A load and a greater
+// load end like the greater load alone. Turns without load change nothing. Gaps are accurate to the
+// tolerance times the rms height; volumes are compared with the larger of the plastic volume and the rms
+// height over the yielded area.
 #include <cmath>
 #include <limits>
 
@@ -43,7 +43,7 @@ Verdict turns_change_nothing(const Trial& trial, const Stream& stream) {
 }
 
 constexpr double allowed = 10;  // tolerances
-// An rms height this small, relative to the approach, is rounding of a flat.
+// Rounding of a flat, relative to the approach.
 constexpr double flat = 1e-3;
 
 double greatest(const Surface& surface) {
@@ -51,7 +51,7 @@ double greatest(const Surface& surface) {
   return std::max(std::abs(heights.min), std::abs(heights.max));
 }
 
-// Smallest detectable plastic volume: gap tolerance and rounding of heights, over the yielded area.
+// Smallest detectable plastic volume: gap tolerance and height rounding over the yielded area.
 double unseen(const Trial& trial, const State& state) {
   const double rms = rms_height(state), length = rms > flat * state.approach() ? rms : state.approach();
   const double ground = state.plastic_fraction() * state.geometry().grid().area();
@@ -67,7 +67,7 @@ Trial taking_the_best(const Trial& trial) {
   return result;
 }
 
-// Flattened heights may be too even for the tolerance: nothing is compared.
+// Flattened heights may be too even for the tolerance.
 std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double pressure,
                             std::optional<State>& state) {
   Trial pressed = trial;
@@ -81,7 +81,7 @@ std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double press
   return Broken{"the certificate is met", exact(state->residual()) + " by " + std::string(state->solver())};
 }
 
-// One ulp more load has no predicted result: the change is the error of both solves.
+// One ulp more load: the change is the error of both solves.
 Verdict the_ground_fits(const Trial& trial, SpecimenPair pair, const State& first) {
   std::optional<State> again;
   const double more = std::nextafter(trial.pressure, std::numeric_limits<double>::infinity());

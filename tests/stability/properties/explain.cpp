@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Predictions of `explain` against presses on tiles of up to 256 cells a side, cell aspects up to 1000:
-// elastic, capped, hardening, and elastic with adhesion. Trials cost nothing and leave the pair unchanged;
-// a trial on all cells predicts the exact number of transforms. Of 1800 scenes (150 each of seeds 1, 5 to
-// 8, 41, 42, 51 and 53 to 56), in percent,
+// Predictions of `explain` against presses on tiles of up to 256 cells a side, cell aspects up to 1000.
+// Trials are not counted as cost and leave the pair unchanged; a trial on all cells predicts the exact
+// number of transforms. Of 1800 scenes (150 each of seeds 1, 5 to 8, 41, 42, 51 and 53 to 56), in percent,
 //
 //                                             within a factor of two   under a quarter
 //     by pressure, 1798 presses               100                      0
@@ -10,10 +9,9 @@
 //     by flattening, 1674                     99.8                     0
 //     of bodies that attract, 744             99.9                     0
 //
-// Of tiles of up to 1000 cells a side (seeds 61 and 62, cells=1000), some predicted from coarser grids,
-// 93.7 to 100 % are within a factor of two and 0 to 1.3 % under a quarter: the bar does not hold. Coarse
-// trials alone, at most 96² cells (seeds 41 and 42): 96.0 to 98.1 % and 0 to 0.4 %, for larger tiles 89.5
-// to 95.7 % and 0 to 1.0 %. White noise, spikes and few peaks have the largest errors.
+// The bar does not hold on tiles of up to 1000 cells a side (seeds 61 and 62, cells=1000), some predicted
+// from coarser grids: 93.7 to 100 and 0 to 1.3. Coarse trials alone, at most 96² cells (seeds 41 and 42):
+// 96.0 to 98.1 and 0 to 0.4; larger tiles 89.5 to 95.7 and 0 to 1.0.
 //
 //   ASPERITY_FIT=1 test_properties family=explain scenes=300 seed=31
 //
@@ -48,7 +46,7 @@ struct Pressed {
 double octaves(const ExpectedTransforms& expected, double taken) {
   return std::log2(std::max(expected.transforms, 1.0) / std::max(taken, 1.0));
 }
-// Predictions for one control, and required shares for larger tiles by coarse trials.
+// For one control, and required shares for larger tiles by coarse trials.
 struct Controls {
   const char* name;
   double within_two, under_a_quarter;
@@ -62,12 +60,11 @@ std::array<Controls, 4>& by_control() {
                                             {"pressure or approach of bodies that attract", 0.9, 0.02}}};
   return of_run;
 }
-// Required of all tiles by coarse trials; `explain` itself must reach `bar`, never under a quarter.
+// Required of coarse trials on all tiles; `explain` must reach `bar`, never under a quarter.
 constexpr double within_two_of_all = 0.9, under_a_quarter_of_all = 0.015, bar = 0.9;
-// Allowed deviation in standard deviations.
+// In standard deviations.
 constexpr double deviations = 3;
 
-// A `known` state replaces the press.
 Verdict foretell(const Scene& scene, PressBy by, double value, const State* known,
                  std::vector<Pressed>& presses) {
   const PressRequest request{by, value, {}};
@@ -96,7 +93,6 @@ Verdict foretell(const Scene& scene, PressBy by, double value, const State* know
                 exact(now.taken) + " transforms, and " + exact(now.expected.transforms) + " were said", line};
 }
 
-// Other families test missed tolerances.
 std::optional<State> pressed_if_solved(const Trial& trial) {
   try {
     return pressed(trial);
@@ -106,8 +102,8 @@ std::optional<State> pressed_if_solved(const Trial& trial) {
   }
 }
 
-// Adds adhesion with a range of the order of the roughness. Few, nearly square cells: such presses take
-// thousands of transforms.
+// Adhesion with a range of the order of the roughness. Such presses take thousands of transforms: few,
+// nearly square cells.
 Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_t salt) {
   constexpr double most_nodes = 150 * 150, tolerance = 1e-6;
   const Grid& grid = trial.scene.lower.grid();
@@ -201,7 +197,6 @@ Verdict judged_by_few_cells(const Controls& control, bool fewer) {
   const double n = found.presses;
   if (found.within_two < n * share - deviations * std::sqrt(n * share * (1 - share)))
     return off(control, found, "within a factor of two by few cells", found.within_two);
-  // One more or less is allowed.
   if (found.under_a_quarter > 1 + n * rare + deviations * std::sqrt(n * rare))
     return off(control, found, "under a quarter by few cells", found.under_a_quarter);
   return {};

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties of contacts over random scenes. A failing scene is reduced and printed as a script.
+// Properties of contacts over random scenes. A failing scene is reduced and printed.
 //
 //   test_properties                              every family, as many scenes each as in CI
 //   test_properties family=events scenes=100000  one family for a night
 //   test_properties family=events seed=7 first=42 scenes=1   one scene again
 //   test_properties family=explain cells=1000 scenes=120     tiles of up to so many cells a side
 //
-// Defaults: ASPERITY_SCENES for scenes=, ASPERITY_SEED for seed=. ASPERITY_SHARE=0.05 runs a twentieth of
-// CI's scenes.
+// Defaults: ASPERITY_SCENES, ASPERITY_SEED. ASPERITY_SHARE=0.05 runs a twentieth of CI's scenes.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -70,7 +69,6 @@ Settings read(int count, char** words) {
   return settings;
 }
 
-// `beyond` counts scenes that double precision cannot resolve.
 Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt, int& beyond) {
   try {
     return family.check(trial, salt);
@@ -158,7 +156,7 @@ int run(const Family& family, const Settings& settings) {
 int main(int count, char** words) {
   using namespace asperity::stability;
   const Settings settings = read(count, words);
-  asperity::set_thread_count(1);  // small scenes; several families run in parallel
+  asperity::set_thread_count(1);  // families run in parallel
   int broken = 0;
   bool known = settings.family.empty();
   for (const Family* family : families)

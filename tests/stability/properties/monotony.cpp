@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Area and approach grow with load, and so does elastic energy without yielding (nodes at their hardness
-// return energy as the rest approaches). Near saturation a solve may return less, within its tolerance.
+// Area and approach grow with load, and elastic energy without yielding (nodes at their hardness return
+// energy). Near saturation a solve may return less, within its tolerance.
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -11,8 +11,8 @@ namespace asperity::stability {
 
 namespace {
 
-// In tolerances: of the energy (measured 0.02 over 30 000 scenes), and of the rms height in the approach
-// (measured 4.5, near the hardness, where one node decides).
+// In tolerances: of the energy (measured 0.02), and of the rms height in the approach (measured 4.5, near
+// the hardness, where one node decides).
 constexpr double energy_slack = 0.2, approach_slack = 10;
 constexpr double rounding = 1e-15;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A property of every contact, checked on random scenes. A check returns the first broken property; a
-// thrown Error is a failure.
+// A check returns the first broken property of a scene; a thrown Error is a failure.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +28,7 @@ using Verdict = std::optional<Broken>;  // none: all hold
 struct Family {
   const char* name;
   Wanted wanted;
-  // `salt` seeds the check's own draws, equal for a scene and its reductions.
+  // `salt` seeds a check's own draws, equal for a scene and its reductions.
   Verdict (*check)(const Trial& trial, std::uint64_t salt);
   int scenes;  // per run
   // Property of a whole run; may print statistics.
@@ -43,7 +42,7 @@ extern std::uint64_t scene_in_turn;
 extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
     explain;
 
-// A fresh contact. Throws BeyondDoubles if rounding prevents the tolerance.
+// Throws BeyondDoubles if rounding prevents the tolerance.
 inline State pressed_by(const Scene& scene, double pressure) {
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
@@ -91,7 +90,7 @@ inline State pressed(const Scene& scene, double pressure) {
   }
 }
 
-// Exchanges columns: upper heights to the lower frame, and back. Empty under a flat.
+// Exchanges columns: to the other body's frame, and back. Empty under a flat.
 inline Field turned_over(const Field& heights) {
   Field result(heights.nx(), heights.ny());
   for (int j = 0; j < heights.ny(); ++j)

@@ -20,7 +20,7 @@ namespace asperity::stability {
 
 namespace {
 
-// Sequential draws, one stream per scene.
+// One stream per scene.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint64_t index) : stream_(splitmix64(seed, index), "stability scene") {}
@@ -281,7 +281,7 @@ Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) 
     trial.pressure = box.stiffness.value_or(modulus / span) * (span > 0 ? span : amplitude) * share;
     if (wanted.yields || draw.chance(0.45)) {
       draw_yield(draw, trial, modulus);
-      // Beyond a thousand times the elements' heights, doubles cannot hold the gaps.
+      // Doubles cannot hold gaps beyond a thousand times the elements' heights.
       scene.effects.find<PlasticityOptions>()->hardening *=
           trial.pressure / (span > 0 ? span : amplitude) / (modulus / grid.hx());
       if (draw.chance(0.4)) scene.elasticity = RigidOptions{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A trial: a random scene and its mean pressure, drawn by key from a seed; simpler neighbours for
-// reduction; and a Lua script, whose decimals restore every bit.
+// A random scene with its mean pressure, drawn by key from a seed; simpler neighbours; a Lua script whose
+// decimals restore every bit.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Trial {
   // Smaller hardness of both bodies, Pa; infinite without plasticity.
   double hardness() const;
   bool hardens() const;
-  // Upper bound of the pressure, Pa: the hardness, without hardening.
+  // Upper bound of the pressure, Pa.
   double cap() const;
 };
 
@@ -41,16 +41,16 @@ struct Wanted {
 // Scene `index` of a seed, independent of earlier draws.
 Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted);
 
-// Simpler neighbours, largest simplification first.
+// Largest simplification first.
 std::vector<Trial> simpler(const Trial& trial);
 
-// Lua: builds the scene bit for bit, presses, runs `lines`; `comment` is the first line.
+// Builds the scene bit for bit, presses, runs `lines`; `comment` is the first line.
 std::string script(const Trial& trial, const std::string& comment, const std::string& lines);
 
 // The shortest decimal that restores every bit.
 std::string exact(double value);
 
-// Other heights or grid, each field in its body's frame; `upper` is for a rough upper body only.
+// Each field is in its body's frame; `upper` is for a rough upper body only.
 Scene with_heights(const Scene& scene, const Grid& grid, Field lower, Field upper);
 
 }  // namespace asperity::stability

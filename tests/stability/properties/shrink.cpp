@@ -25,7 +25,7 @@ Field window(const Field& field, int x, int y, int nx, int ny) {
   return result;
 }
 
-// The window from (x, y) with the same cell size, in both bodies.
+// Both bodies, with the same cell size.
 Trial cropped(const Trial& trial, int x, int y, int nx, int ny) {
   const Grid& old = trial.scene.lower.grid();
   const Grid grid = make_grid(nx, ny, nx * old.hx(), ny * old.hy());

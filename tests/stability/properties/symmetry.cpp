@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mirrored, transposed, shifted (where the boundary permits, and boxes) or exchanged bodies have the same
 // mapped pressures: bit for bit for boxes; within 1e-8 of the greatest for half-spaces solved to 1e-12,
-// whose sums run in another order. Excluded are loads so large that a free tile sinks beyond the digits of
-// 1e-12.
+// whose sums run in another order. At extreme loads a free tile sinks too deep for 1e-12.
 #include <cmath>
 #include <functional>
 
