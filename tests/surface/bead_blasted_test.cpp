@@ -110,7 +110,7 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
 }
 
 TEST(BeadBlasted, DentsWrapRoundTheTile) {
-  // The position of one wrapped dent does not change the variance.
+  // A wrapped dent has the same variance at any position.
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     BeadBlastedOptions options = one_dent(200, 200);

@@ -340,7 +340,7 @@ TEST(WeierstrassMandelbrot, TwoThousandOrdersDoNotOverflow) {
   Options o = square(60, 2.99);
   o.n_max = 2000;
   const Statistics s = statistics(weierstrass_mandelbrot(o));
-  // Variance of all orders; the grid aliases most to noise.
+  // The grid aliases most orders to noise.
   double variance = 0;
   for (int n = 0; n <= o.n_max; ++n) variance += std::exp(2 * (o.D - 3) * n * std::log(1.5));
   const double expected = 50 * std::pow(.1, .99) * std::sqrt(std::log(1.5) * variance / 2);
