@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lua values read by the engine, and functions of the script called by it: heights and phases that
-// fail, return the wrong thing, yield, or call back into the laboratory.
+// Script functions that fail, return wrong values, yield, or call the laboratory.
 #include "bindings/lua/registry/argument.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -91,7 +90,7 @@ TEST_F(FromFunction, IsNeededAndMustBeAFunction) {
   EXPECT_NE(run("lab.surface.from_function{ cells=4, size=1, height=1 }")
                 .find("`height` is the number 1; give a function(x, y)"),
             std::string::npos);
-  EXPECT_EQ(run("lab.surface.from_function{ cells=4, size=1, height=math.max }"), "");  // one of C will do
+  EXPECT_EQ(run("lab.surface.from_function{ cells=4, size=1, height=math.max }"), "");  // a C function
 }
 
 TEST_F(FromFunction, RunsInsideACoroutine) {

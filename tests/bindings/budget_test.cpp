@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.budget and lab.sensitivity from a script: what `ask` is given, what comes back and prints, and each
-// refusal with the place it names. The numbers are held in tests/statistics.
+// lab.budget and lab.sensitivity in scripts; tests/statistics checks the numbers.
 #include <string>
 
 #include "engine/core/parallel.hpp"
@@ -18,7 +17,7 @@ class BudgetTest : public LuaTest {
   }
 };
 
-// An answer of which each part is known: seeds scatter by a few, cells err by 1/cells, the gain by 2 %.
+// Known parts: seed scatter, an error of 1/cells, a gain uncertainty of 2 %.
 TEST_F(BudgetTest, HasAShareOfEachPartAndWhatHalvingItTakes) {
   ASSERT_EQ(run(R"(
     local off = { 0.9, 1.1, -0.4, -1.2, -0.4 }
@@ -41,7 +40,6 @@ TEST_F(BudgetTest, HasAShareOfEachPartAndWhatHalvingItTakes) {
             "true) ~= nil"));
 }
 
-// Real area of a small face, with everything that a budget knows.
 constexpr const char* area_of_faces = R"(
   asked = 0
   function area(x)
@@ -72,7 +70,7 @@ TEST_F(BudgetTest, HeavyRunsAreSpreadWithTheSameBits) {
   EXPECT_TRUE(holds("one.value == two.value and one.low == two.low and one.high == two.high"));
   EXPECT_TRUE(holds("one.parts[1].share == two.parts[1].share and one.seconds > 0"));
   EXPECT_TRUE(holds("one.low < one.value and one.value < one.high")) << value("one");
-  // A bench that the function reaches cannot be copied: the runs go one by one.
+  // A bench cannot be copied: sequential runs.
   ASSERT_EQ(run("local bench = lab.contact{ lower=lab.surface.sine{ cells=8, size='1 mm', amplitude='1 um', "
                 "material=lab.material 'steel' }, upper=lab.rigid, boundary='periodic', "
                 "effects={ elasticity='half_space' } } asked = 0 "

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate from a script: what the model is given and how often, what comes back and prints, what the
-// rows do not determine, and each refusal with the place it names.
+// lab.calibrate in scripts: calls of the model, undetermined parameters, refusals.
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@ class CalibrateTest : public LuaTest {
  protected:
   void SetUp() override {
     LuaTest::SetUp();
-    // Four specimens with real areas c, four angles each; tau0 in Pa, c in m².
+    // Four specimens of real areas c in m², four angles each; tau0 in Pa.
     ASSERT_EQ(run(R"(
       local rows = {}
       for s, c in ipairs{ 0.5, 0.8, 1.2, 2.0 } do
@@ -195,7 +194,6 @@ TEST_F(CalibrateTest, ChartsAreDrawnWithoutTheModel) {
 }
 
 TEST_F(CalibrateTest, PressesMayStandInTheModel) {
-  // The hardness of a law is found from the load that it bears.
   ASSERT_EQ(run(R"(
     local face = lab.surface.sine{ cells=16, size="1 mm", amplitude="1 um", material=lab.material "steel" }
     local pair = lab.contact{ lower=face, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
@@ -209,7 +207,6 @@ TEST_F(CalibrateTest, PressesMayStandInTheModel) {
   EXPECT_TRUE(holds("math.abs(f.values.factor - 1) < 0.01")) << value("f");
 }
 
-// Fourteen gaps under as many loads, each from a press of its own.
 constexpr const char* fourteen_presses = R"(
   asked = 0
   function gap(q, p)
@@ -238,13 +235,13 @@ TEST_F(CalibrateTest, PressesAreFewAndSpreadOverThreads) {
   EXPECT_EQ(run("two = fit_presses()"), "");
   set_thread_count(threads);
   EXPECT_TRUE(holds("one.calls <= 14 * 16")) << value("one.calls");
-  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // two of each fit in this state; the others in copies
+  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // two of each fit; the others in copies
   EXPECT_TRUE(holds("one.values.young == two.values.young and tostring(one) == tostring(two)"));
   EXPECT_TRUE(holds("math.abs(one.values.amplitude / 1e-6 - 1) < 0.02")) << value("one");
   EXPECT_TRUE(holds("one.identifiable and one.parameters.young.profile_high > one.values.young"));
 }
 
-// The real area of a press on 32 x 32 cells is a count of nodes, here of 6 to 42 of them.
+// The real area counts 6 to 42 of 32 x 32 nodes.
 TEST_F(CalibrateTest, RealAreasOfPressesTellNoProductApart) {
   ASSERT_EQ(run(R"(
     function area(young, p)

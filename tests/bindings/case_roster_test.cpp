@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of an ensemble's cases in a shared store: what is written is read again, a result counts whatever
-// failed before or after it, results of another build are not found, and how cases are named in messages.
+// The list of an ensemble's cases in a shared store.
 #include "bindings/lua/ensemble/case_roster.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The messages listed as changed, old beside new: each script ends in the new one.
+// Each script ends in its new message.
 #include <fstream>
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is offered where: a `|` in the scripts below stands for the cursor.
+// A `|` in the scripts is the cursor.
 #include "bindings/lua/editor/completion.hpp"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST(Completion, OfAVariableGivesTheMethodsOfItsClass) {
   EXPECT_TRUE(offers("c = lab.contact{}\nc:|", "press"));
   EXPECT_TRUE(offers("local a <const>, b <close> = 1, lab.contact{}\nb:|", "press"));
   EXPECT_TRUE(texts("local a, b = 1, lab.contact{}\na:|").empty());
-  // A field, whose unit is told, comes before the methods.
+  // Fields come before methods.
   const Candidate approach = found(contact + "local st = c:press{}\nst.|", "approach");
   EXPECT_EQ(approach.kind, "value");
   EXPECT_EQ(approach.detail, "number, m");
@@ -98,7 +98,7 @@ TEST(Completion, TheLastAssignmentInSightDecides) {
   EXPECT_TRUE(texts("local s = lab.surface.flat{}\nlocal s\ns:|").empty());
   EXPECT_TRUE(offers("local s = lab.surface.flat{}\ns.name = 1\ns:|", "plus"));
   EXPECT_TRUE(offers("local s = lab.surface.flat{}\nf{ s = 1 }\ns:|", "plus"));
-  // Tables and functions of the script have no known type.
+  // A script's own tables and functions have no known type.
   EXPECT_TRUE(texts("local bodies = { lower = lab.surface.flat{} }\nbodies.|").empty());
   EXPECT_TRUE(texts("local function rough() return lab.surface.flat{} end\nrough():|").empty());
 }
@@ -163,7 +163,6 @@ TEST(Completion, OffersVariablesKeywordsAndWhatTheSandboxKeeps) {
   EXPECT_FALSE(offers("io.|", "popen"));
   EXPECT_TRUE(offers("io.|", "open"));
   EXPECT_TRUE(offers("os.|", "exit"));
-  // The variable that is being made is not there yet.
   EXPECT_TRUE(texts("local plates = pla|").empty());
 }
 
@@ -202,14 +201,13 @@ TEST(Completion, SurvivesEveryHalfWrittenScript) {
     const Completion whole = complete(script, k);
     EXPECT_LE(whole.from, k);
     EXPECT_LE(complete(script.substr(k), script.size()).from, script.size() - k);
-    // One character lost.
     std::string lame = script;
     if (k < script.size()) lame.erase(k, 1);
     EXPECT_LE(complete(lame, lame.size()).from, lame.size());
   }
 }
 
-// The steps of a reading grow with the length of the script, whatever is nested in what.
+// Linear in the script's length for any nesting.
 std::size_t steps_of(const std::string& script) {
   return ScriptTypes(script, read_tokens(script).list, {}).steps();
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// accuracy={ estimate=true } and accuracy={ error= } in the language: what a script reads, what it is told
-// where it did not ask, and which keys do not go together.
+// accuracy={ estimate=true } and accuracy={ error= } in scripts.
 #include "bindings/lua/contact/discretisation_error.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -92,7 +91,7 @@ TEST_F(AccuracyOfContact, AnErrorChoosesTheCells) {
   EXPECT_EQ(run("st = pressed{ error=0.05, of={ 'approach', 'energy' } }"), "");
 }
 
-// With heights interpolated between 32 x 32 nodes the area was 11 % off where 3 % was requested.
+// Interpolated from 32 x 32 nodes, the area had an error of 11 % instead of 3 %.
 TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
   ASSERT_EQ(run("local pi = math.pi\n"
                 "function waves(n, accuracy, noise)\n"
@@ -107,7 +106,7 @@ TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
             "");
   EXPECT_TRUE(holds("math.abs(st.corrected_area_fraction / 0.0516 - 1) < 0.03"));
   EXPECT_TRUE(holds("st.chosen.text:find('generated again', 1, true) ~= nil"));
-  // Random heights are known on the first cells alone.
+  // Random heights exist on the first cells only.
   EXPECT_NE(
       run("waves(32, { error=.03 }, 0.01)").find("`error` = 0.03 of `corrected_area_fraction` was requested"),
       std::string::npos);
@@ -125,7 +124,6 @@ TEST_F(AccuracyOfContact, LimitsOfAChoiceAreKeys) {
   EXPECT_NE(run("contact{ error=1e-3, at_most={ cells=4 } }").find("`cells` is 4"), std::string::npos);
 }
 
-// explain gave time and memory of the cells given, and said in another line the choice was not counted.
 TEST_F(AccuracyOfContact, AnExplainedChoiceCountsTheFinestCellsAllowed) {
   ASSERT_EQ(run("c = contact{ error=0.03, at_most={ cells=512 } }\np = c:explain{ pressure='500 MPa' }"), "");
   EXPECT_NE(value("tostring(p)").find(" 512 x 512 cells are the most within 512 cells a side"),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// K2, B12: the dry run is held against the run. Each scene that a run refuses before its first solve is
-// refused by the dry run with the same words, and each that a run takes is taken, although the dry run
-// makes no surface.
+// Without making surfaces, the dry run refuses the same scenes as a run before its first solve, with the
+// same messages.
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::dry_scene_test {
@@ -9,7 +8,7 @@ namespace {
 
 class DryScene : public LuaTest {
  protected:
-  // What the scene comes to: "" or the message.
+  // "" or the error message.
   std::string outcome(bool dry, const std::string& scene) {
     session.dry_run = dry;
     session.run.reset();
@@ -27,7 +26,7 @@ class DryScene : public LuaTest {
 };
 
 const char* const refused[] = {
-    // No material, where an effect reads one.
+    // Missing material.
     "contact{ lower=rough(), upper=lab.rigid, boundary='periodic', effects={ elasticity='half_space' } }",
     "contact{ lower=rough{ material=al }, upper=rough(), boundary='periodic', effects={ "
     "elasticity='half_space' } }",
@@ -36,14 +35,14 @@ const char* const refused[] = {
     "contact{ lower=rough(), upper=lab.rigid, effects={ elasticity='box' } }",
     "contact{ lower=rough(), upper=lab.rigid, effects={ elasticity={ model='box', stiffness=1e12 }, "
     "plasticity={} } }",
-    // A material without the property.
+    // Missing property of a material.
     "contact{ lower=rough{ material=lab.material{ young='1 GPa' } }, upper=lab.rigid, boundary='free', "
     "effects={ elasticity='half_space' } }",
     "contact{ lower=rough{ material=lab.material{ young='1 GPa', poisson=0.3 } }, upper=lab.rigid, "
     "boundary='free', effects={ elasticity='half_space', plasticity={} } }",
     "contact{ lower=rough{ material=lab.rigid }, upper=lab.rigid, boundary='free', effects={ "
     "elasticity='half_space' } }",
-    // Keys that do not go together.
+    // Conflicting keys.
     "contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='half_space' } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, boundary='free', effects={ elasticity='rigid' } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, boundary='free', effects={ "
@@ -55,7 +54,7 @@ const char* const refused[] = {
     "interlocking={} } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='box' }, accuracy={ "
     "precision='single' } }",
-    // Surfaces that their cells cannot carry.
+    // Cells too coarse for the surface.
     "rough{ short_wave='40 um' }",
     "rough{ long_wave='3 mm' }",
     "lab.surface.sine{ cells=32, size='1 mm', amplitude='1 um', wavelength='50 um' }",
@@ -63,7 +62,7 @@ const char* const refused[] = {
     "lab.surface.bead_blasted{ cells=32, size='1 mm', ra='1 um' }",
     "lab.surface.bead_blasted{ cells=128, size='1 mm', ra='1 um', fine={ hurst=0.8, roll_off='50 um', "
     "short_wave='2 um' } }",
-    // Bodies that do not fit.
+    // Mismatched bodies.
     "contact{ lower=rough{ material=al }, upper=rough{ cells=64 }, effects={ elasticity='box' } }",
     "contact{ lower=rough{ material=al }, upper=rough{ size='2 mm', short_wave='200 um' }:mirrored(), "
     "effects={ "

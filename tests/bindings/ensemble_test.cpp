@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.ensemble: order and values whatever the number of threads, what travels into a case and what
-// cannot, and how a case ends that goes wrong.
+// Order and values do not depend on the number of threads.
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -40,7 +39,6 @@ class RecordingMonitor final : public Monitor {
   std::vector<std::string> warnings;
 };
 
-// A state of the program in which scripts run one after the other.
 class Bench {
  public:
   explicit Bench(int threads = 2, bool dry_run = false, bool trusted = false) : session(monitor) {
@@ -63,7 +61,7 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  // What the script returned, as text; or "error: " and its message.
+  // The result as text, or "error: " and the message.
   std::string run(const std::string& script) {
     lua_State* L = state_.get();
     lua_settop(L, 0);
@@ -80,7 +78,6 @@ class Bench {
     if (protect(L, 0, 1, action) != LUA_OK) return "error: " + error_text(L, -1);
     return lua_tostring(L, -1);
   }
-  // What cases printed.
   std::string printed() {
     std::fflush(output_);
     return std::string(text_, size_);
@@ -102,7 +99,7 @@ testing::AssertionResult contains(const std::string& text, const std::string& pa
   return testing::AssertionFailure() << "\"" << text << "\" does not hold \"" << part << "\"";
 }
 
-// A study with native work, random numbers and text, flattened to one string.
+// Native work, random numbers and text, flattened to a string.
 const char* const study = R"(
   local rows = lab.ensemble{
     over = { D = {2.1, 2.5, 2.9}, seed = {1, 2, 3, 4} },
@@ -389,7 +386,6 @@ TEST(Ensemble, ContactStatesComeBackAsValues) {
             "true");
 }
 
-// Two of six cases fail.
 const char* const failing = R"(
       local function deep(case) error("boom " .. case.seed) end
       local function run(case)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every function and method of the language has an example, and every example runs: after the preamble that
-// the reference shows, in a run of its own, so that none leans on another.
+// Every example runs alone after the preamble of the reference.
 #include <vector>
 
 #include "bindings/lua/editor/help.hpp"

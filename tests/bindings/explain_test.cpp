@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// c:explain{ ... }: the keys of a press and their mistakes, and that explaining changes and counts nothing.
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::explain_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the registry says about itself: help, the reference page and the editor's types are complete.
+// Help, the reference page and the editor's types are complete.
 #include "bindings/lua/editor/help.hpp"
 
 #include <algorithm>
@@ -118,7 +118,6 @@ TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
       "lists what there is");
 }
 
-// B11: a part of a name, and a word of a sentence, find what they belong to.
 TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
   const std::pair<const char*, const char*> wanted[] = {
       {"weierstras", "lab.surface.weierstrass_mandelbrot: "},
@@ -138,7 +137,7 @@ TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
     EXPECT_NE(text.find(found), std::string::npos) << asked << ":\n" << text;
   }
   EXPECT_EQ(help_text("observe").find("order_observed") != std::string::npos, true);
-  EXPECT_THROW(help_text("serve"), Error);  // is in ob-serve-d
+  EXPECT_THROW(help_text("serve"), Error);  // in ob-serve-d
   EXPECT_THROW(help_text("w"), Error);
   EXPECT_THROW(help_text("zzzz"), Error);
 }
@@ -201,7 +200,7 @@ TEST_F(Help, TheEditorsTypesAreLuaAndNameEverything) {
   const std::string types = editor_types();
   ASSERT_EQ(luaL_loadbufferx(L, types.data(), types.size(), "types", "t"), LUA_OK) << lua_tostring(L, -1);
   lua_settop(L, 0);
-  EXPECT_EQ(run(types), "");  // and they run
+  EXPECT_EQ(run(types), "");  // valid Lua
   for (const Function* function : all_functions()) {
     std::string name = qualified_name(*function);
     const std::size_t at = name.find_last_of(".:");

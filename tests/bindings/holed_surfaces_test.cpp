@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points that were not measured and the arithmetic of surfaces, as scripts meet them: fields, methods,
-// operators, and what is said to who needs every point.
 #include <string_view>
 #include <vector>
 
@@ -84,7 +82,7 @@ TEST_F(HoledSurface, OutliersAreNamedAndTold) {
                                     "the rule \"mad\" with factor 8 "
                                     "and window 5, farther than "))
       << heard.warnings[0];
-  ASSERT_EQ(run("spiky:masked{ outliers={ factor=1000 } }"), "");  // none: nothing is told
+  ASSERT_EQ(run("spiky:masked{ outliers={ factor=1000 } }"), "");  // no outlier, no warning
   EXPECT_EQ(heard.warnings.size(), 1U);
 }
 

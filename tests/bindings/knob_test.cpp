@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Knobs: the number a script gets, what was given for it, bounds and kinds, and that cases of an ensemble
-// read the same ones.
 #include "tests/bindings/lua_test.hpp"
 
 #include "engine/core/error.hpp"
@@ -160,7 +158,7 @@ TEST_F(KnobTest, AKeptCaseHoldsForTheKnobsItAskedForAlone) {
   EXPECT_EQ(store.counts().found, 0);
   EXPECT_EQ(ensemble(asks_nothing), "2");
   EXPECT_EQ(store.counts().found, 1);
-  // A case that is found has made its knobs too.
+  // A stored case has made its knobs too.
   give({{"n", "5"}});
   EXPECT_EQ(ensemble(asks), "5.0");
   EXPECT_EQ(store.counts().found, 2);
@@ -201,7 +199,7 @@ TEST(GivenKnobTest, HasANameAndAQuantity) {
   for (const char* bad : {"m=1", " m", "m\n", "\"m\""})
     EXPECT_NE(refusal(bad, "3").find("is no name of a knob"), std::string::npos) << bad;
   for (const char* bad : {"", "fast", "5 Mpp"}) {
-    // Who gives it by the page or in the prompt knows no options.
+    // Page and prompt have no command-line options.
     EXPECT_TRUE(refusal("m", bad).starts_with("the knob `m`: ")) << refusal("m", bad);
     EXPECT_EQ(refusal("m", bad).find("--"), std::string::npos) << refusal("m", bad);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lessons: what their opening comments tell, and how they are called.
 #include "bindings/lua/editor/lessons.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A script's world for tests of the bindings: a run in a folder of its own, a session and a Lua state,
-// and short ways to run a chunk and look at what came of it. The same tests are linked against both
-// builds of Lua, in which errors leave by different means.
+// A run in its own folder, a session and a Lua state. The tests are linked with both builds of Lua, whose
+// errors unwind differently.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,7 +37,7 @@ class LuaTest : public testing::Test {
     std::filesystem::remove_all(folder);
   }
 
-  // A new state in the place of the present one, as the session is now set.
+  // Replaces the state.
   void open() {
     state.reset();
     if (session.dry_run) {
@@ -65,7 +64,7 @@ class LuaTest : public testing::Test {
     open();
   }
 
-  // Runs a chunk called script.lua; "" if it ended well, otherwise the text of its error.
+  // Runs script.lua; returns "" or the error's text.
   std::string run(const std::string& code) { return execute(code, 0); }
   // tostring() of an expression, or "error: " and the text.
   std::string value(const std::string& expression) {

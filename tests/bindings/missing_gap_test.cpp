@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// B1, as a script sees it: off the overlap of two turned bodies the gap is missing in values, in what sums
-// them up and in pictures, as a measured map with holes is; every other number stays one.
+// Without overlap of the bodies the gap is missing in values, sums and pictures; other numbers are finite.
 #include <gtest/gtest.h>
 
 #include "tests/bindings/lua_test.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every field, method and option that says it needs an effect is asked for without it by the script
-// tests/scripts/needs_effect.lua: one that is added to the language and left out there fails here.
+// tests/scripts/needs_effect.lua must request every name that needs an effect, without the effect.
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -16,7 +15,7 @@ namespace {
 
 using NeedsEffect = LuaTest;
 
-// The names of the language whose sentence says that they need an effect of the catalogue.
+// Names whose documentation states a needed effect.
 std::set<std::string> names_in_need() {
   std::set<std::string> names;
   const auto look = [&](const std::string& name, const std::string& sentence) {

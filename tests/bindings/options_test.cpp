@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of named keys: closed sets, checked for names, types, units and ranges, all problems at once.
 #include "bindings/lua/registry/options.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -122,7 +121,7 @@ TEST_F(Options, WholeNumbersMustBeWhole) {
   EXPECT_EQ(run("lab.surface.flat{ cells=4.0, size=1 }"), "");
   EXPECT_NE(run("lab.surface.flat{ cells=4.5, size=1 }").find("`cells` is 4.5; give a whole number"),
             std::string::npos);
-  EXPECT_EQ(value("lab.surface.flat{ cells='4', size=1 }.cells[1]"), "4");  // as a tolerance of "1e-6"
+  EXPECT_EQ(value("lab.surface.flat{ cells='4', size=1 }.cells[1]"), "4");  // as in "1e-6"
   EXPECT_NE(run("lab.surface.flat{ cells='4.5', size=1 }").find("`cells` is \"4.5\"; give a whole number"),
             std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells='4 um', size=1 }")

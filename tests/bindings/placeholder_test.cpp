@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A dry run: heavy calls give placeholders that keep names checked, pass through arithmetic and text,
-// and stop the check where the script's path depends on one.
+// Dry runs return placeholders that check names and pass through arithmetic; the check stops where the
+// script's path depends on one.
 #include "bindings/lua/registry/placeholder.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -20,7 +20,6 @@ class DryRun : public LuaTest {
             "st = c:press{ pressure='1 MPa' }\nlaw = lab.friction{ tau0='500 MPa', alpha=0.2 }"),
         "");
   }
-  // The check ends here, and says so.
   void stops(const std::string& code) {
     const std::string error = run(code);
     EXPECT_TRUE(stopped_at_placeholder(error)) << code << ": " << error;
@@ -146,7 +145,7 @@ TEST_F(DryRun, WritesNothingAndShowsNothing) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files += entry.path() != run_folder();
   EXPECT_EQ(files, 0u);
-  EXPECT_NE(run("io.open('/etc/x', 'w')"), "");  // a mistake is still one
+  EXPECT_NE(run("io.open('/etc/x', 'w')"), "");  // still a mistake
   std::filesystem::current_path(before);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A conversation line by line: what is shown, what waits for more, and what stays.
 #include "bindings/lua/editor/prompt.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -20,7 +19,7 @@ class PromptTest : public LuaTest {
     LuaTest::TearDown();
   }
 
-  // What a line shows; "more", or "error: " and the message.
+  // The output of a line, "more", or "error: " and the message.
   std::string say(const std::string& line) {
     char* text = nullptr;
     std::size_t length = 0;
@@ -107,7 +106,6 @@ TEST_F(PromptTest, ALineThatFailsLeavesEveryVariableAsItWas) {
   EXPECT_EQ(say("x = 2; y = 3; x = nil; error('on purpose', 0)"), "error: on purpose");
   EXPECT_EQ(say("x"), "1");
   EXPECT_NE(say("y").find("was never set"), std::string::npos);
-  // With its functions in between a message has a traceback.
   say("function deep() error 'inside' end");
   EXPECT_NE(say("deep()").find("in function 'deep'"), std::string::npos);
   EXPECT_EQ(say("error 'bare'"), "error: prompt:1: bare");

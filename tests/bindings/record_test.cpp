@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results with named fields, and iterators, as a script meets them.
 #include "bindings/lua/registry/record.hpp"
 
 #include <memory>

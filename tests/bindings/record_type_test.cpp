@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results are described: what gives a record names its type, and help, completion, the reference, the
-// editor's types and the dry run know its fields.
+// Functions name their record types, whose fields help, completion, reference, editor types and dry run
+// know.
 #include "bindings/lua/registry/record_type.hpp"
 
 #include <algorithm>
@@ -20,7 +20,6 @@ using RecordTypes = LuaTest;
 struct Written {
   std::string giver, type;
 };
-// Every type that a function gives or a field has.
 std::vector<Written> written_types() {
   std::vector<Written> all;
   const auto functions = [&](const std::vector<Function>& of) {
@@ -42,7 +41,7 @@ std::vector<std::string> offered(const std::string& script, const std::vector<Li
 }
 
 TEST_F(RecordTypes, AreNamedByAllThatGivesThem) {
-  // Tables of which the script itself names the columns are no records.
+  // The script names the columns of these tables.
   const std::set<std::string> open = {"lab.ensemble", "notebook:rows", "table:rows", "study:rows",
                                       "StudyChoice.knobs"};
   std::set<std::string> named;
@@ -97,7 +96,6 @@ TEST_F(RecordTypes, HelpOnWhatGivesThemListsTheirFields) {
   EXPECT_NE(help_text("surface:roughness").find("  Sq         Rq by its areal name (number, m)"),
             std::string::npos)
       << help_text("surface:roughness");
-  // Records inside it too, and fields by their bare name.
   EXPECT_NE(help_text("tiltStage:raise").find("TiltTrial: "), std::string::npos);
   EXPECT_NE(help_text("State.cost").find("seconds"), std::string::npos);
   EXPECT_NE(help_text("law:on").find("needs interlocking"), std::string::npos);
@@ -147,7 +145,7 @@ TEST_F(RecordTypes, ReadEachFieldOfARecordAsDescribed) {
       }
   EXPECT_GE(read, 10u);
   EXPECT_TRUE(holds("values.State.cost.by_effect.elasticity.seconds >= 0"));
-  // The events of a loop, which no function returns.
+  // No function returns the events of a loop.
   ASSERT_EQ(run("for event in values.Protocol:on(values.contact) do last = event end"), "");
   lua_getglobal(L, "last");
   const std::shared_ptr<Record> event = record_at(L, -1);
@@ -196,7 +194,7 @@ TEST_F(RecordTypes, ADryRunFindsMisspeltFields) {
             std::string::npos);
   EXPECT_NE(run("print(lab.stylus{}:scan(s).tip_effect.mean_lfit)").find("(did you mean `mean_lift`?)"),
             std::string::npos);
-  // What a run may give it goes past: fields of effects, lists of any length, numbers of no value.
+  // Accepted: fields of effects, any list index, optional numbers.
   EXPECT_EQ(run("local r = law:on(st) local x = r.mu + r.strengthening * r.interlocking_force\n"
                 "local t = stage:raise{} x = t.trials[7].held / #t.probes\n"
                 "x = st.cost.by_effect.estimate.seconds + s:spectrum().C[50]\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The three frames of a call: errors of the engine reach the script as Lua errors with its line, and
-// nothing that a failed call held stays behind, whichever way Lua's errors leave.
+// Engine errors become Lua errors with the script's line; failed calls release everything in both builds of
+// Lua.
 #include "bindings/lua/registry/registry.hpp"
 
 #include <memory>
@@ -16,7 +16,7 @@ using Guard = LuaTest;
 using Method = LuaTest;
 using LabModule = LuaTest;
 
-// Gives the script a surface as the global `s` and keeps an eye on it.
+// Sets the global `s`.
 std::shared_ptr<Surface> give_surface(lua_State* L, int cells) {
   auto surface =
       std::make_shared<Surface>(flat_surface({make_grid(cells, cells, 1e-3, 1e-3)}, Monitor::silent()));
@@ -51,7 +51,6 @@ TEST_F(Guard, TheLineIsThatOfTheCallAlsoThroughPcallAndMetamethods) {
 TEST_F(Guard, AFailedCallFreesWhatItHeld) {
   collect();
   const std::int64_t before = memory::held();
-  // The field of heights is half filled when the function fails.
   const std::string error =
       run("lab.surface.from_function{ cells=256, size=1, height=function(x, y)\n"
           "  if y > 0.5 then error('no height here') end return 0 end }");
@@ -80,14 +79,14 @@ TEST_F(Guard, AMemoryErrorWhileResultsAreDeliveredLeaksNothing) {
   collect();
   const long held = surface.use_count();
   const std::int64_t before = memory::held();
-  memory::set_limit(before + (1 << 20));  // a table of 512 x 512 heights needs four times this
+  memory::set_limit(before + (1 << 20));  // 512 x 512 heights need four times this
   const std::string error = run("local h = s:heights()");
   memory::set_limit(0);
   EXPECT_NE(error.find("not enough memory"), std::string::npos) << error;
   collect();
   EXPECT_EQ(surface.use_count(), held);
   EXPECT_LT(memory::held() - before, 256 * 1024);
-  EXPECT_EQ(run("assert(#s:heights() == 512)"), "");  // and the state goes on
+  EXPECT_EQ(run("assert(#s:heights() == 512)"), "");  // the state still works
 }
 
 TEST_F(Guard, AValueThatCannotBeDeliveredIsFreed) {
@@ -145,7 +144,7 @@ TEST_F(Guard, ARaisedStopFlagEndsTheNextCall) {
 
 TEST_F(Guard, GarbageDoesNotCountAgainstTheMemoryLimit) {
   collect();
-  // 8 MiB a surface: room for the present one and the next, not for what was dropped before.
+  // 8 MiB per surface: room for two.
   memory::set_limit(memory::held() + (20 << 20));
   EXPECT_EQ(run("local s for k = 1, 12 do s = lab.surface.flat{ cells=1024, size=k } end"), "");
   EXPECT_EQ(run("local s = lab.surface.flat{ cells=1024, size=1 }\n"
@@ -207,7 +206,6 @@ TEST_F(LabModule, GoesThroughPairsAndCannotBeChanged) {
           "assert(seen.surface == 'table' and seen.material == 'function' and seen.rigid == 'userdata')\n"
           "local n = 0 for _ in pairs(lab.units) do n = n + 1 end assert(n > 10)"),
       "");
-  // Not even by what pairs hands out.
   EXPECT_EQ(run("local next_of, state = pairs(lab)\nlocal ok = pcall(function() state.surface = 1 end)\n"
                 "assert(not ok)\nassert(type(lab.surface.flat) == 'function')"),
             "");
@@ -218,7 +216,7 @@ TEST_F(LabModule, GoesThroughPairsAndCannotBeChanged) {
   EXPECT_EQ(value("lab.units.um"), "1e-06");
 }
 
-// Members are made when they are asked for.
+// Members are created on first access.
 TEST_F(LabModule, GivesTheSameMemberWheneverAndHoweverItIsAskedFor) {
   EXPECT_EQ(
       run("local flat, units, rigid = lab.surface.flat, lab.units, lab.rigid\n"

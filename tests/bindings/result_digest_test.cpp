@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digests of what heavy calls return: every number counts, what a call cost does not.
 #include "bindings/lua/registry/result_digest.hpp"
 
 #include <gtest/gtest.h>

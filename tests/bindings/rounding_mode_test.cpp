@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: a host that rounds upward gets the same results from the module, and its mode back after each call.
+// A host that rounds upward gets the same results and keeps its mode.
 #include <cfenv>
 
 #include "tests/bindings/lua_test.hpp"
@@ -7,7 +7,7 @@
 namespace asperity::lua::rounding_mode_test {
 namespace {
 
-// 0.75 and 0.25 are exact: what the host's own parser makes of other numbers hangs on its rounding.
+// 0.75 and 0.25 are exact; the host's parser rounds other numbers.
 constexpr const char* digests =
     "local s = lab.surface.self_affine{ cells=32, size='1 mm', hurst=0.75, ra='1 um', short_wave='80 um', "
     "seed=1,"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a script may not reach unless it is trusted: other programs, C libraries, bytecode, hooks and
-// metatables of native values, and files outside the run.
+// Limits of untrusted scripts.
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::sandbox_test {
@@ -74,7 +73,7 @@ TEST_F(Sandbox, HooksAndMetatablesOfNativeValuesAreOutOfReach) {
 }
 
 TEST_F(Sandbox, OriginalsCannotBeMetOnTheStack) {
-  // The reader of load is called by the original; so are handlers of its errors.
+  // Originals call the reader of load and error handlers.
   EXPECT_EQ(run("local met = {}\n"
                 "local function look() for level = 0, 12 do\n"
                 "  local info = debug.getinfo(level, 'f') or debug.getinfo(level)\n"
@@ -186,7 +185,6 @@ TEST_F(Sandbox, TrustGivesTheWholeOfLua) {
             "");
   EXPECT_EQ(run("lab.surface.flat{ cells=2, size=1 }:write '" + (folder / "s.npy").string() + "'"), "");
   EXPECT_TRUE(std::filesystem::exists(folder / "s.npy"));
-  // Globals are strict all the same.
   EXPECT_NE(run("print(undefined_thing)"), "");
 }
 

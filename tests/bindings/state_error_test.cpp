@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// st.error: bounds by name, brackets, what a state has no bound for, and that a dry run knows the names.
 #include "bindings/lua/contact/state_error.hpp"
 
 #include "tests/bindings/lua_test.hpp"

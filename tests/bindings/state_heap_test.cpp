@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory of a Lua state: small blocks come out of one region and are used again, what does not fit is counted
-// by the byte, and a limit holds for both.
+// Small blocks of a Lua state come from one region and are reused; others are counted by the byte; a limit
+// covers both.
 #include "bindings/lua/runtime/state_heap.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ class Heap : public testing::Test {
 TEST_F(Heap, ABlockKeepsItsBytesFromTheRegionIntoTheOpenAndBack) {
   constexpr std::size_t sizes[] = {8, 16, 17, 500, 512, 513, 100000, 600, 512, 64, 63, 1};
   auto* block = static_cast<char*>(change(nullptr, 0, sizes[0]));
-  std::size_t size = sizes[0], sound = 0;  // bytes that must be there still
+  std::size_t size = sizes[0], sound = 0;  // bytes that must be unchanged
   for (const std::size_t next : sizes) {
     block = static_cast<char*>(change(block, size, next));
     ASSERT_NE(block, nullptr);
@@ -99,7 +99,7 @@ TEST_F(Heap, WhatTheRegionHasNoRoomForIsCountedByTheByte) {
   const std::size_t inside = static_cast<std::size_t>(region) / 512;
   for (std::size_t k = 0; k < inside + 3; ++k) blocks.push_back(change(nullptr, 0, 512));
   EXPECT_EQ(memory::held() - before, region + 3 * 512);
-  void* const grown = change(blocks.front(), 512, 2000);  // out of the region, or not
+  void* const grown = change(blocks.front(), 512, 2000);  // may leave the region
   EXPECT_EQ(memory::held() - before, region + 3 * 512 + 2000 - (sanitized ? 512 : 0));
   change(grown, 2000, 0);
   for (std::size_t k = 1; k < blocks.size(); ++k) change(blocks[k], 512, 0);
@@ -111,7 +111,7 @@ TEST_F(Heap, ALimitIsForWhatIsOutsideTheRegion) {
   memory::set_limit(memory::held() + 1000);
   EXPECT_EQ(change(small, 100, 1101), nullptr);
   EXPECT_TRUE(memory_limit_met());
-  void* const grown = change(small, 100, 901);  // another than what was refused: that was final
+  void* const grown = change(small, 100, 901);  // a new size: the refused request was final
   EXPECT_NE(grown, nullptr);
   EXPECT_TRUE(memory::exceeded());
   change(grown, 901, 0);
@@ -121,7 +121,7 @@ TEST_F(Heap, TheSameRequestThatIsGrantedTheSecondTimeMeetsNoLimit) {
   void* const large = change(nullptr, 0, 5000);
   memory::set_limit(memory::held() + 1000);
   EXPECT_EQ(change(nullptr, 0, 2000), nullptr);
-  change(large, 5000, 0);  // as Lua does when it collects
+  change(large, 5000, 0);  // as Lua's collector does
   void* const granted = change(nullptr, 0, 2000);
   EXPECT_NE(granted, nullptr);
   EXPECT_FALSE(memory::exceeded());
@@ -157,7 +157,7 @@ TEST_F(StateMemory, ManySmallObjectsMeetTheLimitAndLeaveNothing) {
   EXPECT_LE(memory::held(), before);
 }
 
-// What a state is made of is small: of its bytes, as Lua counts them, few are in blocks outside the region.
+// Few bytes of a fresh state are outside the region.
 TEST_F(StateMemory, AFreshStateIsForTheMostPartInItsRegion) {
   if (sanitized) GTEST_SKIP() << "a sanitizer sees every block: there is no region";
   state.reset();
@@ -171,7 +171,7 @@ TEST_F(StateMemory, AFreshStateIsForTheMostPartInItsRegion) {
   EXPECT_LE(all - outside, static_cast<std::int64_t>(StateHeap::region_bytes));
 }
 
-// A small script never collects what was made before it: a state begins as after a collection.
+// A new state starts as after a full collection.
 TEST_F(StateMemory, TheFirstCollectionWaitsUntilThereIsTwiceAsMuch) {
   EXPECT_EQ(run("local gone = false\n"
                 "do setmetatable({}, { __gc=function() gone = true end }) end\n"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Lua state as the program makes it: strict globals, seeded random numbers, error values as text,
-// and stops that reach Lua code wherever it is.
 #include "bindings/lua/runtime/state.hpp"
 
 #include "tests/bindings/lua_test.hpp"
@@ -136,7 +134,7 @@ TEST_F(Stop, ReachesFunctionsThatTheEngineCalls) {
   ASSERT_EQ(run("function make() lab.surface.from_function{ cells=4, size=1, height=function() while true do "
                 "end end } end"),
             "");
-  // Raised from inside, once the engine is waiting for a height.
+  // Raised while the engine calls the function.
   ASSERT_EQ(run("calls = 0"), "");
   lua_pushcfunction(L, [](lua_State*) {
     stop_flag().raise(StopReason::interrupt);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of cases as bytes, bit for bit; what bytes cannot carry; and what decides whether two functions are
-// the same.
+// Rows of cases as bytes, bit for bit; equality of functions.
 #include "bindings/lua/ensemble/stored_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +23,6 @@ class Bench {
   Bench() : session_(Monitor::silent()), state_(make_state(session_, "")) {}
   lua_State* L() const { return state_.get(); }
 
-  // What a chunk returns, as a packed value.
   std::shared_ptr<const PackedValue> value(const std::string& chunk, Cargo cargo = Cargo::data) const {
     lua_settop(L(), 0);
     const std::string text = "local lab = require 'asperity' " + chunk;
@@ -33,7 +31,6 @@ class Bench {
       throw Error(ErrorCode::bad_value, error_text(L(), -1));
     return pack(L(), -1, cargo, "run(case)", "");
   }
-  // Whether a chunk given the value returns true.
   bool holds(const std::shared_ptr<const PackedValue>& value, const std::string& condition) const {
     lua_settop(L(), 0);
     const std::string text = "local r = ... return " + condition;
@@ -167,7 +164,6 @@ TEST(CaseBytes, KeepAllThatACaseFound) {
   result.drew = true;
   result.transforms = 1234.5;
   result.seconds = 0.1;
-  // The case's own surface stays the same one, whatever made it.
   lua_newtable(bench.L());
   surface->push(bench.L());
   lua_setfield(bench.L(), -2, "s");
@@ -195,7 +191,7 @@ TEST(CaseBytes, KeepAFailure) {
   EXPECT_EQ(found.failure, result.failure);
 }
 
-// Digests of rows stand in journals, which later versions replay.
+// Later versions replay digests in journals.
 TEST(PackedValueDigest, IsThatOfEarlierJournals) {
   const Bench bench;
   Record record;
@@ -232,7 +228,7 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
   }
 }
 
-// F12: shards met only where the script's path was typed in the same way.
+// The spelling of the script's path must not change digests.
 TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
   struct Typed {
     ScriptSpelling script;
@@ -260,7 +256,7 @@ TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
     EXPECT_EQ(content(other, plain).lines, first.lines) << other.script.path;
   }
   EXPECT_NE(content(typed[0], "\n" + plain).lines, first.lines);
-  // What a function reads of its name, and where the script itself made it look, it depends on.
+  // These functions read the script's name or search path.
   for (const char* body :
        {"return function() return { y = arg[0] } end", "local a = arg return function() return a end",
         "package.path = package.path .. ';x/?.lua' return function() return {} end"})

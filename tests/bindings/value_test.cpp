@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Native values in the hands of a script: how they print, compare and end, and what they refuse.
 #include "bindings/lua/registry/value.hpp"
 
 #include <memory>
@@ -80,7 +79,7 @@ TEST_F(NativeValue, EveryDeclaredFieldCanBeRead) {
     ASSERT_NE(entry.type, nullptr);
     for (const Getter& field : entry.type->fields) {
       const std::string text = value(std::string(entry.global) + "." + field.name);
-      // What a scene does not compute is an error that says so; anything else has a value.
+      // Only quantities of absent effects are errors.
       EXPECT_TRUE(text.rfind("error: ", 0) != 0 || text.find("plasticity") != std::string::npos)
           << entry.global << "." << field.name << ": " << text;
     }
@@ -161,7 +160,6 @@ TEST_F(NativeValue, AContactClosesByNameToo) {
   EXPECT_EQ(run("c:close()\nc:press{ approach=1e-6 }"),
             "script.lua:2: contact:press: a contact was used after it was closed");
   EXPECT_EQ(run("c:close() c:close()"), "");
-  // What was made from it lives on.
   EXPECT_EQ(run("assert(st.area >= 0) stage:raise()"), "");
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values that a replay gives to calls in place of the script's: checked like any other, only where they are
-// meant.
 #include "bindings/lua/registry/variation.hpp"
 
 #include "tests/bindings/lua_test.hpp"

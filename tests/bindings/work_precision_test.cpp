@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision from a script: what is asked and how often, what comes back, what is refused, and what
-// is kept in the run directory.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -31,7 +29,6 @@ class WorkPrecisionTest : public LuaTest {
     if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
     return testing::AssertionFailure() << "\"" << text << "\" does not hold \"" << part << "\"";
   }
-  // A study whose answer is 1 + 1/n.
   void make_study(const std::string& more = "truth=1, repeats=2") {
     ASSERT_EQ(
         run("calls = 0 study = lab.work_precision{ ask=function(k) calls = calls + 1 return 1 + 1/k.n end, "

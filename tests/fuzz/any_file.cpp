@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of unknown format: each reader is asked whether it recognises the bytes, before one reads them. What
-// is packed may be more than the file, by up to 1032 times.
+// Unknown formats: every reader examines the bytes before one reads them. Unpacking expands up to 1032
+// times.
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "tests/fuzz/height_map.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image Metrology's files: a header in text whose counts and units need not be those of what follows.
+// Image Metrology: counts and units of the text header may contradict the data.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_bcr(const std::uint8_t* data, std::size_t size) {

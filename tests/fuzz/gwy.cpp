@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gwyddion's files: objects within objects, whose lengths and counts may lie.
+// Gwyddion: nested objects with wrong lengths and counts.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_gwy(const std::uint8_t* data, std::size_t size) {

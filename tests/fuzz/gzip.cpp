@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files packed with gzip: streams that are cut, that lie, and that unpack to much more than they are. What
-// comes out is bounded by 16 MiB or 128 bytes a byte, and each of its readers by a multiple of that.
+// Truncated, wrong or greatly expanding streams. Output limit: 16 MiB or 128 bytes per byte; memory: a
+// multiple.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_gzip(const std::uint8_t* data, std::size_t size) {

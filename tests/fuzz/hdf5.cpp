@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 files as any program writes them, and as none should: addresses, sizes and trees that lie. Deflate
-// makes up to 1032 bytes of one, and a byte becomes an integer and then a height.
+// Wrong addresses, sizes and trees. Deflate expands up to 1032 times; a byte may become an integer and a
+// height.
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The readers of measured files share their questions: as a surface and as a profile, with nothing said
-// in the call, with what is usual, with sizes at the ends of the doubles, and with holes left as they are.
-// What comes out has finite heights, or holes where these are not filled, on a grid of positive size.
+// Calls a reader for surfaces and profiles: without options, with usual and extreme ones, with holes left.
+// Results have finite heights or permitted holes, on a grid of positive size.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +24,10 @@ inline void require_heights(std::span<const double> heights, std::size_t measure
 }
 
 struct Knobs {
-  std::string format{};                       // "" finds out
-  std::string name = "input";                 // whose ending counts
+  std::string format{};                       // "": detected
+  std::string name = "input";                 // the extension counts
   std::size_t bytes_per_byte = 512;           // counted memory per byte of the file
-  std::size_t beside = std::size_t{1} << 16;  // and whatever its size
+  std::size_t beside = std::size_t{1} << 16;  // fixed allowance
   HoleFill fill = HoleFill::interpolate();
 };
 
@@ -38,7 +37,6 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
   ReadOptions surface;
   ReadProfileOptions profile;
   surface.format = profile.format = knobs.format;
-  // Nothing, what is usual, and what nobody means but may write.
   for (const int told : {0, 1, 2, 3, 4}) {
     if (told > 0) {
       const bool usual = told == 1 || told == 4;
@@ -48,7 +46,7 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
       profile.spacing = surface.size_x;
       surface.fill = profile.fill = told == 4 ? HoleFill{} : knobs.fill;
     }
-    if (told == 3) {  // of files that hold positions
+    if (told == 3) {  // for files with positions
       surface.size_x.reset();
       surface.size_y.reset();
       profile.spacing.reset();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Igor binary waves: lengths of parts and counts of dimensions that need not agree.
-// The sum of the header is made right first, which no random change would do.
+// Igor binary waves: inconsistent lengths and dimensions under a corrected header checksum.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_ibw(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The records of a run (manifest.json, lines of journal.jsonl) read back as they were written.
 #include "engine/core/files/json.hpp"
 
 #include "tests/fuzz/target.hpp"

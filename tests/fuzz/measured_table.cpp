@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of measured numbers as loggers and spreadsheets write them. A table that is read is written as CSV
-// that reads back as the same table.
+// A table written as CSV reads back equal.
 #include "engine/core/files/source_file.hpp"
 #include "engine/statistics/table_operations.hpp"
 #include "engine/statistics/table_reader.hpp"
@@ -22,13 +21,13 @@ static void fuzz_measured_table(const std::uint8_t* data, std::size_t size) {
       const Table table = read_measured_table(SourceFile("table.csv", bytes), form, monitor);
       fuzz::require(table.rows() > 0 && !table.columns().empty(), "a table has rows and columns");
       fuzz::require(!table_text(table).empty(), "a table is shown");
-      TableForm commas;  // one column of texts with blanks reads, unsaid, as columns between blanks
+      TableForm commas;  // else a column of words becomes several
       commas.separator = Separator::comma;
       Table again;
       try {
         again = read_measured_table(SourceFile("table.csv", table.csv()), commas);
       } catch (const Error&) {
-        return;  // texts that look like numbers, and names that hold units, are not told from these
+        return;  // ambiguous: texts like numbers, names with units
       }
       fuzz::require(again.columns().size() <= table.columns().size(), "no column is added");
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MI images: counts, ranges and units of several buffers in a header of fixed columns.
+// MI images: several buffers in a header of fixed columns.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_mi(const std::uint8_t* data, std::size_t size) {

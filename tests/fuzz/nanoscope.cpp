@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nanoscope files: offsets, lengths and sensitivities of several images in a header of text.
+// Offsets, lengths and sensitivities in a text header.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_nanoscope(const std::uint8_t* data, std::size_t size) {

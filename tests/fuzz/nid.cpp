@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NID scans: a header that names its images, each of which says how many numbers it takes.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_nid(const std::uint8_t* data, std::size_t size) {

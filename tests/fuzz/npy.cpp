@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy arrays: a header in text whose shape and type need not be those of the bytes after it.
+// Shape and type of the text header may contradict the data.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_npy(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wyko's files: a directory of blocks whose lengths may overlap the end, and blocks of the wrong kind.
+// Wyko: a directory of blocks with wrong lengths and kinds.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_opd(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OPDx profiles: containers within containers, lengths of one, two and four bytes.
+// Nested containers, lengths of one, two and four bytes.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_opdx(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of optical instruments: MetroPro, PLU, AL3D, NMS and FRT, whichever the input's first byte names,
-// with the rest of the input as the file. Blocks of FRT and tags of AL3D may lie about their lengths.
+// MetroPro, PLU, AL3D, NMS and FRT, selected by the first byte.
 #include <array>
 
 #include "tests/fuzz/height_map.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where tables of options are read: every function of the language that takes one, and a state in which
-// an expression finds numbers, a surface, a material, a friction law and a function.
+// Every function with an option table, and a Lua state with values for expressions.
 #pragma once
 
 #include <vector>
@@ -38,7 +37,7 @@ struct World {
     require(luaL_dostring(state.get(), prelude) == LUA_OK, "the world is made");
   }
   lua::Session session{Monitor::silent()};
-  lua::State state;  // the names an expression can use on its stack
+  lua::State state;  // names for expressions on its stack
 };
 
 }  // namespace asperity::fuzz

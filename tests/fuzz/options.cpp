@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of options. The input is the name of a call on the first line ("lab.surface.sine") and then a Lua
-// expression, whose value is given to the block of that call: nothing is computed with it. Beside numbers,
-// strings and tables the expression can use `huge`, `nan`, `flat`, `steel`, `law` and `call`.
+// Input: a call on the first line ("lab.surface.sine"), then a Lua expression for its option block; nothing
+// is computed. Values: `huge`, `nan`, `flat`, `steel`, `law`, `call`.
 #include <functional>
 
 #include "tests/fuzz/option_world.hpp"
@@ -22,7 +21,7 @@ static void fuzz_options(const std::uint8_t* data, std::size_t size) {
   lua_State* const L = world.state.get();
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = std::min(input.find('\n'), size);
-  // A name that nobody has chooses too, so that a change of a letter is not lost.
+  // Unknown names also select a function, so that changed letters are useful.
   const lua::Function* function =
       functions[std::hash<std::string_view>()(input.substr(0, line)) % functions.size()];
   for (const lua::Function* one : functions)
@@ -38,7 +37,7 @@ static void fuzz_options(const std::uint8_t* data, std::size_t size) {
     memory::set_limit(0);
     lua_sethook(L, nullptr, 0, 0);
     const std::string& caller = lua::qualified_name(*function);
-    if (made)  // the state may give itself a larger stack
+    if (made)  // its stack may grow
       fuzz::refused(
           room, [&] { function->options->check(lua::Argument(L, -1), caller); }, 1 << 16);
   }

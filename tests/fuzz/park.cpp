@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TIFFs of Park: a directory of tags that point anywhere.
+// Park TIFFs: tags may point anywhere.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_park(const std::uint8_t* data, std::size_t size) {

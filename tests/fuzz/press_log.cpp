@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Press logs as spreadsheets write them. A log that is read and can be written reads back as the same
-// protocol.
+// A log that can be written reads back as the same protocol.
 #include "engine/recording/press_log.hpp"
 
 #include "engine/core/files/source_file.hpp"

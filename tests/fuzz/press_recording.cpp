@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press as loggers write them. What is detected in one is a protocol that can be written as a
-// press log, which reads back as it was.
+// The detected protocol, written as a press log, reads back equal.
 #include "engine/recording/press_recording.hpp"
 
 #include "engine/core/files/source_file.hpp"

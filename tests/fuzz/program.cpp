@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The targets of one program, of which --target=NAME names one. libFuzzer passes over options of two dashes.
+// --target=NAME selects a target. libFuzzer ignores options with two dashes.
 #include <cstring>
 #include <vector>
 
@@ -24,7 +24,6 @@ Target::Target(const char* its_name, Run runs, Prepare prepares)
 
 }  // namespace asperity::fuzz
 
-// Both are called by libFuzzer, or by replay.cpp.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   using namespace asperity::fuzz;
   constexpr const char* option = "--target=";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities such as "152.78 MPa", and units alone. What is read is finite and has a text that reads
-// back; asked for as another dimension it is refused.
+// A parsed quantity or unit is finite, has a text that reads back, and is refused as another dimension.
 #include "engine/core/quantity.hpp"
 
 #include <cmath>
@@ -21,7 +20,7 @@ static void fuzz_quantity(const std::uint8_t* data, std::size_t size) {
     fuzz::require(std::isfinite(found.value), "a quantity is finite");
     fuzz::require(parse_quantity_as(text, found.dimension) == found.value, "the same either way");
     fuzz::require(fuzz::is_plain_text(describe(found.dimension)), "a dimension has a name");
-    // In SI units it reads back to the last bit, and as people read it to the digits that are shown.
+    // SI text restores every bit, readable text the shown digits.
     const std::string exact = format_exact(found.value) + " " + si_unit(found.dimension);
     fuzz::require(parse_quantity_as(exact, found.dimension) == found.value, "reads back: " + exact);
     const std::string shown = format_quantity(found.value, found.dimension, 6);

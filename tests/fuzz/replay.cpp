@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a target over every file of the folders given, for builds without libFuzzer: what was once found
-// stays found. A file that breaks a promise ends the program, its name the last one written.
+// Runs a target over folders of files, for builds without libFuzzer. After a failure, the last printed name
+// is the file:
 //
 //   PROGRAM --target=NAME FOLDER..
 #include <algorithm>

@@ -1,9 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the fuzzing targets and runs each for a while from its corpus; stops at the first crash, broken
-# promise, leak, time-out or excess of memory, keeps the input that made it and says how to run it again.
-# What grows out of a corpus stays in the build folder, where the next run goes on. As many run at once as there are
-# processors.
+# Builds the fuzzing targets and runs each for a while from its corpus, one per processor. Stops at the first crash,
+# failed requirement, leak, time-out or excess of memory, stores the input and prints the command to repeat it. The
+# build folder stores grown corpora for the next run.
 # usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [--floors "core statistics surface recording bindings"] [TARGET...]
 set -eu
 cd "$(dirname -- "$0")/../.."
@@ -35,7 +34,7 @@ if [ -z "$one" ]; then
   exit
 fi
 
-# The words of the language, as its own pages have them.
+# The words of the language, from its reference page.
 words() {
   sed -n -e 's/^### `\(.*\)`$/"\1"/p' -e 's/^| `\([a-z_A-Z.]*\)` .*/"\1"/p' docs/reference.md
   grep -o '"[a-z_-]*"|' docs/asperity.d.lua | sed 's/|$//'

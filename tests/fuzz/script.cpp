@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole scripts, looked through and then run, each in a sandbox of its own held to 30000 instructions,
-// 64 MiB and a fifth of a second. Whatever it does, it ends with a message or without one, and everything
-// it held is given back.
+// Checks and runs a script in a sandbox: at most 30000 instructions, 64 MiB and a fifth of a second. All
+// memory is released.
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
@@ -17,7 +16,7 @@ using namespace asperity;
 void run(std::string_view script, bool dry) {
   static std::FILE* const nowhere = std::fopen("/dev/null", "w");
   lua::Session session(Monitor::silent());
-  session.is_case = true;  // records nothing, writes nothing, cannot end the process
+  session.is_case = true;  // no records, no files, no exit
   session.dry_run = dry;
   session.output = nowhere;
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds a script of the fuzzer: a prelude that takes away what reaches files and library functions
-// that work long without a look at the clock (the program ends the process for those), a clock, and a
-// count of instructions. The limits raise the stop flag, as those of the program do.
+// Limits of fuzzed scripts: a prelude without files and without long library functions (the program kills
+// the process for these), a clock and an instruction count. Limits raise the stop flag.
 #pragma once
 
 #include <chrono>
@@ -39,7 +38,6 @@ class TimeLimit {
   std::jthread thread_;
 };
 
-// Calls look() every thousand instructions, in coroutines too.
 inline int turns = 0;
 
 inline void look(lua_State* L, lua_Debug*) {

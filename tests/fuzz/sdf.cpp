@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface data files (ISO 25178-71) in text and in bytes: a header whose counts and types need not be those
-// of what follows.
+// ISO 25178-71, text and binary: counts and types may contradict the data.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_sdf(const std::uint8_t* data, std::size_t size) {

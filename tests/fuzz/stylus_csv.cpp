@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces of stylus profilers: a header of keys, then positions and heights.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_stylus_csv(const std::uint8_t* data, std::size_t size) {

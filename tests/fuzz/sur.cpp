@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digital Surf's files: a header of 512 bytes whose sizes, zones and units need not be those of what follows,
-// and compressed heights, of which deflate makes up to 1032 bytes of one.
+// Digital Surf: sizes, zones and units may be wrong; compressed heights expand up to 1032 times.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_sur(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every target holds its reader to: whatever the bytes, it answers or throws an Error of its own
-// making with a message that a terminal can show, holds no more counted memory than a fixed multiple of
-// the input, and gives back all it held. A broken promise aborts, which is what a fuzzer looks for.
+// Every reader must return or throw an Error with a printable message, use counted memory up to a fixed
+// multiple of the input, and release all. A violation aborts.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@
 
 namespace asperity::fuzz {
 
-// A reader and what prepares it; a static one in each source is how the program knows of it (program.cpp).
+// A reader and its preparation. A static Target in each source registers itself (program.cpp).
 struct Target {
   using Run = void (*)(const std::uint8_t* data, std::size_t size);
   using Prepare = void (*)();
@@ -33,7 +32,7 @@ inline void require(bool holds, const std::string& promise) {
   std::abort();
 }
 
-// UTF-8 without control characters but for tabs and line ends.
+// UTF-8 without control characters other than tabs and line ends.
 inline bool is_plain_text(std::string_view text) {
   for (std::size_t k = 0; k < text.size();) {
     const auto lead = static_cast<unsigned char>(text[k]);
@@ -51,7 +50,6 @@ inline void require_good_message(const std::string& message) {
   require(!message.empty() && is_plain_text(message), "a message is plain text: " + message);
 }
 
-// Warnings are messages too.
 class ListeningMonitor final : public Monitor {
  public:
   void progress(std::string_view, double done) override {
@@ -60,8 +58,8 @@ class ListeningMonitor final : public Monitor {
   void warn(std::string_view sentence) override { require_good_message(std::string(sentence)); }
 };
 
-// Runs read(), which may hold `room` bytes of counted memory above what is held now, and keep some of
-// them only where it works in a state that goes on. True if it threw.
+// Runs read() with at most `room` more bytes of counted memory; `kept` bytes may remain. Returns whether
+// read() threw.
 template <class Read>
 bool refused(std::size_t room, Read&& read, std::int64_t kept = 0) {
   const std::int64_t before = memory::held();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text matrices with their headers, decimal commas, comments and missing cells.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_text_matrix(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// WSxM images: a header that says where its numbers begin and what they span.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_wsxm(const std::uint8_t* data, std::size_t size) {

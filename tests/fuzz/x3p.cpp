@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X3P files as they lie on the disk: a zip archive whose directory, sizes and checksums may lie. Deflate
-// makes up to 1032 bytes of one, and two of those a height. See x3p_parts.cpp for what is in the archive.
+// Wrong directories, sizes and checksums of the zip archive (content: x3p_parts.cpp). Deflate expands up to
+// 1032 times; two bytes make a height.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_x3p(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an X3P archive holds, packed afresh so that no change of a byte spoils a checksum. The input is
-// main.xml, a zero byte, the number of valid-point bytes (two bytes, little end first), those, and the
-// points.
+// The content of an X3P archive, packed with right checksums. Input: main.xml, a zero byte, the number of
+// valid-point bytes (two bytes, little-endian), these bytes, the points.
 #include "tests/fuzz/height_map.hpp"
 #include "tests/surface/stored_zip.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// x y z triples, whose coordinates have to make a lattice.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_xyz(const std::uint8_t* data, std::size_t size) {

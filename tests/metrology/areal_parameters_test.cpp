@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The areal parameters of five maps given by formulas (tests/reference/metrology_maps.csv, where the formulas
-// stand), whose numbers two independent programs agree on, and of gauges with exact values.
+// Five maps with formulas (tests/reference/metrology_maps.csv), on which two independent programs agree,
+// and exact gauges.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,6 @@ struct Waves {
   double phase, hurst, first, last, across;
 };
 
-// Σ q^-(1+H) cos 2π(u x/Lx + v y/Ly + phase) of the reference's header.
 Field sum_of_waves(int nx, int ny, const Waves& w) {
   Field z(nx, ny);
   for (int k = 1; k <= w.count; ++k) {
@@ -98,7 +97,6 @@ Surface p5() {
   return Surface(Grid{256, 256, 256, 256}, std::move(z));
 }
 
-// Rows "map,parameter,number,…" of the reference.
 std::map<std::string, double> reference(const std::string& map) {
   std::ifstream file(ASPERITY_TEST_DATA "/metrology_maps.csv");
   EXPECT_TRUE(file) << "no reference";
@@ -116,7 +114,6 @@ std::map<std::string, double> reference(const std::string& map) {
 
 class ArealParametersOfMap : public testing::TestWithParam<const char*> {
  protected:
-  // Each made once.
   static const Surface& surface() {
     static const std::map<std::string, Surface> maps{
         {"P1", p1()}, {"P2", p2()}, {"P3", p3()}, {"P4", p4()}, {"P5", p5()}};
@@ -124,7 +121,7 @@ class ArealParametersOfMap : public testing::TestWithParam<const char*> {
   }
 };
 
-// To 1e-9, or to the digits that the reference prints.
+// Within 1e-9 or the printed digits.
 void expect_near(double value, double wanted, double relative, const char* name) {
   EXPECT_NEAR(value, wanted, relative * std::abs(wanted) + 1e-12) << name;
 }
@@ -208,9 +205,6 @@ TEST_P(ArealParametersOfMap, ScalesAreTheReferences) {
 INSTANTIATE_TEST_SUITE_P(Maps, ArealParametersOfMap, testing::Values("P1", "P2", "P3", "P4", "P5"),
                          [](const auto& map) { return std::string(map.param); });
 
-// --- gauges with exact values
-// ----------------------------------------------------------------------------------------
-
 template <class Height>
 Surface of(int nx, int ny, double dx, double dy, const Height& height) {
   Field z(nx, ny);
@@ -269,7 +263,7 @@ TEST(ArealGauges, SineHasNoAspectOfTextureButABound) {
 }
 
 TEST(ArealGauges, CurveOfGaussianHeights) {
-  // The k-th of 65536 heights at the ratio (k - 0.5)/65536; σ √2 erfinv(1 - 2p) by bisection.
+  // Height k of 65536 has the ratio (k - 0.5)/65536; bisection solves σ √2 erfinv(1 - 2p).
   Array<double> heights(65536);
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const double wanted = 1 - 2 * (static_cast<double>(k) + .5) / 65536;
@@ -304,9 +298,6 @@ TEST(ArealGauges, SlopesOfAPeriodicMapAreThoseOfItsWaves) {
   for (std::size_t k = 0; k < 6; ++k) expect_near(slope.value[k], wanted[k], 1e-12, "slope");
 }
 
-// --- what is not defined
-// ---------------------------------------------------------------------------------------------
-
 TEST(ArealParameters, WhatIsNotDefinedIsNoNumber) {
   const Surface flat = of(8, 8, 1, 1, [](int, int) { return 2.0; });
   const CoreOfCurve core = MaterialRatioCurve(flat.measured_heights().values()).core();
@@ -328,7 +319,7 @@ TEST(ArealParameters, OnlyWhatIsReadIsComputed) {
   EXPECT_EQ(p.groups_computed(), 0);
   p.heights();
   EXPECT_EQ(p.groups_computed(), 1);
-  p.core();  // and the curve under it
+  p.core();  // and the curve
   p.volumes();
   EXPECT_EQ(p.groups_computed(), 4);
   const ArealParameters copy = p;

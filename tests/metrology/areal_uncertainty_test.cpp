@@ -11,7 +11,7 @@
 namespace asperity::areal_uncertainty_test {
 namespace {
 
-// A quarter of a rough map, whose heights are scaled as a whole: quarters differ as measured maps do.
+// A quarter of a scaled map: quarters differ as measured maps do.
 Surface rough_map(std::uint64_t seed, double roll_off_cells) {
   constexpr int cells = 128;
   SelfAffineOptions options;
@@ -26,7 +26,6 @@ Surface rough_map(std::uint64_t seed, double roll_off_cells) {
                                [&](int i, int j) { return whole.height(i, j); });
 }
 
-// What tiles say of each map against how far maps of the same process are apart.
 TEST(ArealUncertainty, IsTheScatterOfSuchMaps) {
   constexpr int maps = 40;
   struct Sums {
@@ -66,7 +65,7 @@ TEST(ArealUncertainty, IsNotSaidOfTilesThatAreTooSmall) {
 }
 
 TEST(ArealUncertainty, OfSixteenKnownTilesIsTheirScatter) {
-  // Tile n of a map of noise is n + 1 times as high: Sa are those of one tile, times 1 to 16.
+  // Tile n has noise times n + 1, so Sa is proportional to 1 … 16.
   const Surface noise = testing::white_noise(10, 10, 10, 10, 3);
   const Surface map = testing::make_surface(41, 43, 41, 43, [&](int i, int j) {
     if (i >= 40 || j >= 40) return 0.0;
@@ -74,7 +73,7 @@ TEST(ArealUncertainty, OfSixteenKnownTilesIsTheirScatter) {
   });
   const ArealUncertainty u = areal_uncertainty(map, 0.5);
   ASSERT_TRUE(u.Sa) << u.why_not;
-  // s of 1 ... 16 is √(68/3).
+  // s of 1 … 16 is √(68/3).
   EXPECT_NEAR(*u.Sa, ArealParameters(noise).heights().Ra * std::sqrt(68.0 / 3) / 4, 1e-12);
   EXPECT_NEAR(*u.Ssk, 0, 1e-12);
 }

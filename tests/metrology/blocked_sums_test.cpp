@@ -27,7 +27,6 @@ TEST(ExactMean, IsExactForEqualValuesAndNeverOverflows) {
   EXPECT_EQ(exact_mean({}, {}), 0);
 }
 
-// One value in a thousand is 1 above the rest.
 TEST(ExactMean, KeepsItsDigitsOnAnOffset) {
   Array<double> values(1000, 1e9);
   values[500] += 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fractal dimensions held against numbers computed independently: of Weierstrass–Mandelbrot surfaces
-// (15 single ones, and the means over 20 seeds), whole and cut down, and of exact fractional Brownian
-// profiles by every method.
+// Independent values: 15 Weierstrass–Mandelbrot surfaces, means over 20 seeds, whole and cut; fractional
+// Brownian profiles.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,7 +15,7 @@
 namespace asperity::dimension_reference_test {
 namespace {
 
-// The published surface of 150 x 150 cells; peak-to-valley 0.1·(cells - 1) cell widths.
+// 150 x 150 cells; peak-to-valley 0.1·(cells - 1) cell widths.
 Surface published_surface(double D, double span, std::uint64_t seed) {
   WeierstrassMandelbrotOptions options;
   options.nx = options.ny = 150;
@@ -30,7 +29,7 @@ Surface published_surface(double D, double span, std::uint64_t seed) {
   return Surface(raw.grid(), std::move(z));
 }
 
-// Every row cut at its own greatest height less `fraction` of its own peak-to-valley.
+// Each row is cut at its maximum less `fraction` of its peak-to-valley.
 double dimension_cut(const Surface& surface, double fraction) {
   std::vector<Profile> profiles;
   for (int j = 0; j < surface.grid().ny; ++j) {
@@ -83,7 +82,7 @@ constexpr Row table[] = {
 
 constexpr int seeds = 20;
 
-// Means over seeds 1 … 20, to half a unit of the last printed digit.
+// Within half a unit of the last printed digit.
 TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
   std::vector<double> values(std::size(table) * seeds * 3);
   parallel_for(static_cast<std::int64_t>(std::size(table)) * seeds, [&](std::int64_t k) {
@@ -114,7 +113,7 @@ TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
     EXPECT_GT(sum[1], sum[2]);
     kept[{row.span, row.D}] = (sum[2] - 1) / (sum[0] - 1);
   }
-  // The share of D - 1 that is left after a cut of 20 %.
+  // Share of D - 1 left by a cut of 20 %.
   const double left[][3] = {
       {2.1, .822, .889}, {2.3, .835, .895}, {2.5, .865, .908}, {2.7, .904, .927}, {2.9, .939, .945}};
   for (const auto& [D, A, B] : left) {
@@ -123,16 +122,16 @@ TEST(DimensionReference, OfTwentySeedsToTheLastDigit) {
   }
 }
 
-// Means of 30 exact fractional Brownian profiles, with their scatter; 0 where it is not known.
+// Over 30 exact fractional Brownian profiles; 0: unknown.
 struct Estimate {
   double mean, scatter;
 };
 struct EstimatorRow {
   int n;
   double D;
-  Estimate steep;  // length, heights so large that slopes are much over 1
-  double tenth;    // length, standard deviation of heights 0.1·n spacings
-  double one;      // length, standard deviation of heights 1 spacing
+  Estimate steep;  // length, slopes much over 1
+  double tenth;    // length, standard deviation 0.1·n spacings
+  double one;      // length, standard deviation 1 spacing
   Estimate structure, psd;
   double box;
 };
@@ -165,14 +164,14 @@ FractalDimension measured(std::span<const Array<double>> heights, DimensionMetho
   return fractal_dimension(profiles, options);
 }
 
-// Three standard errors of the difference of two means of 30 profiles each, and half a printed digit.
+// Three standard errors of the difference of two means of 30, and half a printed digit.
 TEST(DimensionReference, OfFractionalBrownianProfiles) {
   const int count = 30;
   for (const EstimatorRow& row : estimators) {
     std::vector<Array<double>> heights;
     for (std::uint64_t seed = 1; seed <= count; ++seed)
       heights.push_back(testing::fractional_brownian(row.n, 2 - row.D, seed));
-    // Steps double up to an eighth of the profile: 1 … 16 for 150 samples.
+    // Steps double up to an eighth of the profile.
     std::vector<int> steps;
     for (int s = 1; s <= row.n / 8; s *= 2) steps.push_back(s);
     const auto check = [&](const FractalDimension& d, Estimate known, const char* name) {
@@ -186,7 +185,7 @@ TEST(DimensionReference, OfFractionalBrownianProfiles) {
     check(measured(heights, DimensionMethod::psd, 1, {}), row.psd, "psd");
     check(measured(heights, DimensionMethod::length, 0.1 * row.n, steps), {row.tenth, 0}, "length, tenth");
     check(measured(heights, DimensionMethod::length, 1, steps), {row.one, 0}, "length, one");
-    // Boxes count what lies between samples as empty; how far that reaches hangs on their sides.
+    // Box counting ignores segments between samples; the loss depends on the box sides.
     EXPECT_NEAR(measured(heights, DimensionMethod::box, 1, {}).D, row.box, 0.03);
   }
 }

@@ -42,7 +42,6 @@ Surface smooth_below(double cells, double hurst, int side = 256) {
   return self_affine_surface(options);
 }
 
-// Local dimensions that are told: 1.2 from each step to the next.
 TEST(DimensionScaling, LocalDimensionsAreThoseBetweenNeighbours) {
   const std::vector<double> steps = {1, 2, 8, 16};
   std::vector<double> logs;
@@ -59,11 +58,11 @@ TEST(DimensionScaling, NamesTheStepsOverWhichADimensionIsConstant) {
   EXPECT_EQ(running_dimension({steps, logs, 2, -0.5}, 1.21, 1 << 20, 1, 0.5),
             "D runs from 1.05 between steps of 1 and 2 to 1.31 between steps of 16 and 32: no one dimension "
             "describes these steps; it is constant within 0.042 over `steps={4, 8, 16, 32}`");
-  // The same numbers of one short profile may be scatter.
+  // For one short profile, scatter is possible.
   EXPECT_EQ(running_dimension({steps, logs, 2, -0.5}, 1.21, 128, 1, 0.5), "");
 }
 
-// Of fractals all are believed, but for the few whose scatter looks like a run.
+// The scatter of a few looks like a trend.
 TEST(DimensionScaling, OfFractionalBrownianProfilesIsBelieved) {
   int refused = 0, all = 0;
   for (const double D : {1.1, 1.3, 1.5, 1.8})
@@ -101,7 +100,7 @@ TEST(DimensionScaling, IsBelievedOverStepsThatScale) {
   EXPECT_NEAR(found.D, 1.3, 0.04);
 }
 
-// Exact profiles of known dimension: the error holds what boxes miss, and is not much more.
+// The error covers the bias of box counting without much excess.
 TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
   constexpr int count = 24;
   for (const double D : {1.1, 1.3, 1.5, 1.7, 1.9})
@@ -110,8 +109,7 @@ TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
           fractal_dimension(brownian_profiles(count, samples, D, 40), with(DimensionMethod::box));
       EXPECT_TRUE(found.resolved) << found.reason;
       const double bias = box_counting_bias(found.D, samples);
-      // Three standard errors of the mean, by which the bias changes too, and what is left between the rows
-      // of the table.
+      // Three standard errors of the mean, and the table's interpolation error.
       const double scatter = std::sqrt(found.error * found.error - bias * bias);
       EXPECT_NEAR(found.D + bias, D, 3 * 1.7 * scatter / std::sqrt(1.0 * count) + 0.012)
           << D << " " << samples;
@@ -119,7 +117,7 @@ TEST(DimensionScaling, TheErrorOfBoxCountingHoldsWhatItMisses) {
     }
 }
 
-// Boxes hardly show where the structure function runs, and miss more there than their error holds.
+// Box counts hardly show the structure function's trend, and exceed their error.
 TEST(DimensionScaling, BoxesAreBelievedOnlyWhereTheStructureFunctionIs) {
   for (const double hurst : {0.1, 0.3, 0.5, 0.8}) {
     const Surface s = smooth_below(2, hurst);

@@ -30,8 +30,7 @@ constexpr DimensionMethod all_methods[] = {DimensionMethod::length, DimensionMet
                                            DimensionMethod::structure, DimensionMethod::box,
                                            DimensionMethod::madogram};
 
-// Points 0 3 0 3 0 7 at spacing 4: step 1 covers 4·5 + √(4² + 7²) of 24 - the last point is in;
-// step 2 covers 0, 2, 4 and drops the rest.
+// Points 0 3 0 3 0 7, spacing 4: step 1 gives (4·5 + √(4² + 7²))/24; step 2 drops the last point.
 TEST(LengthMethod, DropsTheLastIncompleteStep) {
   const Profile p(4, {0, 3, 0, 3, 0, 7});
   const FractalDimension d = fractal_dimension(p, with(DimensionMethod::length, {1, 2}));
@@ -66,7 +65,6 @@ TEST(LengthMethod, WrapsAClosedOutlineByItself) {
                    (4 * whole - 1) / 3);
 }
 
-// Periodic lags see a periodic profile the same wherever it begins.
 TEST(LengthMethod, WithPeriodicLagsKnowsNoBeginning) {
   const Array<double> z = fractional_brownian(97, 0.5, 1);
   Array<double> turned(z);
@@ -78,7 +76,7 @@ TEST(LengthMethod, WithPeriodicLagsKnowsNoBeginning) {
               1e-13);
 }
 
-// Case V20, on increments of rms slope s: three standard errors of √(1 + s²g²) over n of them.
+// Three standard errors of √(1 + s²g²) over n increments of rms slope s.
 TEST(LengthMethod, FindsTheExpectedLengthOfAGaussianProfile) {
   const int n = 100000;
   for (const double s : {0.05, 0.3, 1.0, 3.0, 10.0}) {
@@ -95,8 +93,7 @@ TEST(LengthMethod, FindsTheExpectedLengthOfAGaussianProfile) {
   }
 }
 
-// Case V20: the D that the formula predicts for H = 1/2 over steps 1 … 1024 (true D 1.5); averaged
-// over many profiles, within three standard errors.
+// Predicted D for H = 1/2 over steps 1 … 1024 (true D 1.5), within three standard errors.
 TEST(LengthMethod, FindsThePredictedDimensionOfFlatAndSteepProfiles) {
   const double known[][2] = {{0.05, 1.00013}, {0.3, 1.00444}, {1, 1.0351}, {5, 1.2008}, {100, 1.4867}};
   std::vector<int> steps;
@@ -141,8 +138,7 @@ TEST(LengthMethod, HoldsForHeightsOfAnyMagnitude) {
   EXPECT_NEAR(fractal_dimension(scaled(z, 1e200)).D, fractal_dimension(scaled(z, 1e9)).D, 1e-9);
 }
 
-// All other methods are blind to the scale of the heights.
-// A jump has D = 1.5 by its structure, exactly, and scales as nothing does.
+// D = 1.5 exactly by the structure function, without scaling.
 TEST(FractalDimension, OfAFewJumpsIsNotResolved) {
   const auto reason = [](int samples, std::vector<int> jumps, DimensionMethod method) {
     Array<double> z(static_cast<std::size_t>(samples));
@@ -172,7 +168,6 @@ TEST(FractalDimension, OfOtherMethodsIgnoresScaleAndOffset) {
     EXPECT_NEAR(fractal_dimension(scaled(z, 1e150, 1e-9), with(method)).D, one.D, 1e-10);
     Array<double> up(z);
     for (double& value : up) value += 1e4;
-    // A polyline on an offset rounds; box counts may then jump.
     if (method != DimensionMethod::box) {
       EXPECT_NEAR(fractal_dimension(Profile(1, up), with(method)).D, one.D, 1e-9);
     }
@@ -201,8 +196,8 @@ TEST(StructureFunction, OfAStraightLineIsOne) {
   }
 }
 
-// The diagonal of the unit square goes through 16, 8, 4 boxes of the sides 1/16, 1/8, 1/4, and touches
-// the corner of the next at every one but the last; the full square through all.
+// A diagonal meets 16, 8, 4 boxes of sides 1/16, 1/8, 1/4 and the next at all corners but the last; a full
+// square meets all.
 TEST(BoxCounting, OfADiagonalAndOfAFullSquare) {
   const Profile diagonal = make_profile(17, 1, [](int i) { return i / 16.0; });
   const FractalDimension d = fractal_dimension(diagonal, with(DimensionMethod::box, {1, 2, 4}));
@@ -262,7 +257,7 @@ TEST(FractalDimension, SaysWhenSomeProfilesAreFlat) {
   EXPECT_NEAR(d.D, fractal_dimension(Profile(1, z), with(DimensionMethod::structure)).D, 1e-14);
 }
 
-// A period of four samples: differences over 4, 8 and 16 are zero and have no logarithm.
+// Differences over 4, 8 and 16 are zero and have no logarithm.
 TEST(FractalDimension, SaysWhenHeightsDoNotScale) {
   const Profile p = make_profile(100, 1, [](int i) { return i % 4 == 0 ? 1.0 : 0.0; });
   const FractalDimension d = fractal_dimension(p, with(DimensionMethod::structure));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every row of kind `cells` of tests/reference/metrology_gauges.csv, to 1e-9: what surfaces and profiles
-// given by formulas (the head of that file) have by definition, of samples, and two independent programs
-// agree on. A row that names a parameter unknown here fails.
+// Rows of kind `cells` of tests/reference/metrology_gauges.csv, on which two independent programs agree,
+// within 1e-9. Unknown parameters fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +45,7 @@ Surface ridges(int n, double period, double degrees) {
   });
 }
 
-// Whole periods of sine by the sine of the same angle, so that equal heights are equal to the bit.
+// One period of angles, so that equal heights have equal bits.
 double wave(int i, int period) { return std::sin(2 * pi * (i % period) / period); }
 
 Surface gauge(const std::string& name) {
@@ -110,7 +109,7 @@ TEST(Gauges, EveryRowOfCellsToTheNinthDigit) {
     for (std::string& cell : row) std::getline(cells, cell, ',');
     const std::string &name = row[0], &parameter = row[1], &exact = row[2].empty() ? row[4] : row[2];
     if (row[3] != "cells" || name.starts_with('#')) continue;
-    // Slopes of a periodic map stand in areal_parameters_test.cpp; the rule that overestimates is no one's.
+    // Periodic slopes: areal_parameters_test.cpp. No program uses the overestimating rule.
     if (name == "fractalP1" || parameter == "Sdr_edgeproduct_WRONG") continue;
     double found = std::numeric_limits<double>::quiet_NaN();
     if (const auto t = traces.find(name); t != traces.end()) {
@@ -131,7 +130,7 @@ TEST(Gauges, EveryRowOfCellsToTheNinthDigit) {
   EXPECT_EQ(rows, 67);
 }
 
-// Noise over noise: of a plane less its plane 1e-15 of its heights is left, which has a skewness.
+// Rounding noise of 1e-15 has a meaningless skewness.
 TEST(ArealParameters, OfAPlaneLessItsPlaneAreNotDefined) {
   const ArealParameters p(plane(true), {.F = 1, .S = {}, .L = {}});
   EXPECT_GT(p.prepared().peak_to_valley(), 0);

@@ -24,13 +24,13 @@ double greatest_difference(std::span<const double> a, std::span<const double> b)
   return worst;
 }
 
-// The share of a wave that the mean line keeps (ISO 16610-21): half of it at the cut-off.
+// ISO 16610-21: one half at the cut-off.
 double transmission(double cut_off, double wavelength) {
   return std::exp2(-(cut_off / wavelength) * (cut_off / wavelength));
 }
 
 TEST(GaussianFilter, OnAPeriodicWaveIsItsTransmission) {
-  const int nx = 61, ny = 36;  // waves of 61/5 and 36/4 cells
+  const int nx = 61, ny = 36;  // 61/5 and 36/4 cells
   const double size_x = 6.1e-4, size_y = 1.8e-4, A = 1e-6;
   const Surface s = make_surface(
       nx, ny, size_x, size_y,
@@ -61,7 +61,7 @@ TEST(GaussianFilter, ShortAndLongWaveAddUpToTheSurface) {
   }
 }
 
-// The definition by a double sum, the part of the kernel outside the profile left out.
+// The definition, with the kernel cut at the ends.
 Array<double> direct_mean_line(std::span<const double> z, double spacing, double cut_off) {
   const double alpha = std::sqrt(std::log(2.0) / pi);
   Array<double> result;
@@ -108,7 +108,7 @@ TEST(GaussianFilter, OnASurfaceIsThatOfRowsThenColumns) {
   EXPECT_LT(greatest_difference(gaussian_filtered(s, {cut_off, none}).heights().values(), z.values()), 1e-14);
 }
 
-// Away from the rim, sampling and cutting the kernel cost nothing that shows.
+// Far from the ends, sampling and kernel length have no visible effect.
 TEST(GaussianFilter, InsideATraceTransmitsAsTheStandardSays) {
   const double spacing = 0.25e-6, wave = 20e-6, cut_off = 25e-6;
   const Profile p = make_profile(4000, spacing, [&](int i) { return std::cos(2 * pi * i * spacing / wave); });
@@ -180,7 +180,7 @@ TEST(GaussianFilter, RefusesCutOffsThatMeanNothing) {
             "the smaller");
 }
 
-// A groove of 10 um in a waviness of 1 um: the robust mean surface goes across it, the linear one into it.
+// Only the robust mean surface ignores a groove of 10 um in a waviness of 1 um.
 TEST(RobustFilter, GoesAcrossADeepGroove) {
   const int n = 256;
   Field z(n, n), waviness(n, n);
@@ -192,7 +192,7 @@ TEST(RobustFilter, GoesAcrossADeepGroove) {
   const Surface s(Grid{n, n, 256e-6, 256e-6}, z);
   const auto worst = [&](bool robust) {
     const Surface rough = gaussian_filtered(s, {.short_wave = {}, .long_wave = 40e-6, .robust = robust});
-    double error = 0;  // of the mean surface beside the groove, away from the rims
+    double error = 0;  // outside the groove and rims
     for (int i = 100; i < 146; ++i)
       if (i < 120 || i >= 126)
         error = std::max(error, std::abs(z(i, 128) - rough.height(i, 128) - waviness(i, 128)));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps of which points were not measured: a map with forty holes against the numbers of other programs
-// (map P4 of tests/reference/metrology_maps.csv, which has its formula), a plane, which is one with any
-// holes, and maps of which next to nothing was measured.
+// Forty holes against other programs (map P4 of tests/reference/metrology_maps.csv), a plane, and very few
+// points.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -50,7 +49,7 @@ const HoledMap& holed_map() {
   static const HoledMap map = [] {
     const double G = (std::sqrt(5.0) - 1) / 2, s = 0.123;
     Field z(cells, cells);
-    // Whole waves: cos(a x + b y + c) from tables of cosines and sines along each side.
+    // cos(a x + b y + c) from tables.
     std::vector<double> cos_x(cells), sin_x(cells);
     for (int k = 1; k <= 400; ++k) {
       const double q = 4 * std::pow(15.0, (k - 1) / 399.0), t = 2 * pi * fr(k * std::sqrt(2.0) + s);
@@ -121,7 +120,7 @@ TEST(HoledMap, HasTheParametersOfOtherPrograms) {
   EXPECT_FALSE(roughness(complete).measured.has_value());
 }
 
-// The kernel of the reference ends at one cut-off, where it has fallen to 1e-6; this one goes on to 1e-16.
+// The reference cuts its kernel at 1e-6, this program at 1e-16.
 TEST(HoledMap, IsFilteredAsByOtherPrograms) {
   const auto& [complete, holed, reference] = holed_map();
   const Surface smooth = gaussian_filtered(holed, {.short_wave = 20.0, .long_wave = {}});
@@ -144,7 +143,7 @@ TEST(HoledMap, PlaneHasItsSlopeAndLeavesNothing) {
 }
 
 TEST(HoledMap, LevelledIsLeastSquaresOverWhatWasMeasured) {
-  // Heights that the fit of the holes themselves would change: 1e6 where nothing was measured.
+  // 1e6 at missing points would change a fit.
   const Surface plane = holed_plane(0.3, -0.2);
   Field rough = plane.measured_heights();
   for (std::size_t k = 0; k < rough.size(); ++k)
@@ -164,7 +163,7 @@ TEST(HoledMap, LevelledIsLeastSquaresOverWhatWasMeasured) {
   EXPECT_NEAR(roughness(levelled(rest, 2)).Rq, roughness(rest).Rq, 1e-14);
 }
 
-// A fit to a corner of a map, a line across it, and fewer points than the polynomial has terms.
+// A corner, a diagonal, and fewer points than terms.
 TEST(HoledMap, LevellingTakesAwayWhatFewPointsShow) {
   Field corner(64, 64, hole), diagonal(64, 64, hole);
   for (int j = 0; j < 5; ++j)
@@ -183,15 +182,13 @@ TEST(HoledMap, StatisticsOfNextToNothing) {
   EXPECT_EQ(one.measured, 1);
   EXPECT_EQ(one.Rq, 0);
   EXPECT_EQ(one.mean, -1.5);
-  EXPECT_TRUE(std::isnan(one.rms_slope));  // no pair: not a slope of zero
-  // Two neighbours along x, none along y.
+  EXPECT_TRUE(std::isnan(one.rms_slope));  // no pair of neighbours
   const Roughness pair = roughness(mostly_missing(9, 7, {{3, 3}, {4, 3}}));
   EXPECT_EQ(pair.amplitude, 3.75);
   EXPECT_TRUE(std::isnan(pair.rms_slope));
-  // A single row has no direction y.
   const Roughness row = roughness(mostly_missing(9, 1, {{3, 0}, {4, 0}, {8, 0}}));
   EXPECT_NEAR(row.rms_slope, 3.75, 1e-14);
-  // The last node of a row and the first of the next are no pair.
+  // Two rows share no pair.
   EXPECT_TRUE(std::isnan(roughness(mostly_missing(9, 7, {{8, 3}, {0, 4}, {0, 5}})).rms_slope));
   const Spectrum s = spectrum(mostly_missing(9, 7, {{8, 6}}));
   EXPECT_EQ(s.measured, 1);
@@ -214,7 +211,6 @@ TEST(HoledMap, FilterKeepsAConstantAndBendsNothingFarFromHoles) {
     EXPECT_EQ(smooth.digest(), surface.digest());
     EXPECT_EQ(gaussian_filtered(surface, {.short_wave = {}, .long_wave = 8.0}).height_range().max, 0);
   }
-  // A wave that fits the tile is attenuated as ever where the kernel meets no hole.
   const auto wave = [&](int i, int) { return std::cos(2 * pi * 4 * i / 64); };
   const Surface whole = make_surface(64, 48, 64, 48, wave);
   Field mask(64, 48, 1);
@@ -224,7 +220,7 @@ TEST(HoledMap, FilterKeepsAConstantAndBendsNothingFarFromHoles) {
   const Surface holed = masked(complete, mask);
   const GaussianFilter filter{.short_wave = 6.0, .long_wave = {}};
   const Surface a = gaussian_filtered(complete, filter), b = gaussian_filtered(holed, filter);
-  EXPECT_NEAR(a.height(32, 24), b.height(32, 24), 1e-10);  // the tail of a kernel cut at Nyquist
+  EXPECT_NEAR(a.height(32, 24), b.height(32, 24), 1e-10);  // kernel cut at Nyquist
   EXPECT_GT(std::abs(a.height(1, 0) - b.height(1, 0)), 1e-3);
 }
 
@@ -232,7 +228,7 @@ TEST(HoledMap, SpectrumSetsHolesToTheMean) {
   const auto& [complete, holed, reference] = holed_map();
   const Spectrum s = spectrum(holed, {.window = Window::none});
   EXPECT_EQ(s.measured, 60478);
-  // Heights of zero about the mean of the measured ones: the power is the share that was measured.
+  // Holes at the mean add nothing: the power is the measured share.
   const double share = 60478.0 / (cells * cells);
   EXPECT_NEAR(s.rms_height, roughness(holed).Rq * std::sqrt(share), 1e-12);
   Field at_mean = holed.measured_heights();
@@ -253,10 +249,10 @@ TEST(HoledMap, DimensionByPairsThatWereMeasured) {
     const FractalDimension a = fractal_dimension(complete, options), b = fractal_dimension(holed, options);
     EXPECT_EQ(b.measured, 60478);
     EXPECT_FALSE(a.measured.has_value());
-    EXPECT_NEAR(a.D, b.D, 0.01);  // what 8 % of the pairs change
+    EXPECT_NEAR(a.D, b.D, 0.01);  // effect of 8 % of the pairs
     EXPECT_NE(a.D, b.D);
   }
-  // The structure function at step 1 from its definition, over the rows.
+  // Structure function at step 1 by definition.
   FractalDimensionOptions options;
   options.method = DimensionMethod::structure;
   const FractalDimension found = fractal_dimension(holed, options);
@@ -281,7 +277,7 @@ TEST(HoledMap, DimensionByPairsThatWereMeasured) {
 
 TEST(HoledMap, ProfilesOfWhichNothingCanBeSaidGiveNoDimension) {
   Field z(32, 4, hole);
-  for (int i = 0; i < 32; ++i) z(i, 0) = std::sin(i * 1.7) + 0.1 * i;  // whole
+  for (int i = 0; i < 32; ++i) z(i, 0) = std::sin(i * 1.7) + 0.1 * i;  // complete
   for (int i = 0; i < 32; i += 2) z(i, 1) = i % 3;                     // no pair at step 1
   z(5, 2) = 1;                                                         // one sample
   const Surface surface = Surface::with_holes(make_grid(32, 4, 32, 4), z);
@@ -306,7 +302,6 @@ TEST(HoledMap, NeedlesCrossHolesAndTipsRefuseThem) {
   EXPECT_GT(measured, all / 2);
   EXPECT_EQ(scan.effect.ra_ratio, 1);
   EXPECT_EQ(scan.effect.greatest_lift, 0);
-  // The same lines over the complete map give the same heights where both know one.
   const StylusScan whole = needle.scan(holed_map().complete, 12, 3);
   for (std::size_t t = 0; t < scan.traces.size(); ++t) {
     for (std::size_t k = 0; k < scan.traces[t].measured_heights().size(); ++k) {

@@ -12,7 +12,6 @@ using testing::make_surface;
 
 double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 
-// Every term up to the degree, with coefficients of like size.
 double polynomial(double x, double y, int degree) {
   double sum = 0;
   for (int a = 0; a <= degree; ++a)
@@ -39,7 +38,6 @@ TEST(Levelling, LeavesAPolynomialOfHigherDegree) {
   }
 }
 
-// The plane of the four corner heights 0, 1, 2, 7 leaves ±1.
 TEST(Levelling, OfFourNodes) {
   const double z[2][2] = {{0, 1}, {2, 7}};
   const Surface s = levelled(make_surface(2, 2, 1, 1, [&](int i, int j) { return z[j][i]; }));

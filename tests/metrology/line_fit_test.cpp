@@ -18,7 +18,7 @@ TEST(LineFit, FindsALineExactly) {
   EXPECT_EQ(fit.r_squared, 1);
 }
 
-// Residuals -1/6, 1/3, -1/6 about y = 7/6 + x/2 of the points (0, 1), (1, 2), (2, 2).
+// Residuals -1/6, 1/3, -1/6 about y = 7/6 + x/2.
 TEST(LineFit, StatesItsScatter) {
   const std::vector<double> x = {0, 1, 2}, y = {1, 2, 2};
   const LineFit fit = fit_line(x, y);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profile parameters of gauges whose numbers two independent programs agree on, and of a measured stylus
-// trace where there is one (ASPERITY_MEASURED).
+// Gauges on which two independent programs agree, and an optional measured trace (ASPERITY_MEASURED).
 #include "engine/metrology/parameters/profile_parameters.hpp"
 
 #include <gtest/gtest.h>
@@ -63,10 +62,10 @@ TEST(ProfileParameters, WhatIsNotDefinedIsNoNumber) {
   Array<double> ramp(100);
   for (std::size_t k = 0; k < 100; ++k) ramp[k] = static_cast<double>(k);
   const ProfileParameters p = profile_parameters(Profile(1, ramp));
-  EXPECT_FALSE(p.Rsm);  // one dale, one hill, neither whole
+  EXPECT_FALSE(p.Rsm);  // both incomplete
   EXPECT_FALSE(p.Rc);
   EXPECT_EQ(p.Rdq.value(), 1);
-  EXPECT_LT(p.Rv.value, 20);  // the upper sections lie above the mean line: their depths are negative
+  EXPECT_LT(p.Rv.value, 20);  // upper sections have negative depths
   EXPECT_NEAR(p.Rp.value + p.Rv.value, p.Rz.value, 1e-12);
   EXPECT_THROW(profile_parameters(Profile(1, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1})), Error);
   EXPECT_THROW(profile_parameters(Profile(1, {1, 2, 1, 2})), Error);
@@ -77,7 +76,7 @@ TEST(ProfileParameters, SectionsAreTakenFromTheMiddleOnceTheEndsAreCut) {
   const PreparedProfile prepared = prepared_profile(sine(0), {.F = 1, .S = .5, .section = 50, .sections = 5});
   EXPECT_EQ(prepared.sections, 5);
   EXPECT_EQ(prepared.profile.size(), 2500);
-  // Half a section is 25 m; of the 450 m between, the middle 250.
+  // Half a section is 25 m; the middle 250 m of the remaining 450 m.
   EXPECT_NEAR(profile_parameters(prepared.profile).Rsm.value(), 10, 1e-6);
   EXPECT_EQ(prepared_profile(sine(0), {.F = {}, .S = {}, .section = 150, .sections = 5}).sections, 2);
   EXPECT_THROW(prepared_profile(sine(0), {.F = {}, .S = {}, .section = 260}), Error);
@@ -87,7 +86,6 @@ TEST(ProfileParameters, SectionsAreTakenFromTheMiddleOnceTheEndsAreCut) {
   EXPECT_FALSE(setting_class("Sc6"));
 }
 
-// No wave is taken away as too long: a long one, and the tilt where F does not take it, stay.
 TEST(ProfileParameters, OfThePrimaryProfileAreOfTheWholeLength) {
   Array<double> z(5000);
   for (int i = 0; i < 5000; ++i)
@@ -99,7 +97,7 @@ TEST(ProfileParameters, OfThePrimaryProfileAreOfTheWholeLength) {
   expect_near(p.Rq.value, std::sqrt(.5 + 4.5), 1e-9, "Pq");
   EXPECT_EQ(p.Rz.value, p.Rt);
   EXPECT_FALSE(p.Rz.u);
-  // A tilt stays unless F takes it; the sine goes along with it by 8e-4.
+  // Without F the tilt remains; the sine correlates by 8e-4.
   const Profile level = sine(0);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] = level.heights()[k] + .02 * static_cast<double>(k);
   const double tilted = profile_parameters(primary_profile(Profile(.1, z), {}, {}), {.sections = 1}).Rq.value;
@@ -109,7 +107,7 @@ TEST(ProfileParameters, OfThePrimaryProfileAreOfTheWholeLength) {
 }
 
 TEST(ProfileParameters, ThePrimaryProfileLosesHalfOfSAtEitherEnd) {
-  // A wave of the length of S is halved, but for the rims, which a filter feels for a little more than half.
+  // Half of the amplitude, except within about S/2 from the ends.
   const Profile primary = primary_profile(sine(0), {}, 10.);
   EXPECT_EQ(primary.size(), 4900);
   expect_near(profile_parameters(primary, {.sections = 1}).Rq.value, std::sqrt(.5) / 2, 1e-5, "Pq");
@@ -141,7 +139,7 @@ TEST(ProfileParameters, OfAMeasuredTrace) {
   const char* folder = std::getenv("ASPERITY_MEASURED");
   if (!folder) GTEST_SKIP() << "ASPERITY_MEASURED names no folder of measured files";
   const Profile read = read_profile(std::string(folder) + "/dektak-1.csv");
-  // The printed positions are rounded to 0.1 um.
+  // Printed positions are rounded to 0.1 um.
   const Array<double> heights(read.heights().begin(), read.heights().end());
   const Profile trace = levelled(Profile(.15625e-6, heights), 1);
   const ProfileParameters p = profile_parameters(primary_profile(trace, {}, {}));
@@ -171,8 +169,7 @@ TEST(ProfileParameters, OfAMeasuredTrace) {
   expect_near(p.Rq.u.value() / um, 0.00796085026078, 1e-9, "u of Rq");
   expect_near(p.Rz.u.value() / um, 0.0264266690345, 1e-9, "u of Rz");
 
-  // The roughness profile with Nic 250 um, 125 um cut from each end. The reference cuts its kernel at ±Nic:
-  // 1e-6.
+  // Nic 250 um, 125 um cut from each end. The reference cuts its kernel at ±Nic: 1e-6.
   const PreparedProfile prepared = prepared_profile(trace, {.F = {}, .S = {}, .section = 250 * um});
   EXPECT_EQ(prepared.sections, 5);
   EXPECT_EQ(prepared.profile.size(), 8000);

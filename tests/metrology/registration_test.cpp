@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registration: exact placements found again, the accuracy on worn, noisy, holed and tilted pairs, honest
-// uncertainties, and what it refuses. With ASPERITY_WHOLE=1 the accuracy is taken over as many problems as
-// docs/guide.md reports, and the percentiles are printed.
+// ASPERITY_WHOLE=1 runs as many problems as docs/guide.md reports and prints percentiles.
 #include "engine/metrology/registration/registration.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +33,6 @@ RegistrationOptions turns_up_to(double degrees) {
   return options;
 }
 
-// Rough ground without noise, wear or holes.
 WornPairKind clean(int nx, int ny) {
   WornPairKind kind;
   kind.name = "clean";
@@ -70,7 +67,6 @@ std::string refusal(const Surface& after, const Surface& before, const Registrat
   return refusal([&] { registered(after, before, options); });
 }
 
-// Greatest difference where both are measured.
 double greatest_difference(const Surface& a, const Surface& b) {
   double greatest = 0;
   for (std::size_t k = 0; k < a.measured_heights().size(); ++k) {
@@ -79,8 +75,6 @@ double greatest_difference(const Surface& a, const Surface& b) {
   }
   return greatest;
 }
-
-// --- placements that are known exactly
 
 TEST(Registration, LaysAMapOnItself) {
   const Surface map = ground(96, 80);
@@ -105,7 +99,7 @@ TEST(Registration, APartOfAMapLiesWhereItWasCut) {
   EXPECT_NEAR(r.overlap, 90.0 * 100 / (128 * 120), 1e-12);
   EXPECT_TRUE(std::isnan(r.surface.height(16, 50)));
   EXPECT_LT(greatest_difference(r.surface, map), 1e-12);
-  // `at_most` is of the shift, which is not that of the centres.
+  // `at_most` limits the shift, not the distance of the centres.
   RegistrationOptions near = turns_up_to(5);
   near.at_most = 21 * cell;
   EXPECT_NEAR(registered(part, map, near).shift_x, 17 * cell, 1e-6 * cell);
@@ -118,7 +112,7 @@ TEST(Registration, WhatWasTurnedCounterClockwiseIsTurnedBack) {
   const Surface turned = rotated(map, 0.5 * pi);
   const Registration r = registered(turned, map);
   EXPECT_NEAR(r.angle, -0.5 * pi, 1e-8);
-  // The centre of 96 x 120 nodes goes to that of 120 x 96.
+  // The centre of 96 x 120 nodes maps to the centre of 120 x 96.
   EXPECT_NEAR(r.shift_x, 12 * cell, 1e-6 * cell);
   EXPECT_NEAR(r.shift_y, -12 * cell, 1e-6 * cell);
   EXPECT_EQ(r.overlap, 1);
@@ -131,7 +125,7 @@ TEST(Registration, TiltAndLiftAreThoseOfTheMapAfter) {
   const double angle = 30 * degree;
   const Grid grid = make_grid(128, 128, 128 * cell, 128 * cell);
   Field z = waves.sampled(5 * cell, -3 * cell, angle);
-  // In the frame of the map after; 0.02 along x there is (0.02 cos 30°, 0.02 sin 30°) before.
+  // A later slope of 0.02 along x is (0.02 cos 30°, 0.02 sin 30°) before.
   const double middle = 63.5 * cell;
   for (int j = 0; j < 128; ++j)
     for (int i = 0; i < 128; ++i) z(i, j) += 7e-6 + 0.02 * (i * cell - middle);
@@ -143,14 +137,13 @@ TEST(Registration, TiltAndLiftAreThoseOfTheMapAfter) {
   EXPECT_NEAR(r.tilt_x, 0.02 * std::cos(angle), 1e-5);
   EXPECT_NEAR(r.tilt_y, 0.02 * std::sin(angle), 1e-5);
   EXPECT_NEAR(r.lift, 7e-6, 1e-10);
-  // Laid on the map before, both are gone.
   EXPECT_LT(greatest_difference(r.surface, before), 0.05e-6);
 }
 
 TEST(Registration, CellsAndSizesMayDiffer) {
   WornPairKind kind = clean(150, 110);
   const Surface before(make_grid(150, 110, 150 * cell, 110 * cell), WaveSurface(kind, 4).sampled(0, 0, 0));
-  // The same ground on cells of 0.8 x 1.25 µm, the first node on the first.
+  // Cells of 0.8 x 1.25 µm, common first node.
   WornPairKind other = kind;
   other.nx = 120;
   other.ny = 80;
@@ -177,8 +170,6 @@ TEST(Registration, ASmallPatchAndANarrowBandAreFound) {
   EXPECT_NEAR(band.shift_y, 2 * cell, 1e-4 * cell);
 }
 
-// --- what is not measured
-
 TEST(Registration, HolesOfTheMapAfterStayHoles) {
   const Surface map = ground(96, 96);
   Field z = map.heights();
@@ -190,7 +181,6 @@ TEST(Registration, HolesOfTheMapAfterStayHoles) {
   EXPECT_TRUE(std::isnan(r.surface.height(30, 40)));
   EXPECT_FALSE(std::isnan(r.surface.height(29, 40)));
   EXPECT_LT(greatest_difference(r.surface, map), 1e-12);
-  // Those of the map before are no holes of what is laid on it.
   EXPECT_TRUE(registered(map, after, turns_up_to(1)).surface.complete());
 }
 
@@ -215,8 +205,6 @@ TEST(Registration, SinglePointsMissingAndSpikesDoNotMoveIt) {
   EXPECT_NEAR(r.shift_y, pair.shift_y, 0.05 * cell);
   EXPECT_NEAR(r.angle, pair.angle, 0.05 * degree);
 }
-
-// --- accuracy
 
 struct Errors {
   std::vector<double> shift, angle;  // cells, degrees
@@ -279,8 +267,7 @@ WornPairKind named(const char* name) {
   return kind;
 }
 
-// Many problems, whose numbers a sanitizer does not change; the tests of Registration go over the same
-// memory.
+// The tests of Registration cover the same memory under sanitizers.
 class RegistrationAccuracy : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -323,7 +310,7 @@ TEST_F(RegistrationAccuracy, AlongALay) {
   EXPECT_GE(e.share(0.1, 0.015), 0.9);
 }
 
-// Interpolating only one of two noisy maps draws least squares to shifts by half a cell.
+// Interpolating only one of two noisy maps biases the shift by half a cell.
 TEST_F(RegistrationAccuracy, NoiseDoesNotDrawItToHalfACell) {
   WornPairKind kind = named("half");
   kind.least_noise = kind.most_noise = 0.05;
@@ -332,8 +319,7 @@ TEST_F(RegistrationAccuracy, NoiseDoesNotDrawItToHalfACell) {
   EXPECT_LT(std::hypot(e.mean_x, e.mean_y), 0.01);
 }
 
-// Beside worn ground stands ground that the smoothing lowers by less than the noise: it is not worn, and what
-// wear took is counted from it.
+// Smoothing lowers nodes next to worn ones by less than the noise: they count as unworn, the zero of wear.
 TEST_F(RegistrationAccuracy, LiftIsThatOfGroundThatIsNotWorn) {
   WornPairKind kind = named("lift");
   kind.nx = kind.ny = 160;
@@ -366,8 +352,6 @@ TEST_F(RegistrationAccuracy, LongCellsAndSizesThatAreNoPowersOfTwo) {
   EXPECT_EQ(e.lost, 0);
   EXPECT_GE(e.share(0.03, 0.02), 0.9);
 }
-
-// --- the same for any number of threads, progress, stopping
 
 TEST(Registration, SameBitsForAnyNumberOfThreads) {
   WornPairKind kind = named("threads");
@@ -413,8 +397,6 @@ TEST(Registration, ReportsProgressAndStops) {
   EXPECT_TRUE(monitor.heard.contains("looking for the place of the map"));
 }
 
-// --- refusals
-
 TEST(Registration, RefusesUnrelatedGround) {
   const std::string said = refusal(ground(128, 128, 1), ground(128, 128, 2), turns_up_to(5));
   EXPECT_EQ(said.substr(0, 28), "the best placement explains ") << said;
@@ -430,7 +412,6 @@ TEST(Registration, RefusesGroundThatRepeats) {
   };
   const Surface after = with_noise(map(3), 1e-8, 1), before = with_noise(map(0), 1e-8, 2);
   EXPECT_NE(refusal(after, before, turns_up_to(5)).find("the ground repeats itself"), std::string::npos);
-  // Told that it cannot have gone so far, it knows.
   RegistrationOptions near = turns_up_to(5);
   near.at_most = 5 * cell;
   EXPECT_NEAR(registered(after, before, near).shift_x, 3 * cell, 0.01 * cell);
@@ -498,7 +479,7 @@ TEST(Registration, OptionsOutOfRange) {
   EXPECT_EQ(refusal(map, map, options), "`at_most` is 0 m; give the greatest shift, above zero");
 }
 
-// The formats store their lines from the top and from the bottom.
+// Formats store lines from the top or the bottom.
 TEST(Registration, OneScanInTwoFormatsNeedsNoTurn) {
   const testing::Scratch scratch;
   Surface scan = ground(80, 64);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bands of a spectrum, and the dimension by them (method `psd`), where spectra are continuous and where they
-// are lines. A Weierstrass–Mandelbrot surface is a sum of waves of the numbers γⁿ: its profiles have lines γⁿ
-// cos θ with gaps between them, in which a periodogram shows its window and no heights.
+// Continuous and line spectra, and method `psd`. Weierstrass–Mandelbrot profiles have lines at γⁿ cos θ; in
+// the gaps a periodogram shows its window.
 #include "engine/metrology/spectral_bands.hpp"
 
 #include <cmath>
@@ -35,7 +34,7 @@ Surface lines(double D, int M, double gamma, std::uint64_t seed) {
 
 constexpr double euler = 0.57721566490153286;
 
-// ψ(1) = -γ, ψ(2) = 1 - γ, ψ(3/2) = 2 - γ - 2 ln 2, ψ(11) = H₁₀ - γ; 1/(2ν) + 1/(12ν²) far out.
+// ψ(1) = -γ, ψ(2) = 1 - γ, ψ(3/2) = 2 - γ - 2 ln 2, ψ(11) = H₁₀ - γ; for large ν 1/(2ν) + 1/(12ν²).
 TEST(LogMeanDeficit, OfKnownDigammas) {
   EXPECT_NEAR(log_mean_deficit(1), euler, 1e-13);
   EXPECT_NEAR(log_mean_deficit(2), std::log(2.0) - 1 + euler, 1e-13);
@@ -44,7 +43,7 @@ TEST(LogMeanDeficit, OfKnownDigammas) {
   EXPECT_NEAR(log_mean_deficit(1e4), 0.5e-4 + 1e-8 / 12, 1e-14);
 }
 
-// ψ'(1) = π²/6, ψ'(3/2) = π²/2 - 4; 1/ν + 1/(2ν²) + 1/(6ν³) far out.
+// ψ'(1) = π²/6, ψ'(3/2) = π²/2 - 4; for large ν 1/ν + 1/(2ν²) + 1/(6ν³).
 TEST(LogMeanScatter, OfKnownTrigammas) {
   EXPECT_NEAR(log_mean_scatter(1), pi / std::sqrt(6.0), 1e-14);
   EXPECT_NEAR(log_mean_scatter(1.5), std::sqrt(pi * pi / 2 - 4), 1e-14);
@@ -56,11 +55,11 @@ TEST(IndependentOrdinates, AreFewerUnderAHannWindow) {
   EXPECT_EQ(independent_ordinates(40, false), 40);
   EXPECT_DOUBLE_EQ(independent_ordinates(2, true), 18.0 / 13);
   EXPECT_DOUBLE_EQ(independent_ordinates(3, true), 54.0 / 29);
-  // Far out 1 + 2·(4/9 + 1/36) = 35/18 ordinates count as one.
+  // 1 + 2·(4/9 + 1/36) = 35/18 ordinates count as one.
   EXPECT_NEAR(independent_ordinates(1 << 20, true) / (1 << 20), 18.0 / 35, 1e-6);
 }
 
-// White noise: the expected ordinate is Σ window², 3n/8 or n, in bands of one ordinate and of many.
+// Expected ordinate: Σ window², 3n/8 or n.
 TEST(BandLogPowers, OfWhiteNoiseAreRightInTheMean) {
   const int n = 128, count = 2000;
   for (const bool wrap : {false, true}) {
@@ -81,8 +80,8 @@ TEST(BandLogPowers, OfWhiteNoiseAreRightInTheMean) {
   }
 }
 
-// Means over four surfaces within 0.1 of the D they are made with, each within twice its own scatter.
-// With means of logarithms they came out 0.4 (M = 40) and 0.9 (M = 10) too low.
+// Means of four are within 0.1 of D, single surfaces within twice their scatter. Means of logarithms were
+// 0.4 (M = 40) and 0.9 (M = 10) too low.
 TEST(SpectralDimension, OfWeierstrassMandelbrotSurfaces) {
   for (const int M : {10, 40})
     for (const double D : {2.3, 2.5, 2.7, 2.9}) {
@@ -97,7 +96,7 @@ TEST(SpectralDimension, OfWeierstrassMandelbrotSurfaces) {
     }
 }
 
-// One ordinate may lie e^-5.49 below the line by chance, 43 of them (22.4 independent) only e^-1.75.
+// By chance one ordinate may be e^-5.49 below the line, but 43 (22.4 independent) only e^-1.75.
 TEST(EmptyBand, IsTheFarthestBelowWhatChanceAllows) {
   const std::vector<SpectralBand> bands = spectral_bands(512, false);
   std::vector<double> above_line(bands.size());
@@ -118,8 +117,7 @@ TEST(EmptyBand, IsTheFarthestBelowWhatChanceAllows) {
   EXPECT_FALSE(empty_band(512, false, above_line));
 }
 
-// One direction: bands of ratio √2 lie between lines of ratio 1.5, 3 or 5. All profiles are alike, so
-// that their scatter tells nothing.
+// Bands of ratio √2 fall between lines of ratio 1.5, 3 or 5; equal profiles have no scatter.
 TEST(SpectralDimension, SaysWhenBandsLieBetweenLines) {
   const FractalDimension d = by_spectrum(lines(2.5, 1, 1.5, 1));
   EXPECT_FALSE(d.resolved);
@@ -133,7 +131,7 @@ TEST(SpectralDimension, SaysWhenBandsLieBetweenLines) {
     for (const int M : {1, 10}) EXPECT_FALSE(by_spectrum(lines(2.5, M, gamma, 1)).resolved) << gamma;
 }
 
-// The shortest wave is 3.9 cells, the bands go on to three: D comes out as 1.1 for 1.5.
+// The shortest wave is 3.9 cells, bands reach three: D = 1.1 instead of 1.5.
 TEST(SpectralDimension, SaysWhenASpectrumEnds) {
   SelfAffineOptions options;
   options.grid = make_grid(256, 256, 1e-3, 1e-3);
@@ -156,8 +154,7 @@ TEST(SpectralDimension, OfContinuousSpectraIsResolved) {
     }
 }
 
-// Case V10. Means over four surfaces; the shortest wave is two cells, and next to it a cut through an
-// isotropic spectrum has lost some of its waves.
+// Near the shortest wave, a section loses waves of the isotropic spectrum.
 TEST(SpectralDimension, OfSelfAffineSurfaces) {
   for (const double hurst : {0.3, 0.5, 0.8}) {
     double sum = 0;

@@ -22,7 +22,7 @@ double sum_of_modes(const Spectrum& s) {
   return sum;
 }
 
-// Parseval, on even, odd, prime and narrow grids.
+// Parseval on even, odd, prime and narrow grids.
 TEST(Spectrum, OfAPeriodicSurfaceHoldsItsVariance) {
   const int sizes[][2] = {{64, 64}, {63, 48}, {61, 37}, {1, 50}, {50, 1}, {2, 2}};
   for (const auto& [nx, ny] : sizes) {
@@ -42,7 +42,7 @@ TEST(Spectrum, OfAPeriodicSurfaceHoldsItsVariance) {
   }
 }
 
-// A wave of amplitude A: |z_q|² = A²/4 twice. Shell 5 holds the modes of |q| in [4.5, 5.5): 28 of them.
+// Amplitude A: |z_q|² = A²/4 twice. Shell 5, |q| in [4.5, 5.5), has 28 modes.
 TEST(Spectrum, OfOneWave) {
   const int n = 32;
   const double A = 1e-6, L = 1e-3;
@@ -67,8 +67,7 @@ TEST(Spectrum, OfOneWave) {
     }
 }
 
-// White noise of variance σ²: C = σ² · cell area (surface), σ² · spacing (profile), at every q; with a
-// Hann window too.
+// Variance σ²: C = σ² · cell area (surface) or σ² · spacing (profile), with any window.
 TEST(Spectrum, OfWhiteNoiseIsFlatAtItsLevel) {
   const Surface s = testing::white_noise(256, 128, 2.56, 2.56, 2);
   const Array<double> heights(s.heights().values().begin(), s.heights().values().end());
@@ -78,7 +77,7 @@ TEST(Spectrum, OfWhiteNoiseIsFlatAtItsLevel) {
     options.bins = 6;
     const Spectrum surface_spectrum = spectrum(s, options);
     const Spectrum profile_spectrum = spectrum(Profile(0.01, heights), options);
-    // The last shells hold nearly all modes; under a window a mode says half as much.
+    // Nearly all modes; a window halves their information.
     const auto check = [](const Spectrum& found, double level) {
       const auto modes = static_cast<double>(found.count.back());
       EXPECT_NEAR(found.C.back() / level, 1, 3 * 2 / std::sqrt(modes));
@@ -89,7 +88,7 @@ TEST(Spectrum, OfWhiteNoiseIsFlatAtItsLevel) {
   }
 }
 
-// Case V10: the slope -2 - 2H between roll-off and cut-off, and the requested rms slope exactly.
+// Slope -2 - 2H between roll-off and cut-off; exact rms slope.
 TEST(Spectrum, OfASelfAffineSurface) {
   SelfAffineOptions options;
   options.grid = make_grid(512, 512, 1e-3, 1e-3);
@@ -116,7 +115,7 @@ TEST(Spectrum, OfASelfAffineSurface) {
     }
 }
 
-// A tilt is a step at the rim: without a window it fills the spectrum as q^-2 along its axis.
+// The step at the rim fills the spectrum as q^-2 along its axis.
 TEST(Spectrum, WindowKeepsTheRimOut) {
   const Surface tilted = make_surface(128, 128, 1, 1, [](int i, int) { return 1.0 * i; });
   SpectrumOptions plain;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dilation by a sphere: known answers on planes, grooves and cosines (case V17), the brute-force
-// maximum, and the laws of mathematical morphology.
+// Planes, grooves, cosines, a brute-force maximum, and laws of mathematical morphology.
 #include "engine/metrology/spherical_tip.hpp"
 
 #include <algorithm>
@@ -20,7 +19,6 @@ using testing::make_surface;
 using testing::periodic;
 using testing::white_noise;
 
-// Rough on every scale: the neighbouring heights are independent.
 Surface rough(int nx, int ny, double height, std::uint64_t seed = 1, bool wraps = true) {
   const Stream stream(seed, "rough");
   return make_surface(
@@ -29,7 +27,7 @@ Surface rough(int nx, int ny, double height, std::uint64_t seed = 1, bool wraps 
       wraps ? periodic() : SurfaceTraits{});
 }
 
-// t(x) by trying: a lattice over the disc, and ever closer ones about its forty best points.
+// A lattice over the disc, refined around its forty best points.
 double tried(const Surface& s, Point at, double radius) {
   struct Try {
     double x, y, t;
@@ -84,7 +82,7 @@ TEST(SphericalTip, RestsOnAPlaneBesideItsAxis) {
 }
 
 TEST(SphericalTip, BottomsInAGrooveWhereBothWallsMeetIt) {
-  // case V17: R (1/cos b - 1), whatever the cells: they may be smaller or longer than the tip.
+  // R (1/cos b - 1) for cells smaller or larger than the tip.
   for (const double h : {0.05e-6, 0.25e-6, 0.7e-6, 5e-6})
     for (const double half_slope : {0.05, 0.2, 0.7, 1.3}) {
       const Surface groove = make_surface(
@@ -96,7 +94,7 @@ TEST(SphericalTip, BottomsInAGrooveWhereBothWallsMeetIt) {
     }
 }
 
-// Peak to valley under the tip, over that of A cos(2πx/λ).
+// Peak to valley relative to A cos(2πx/λ).
 double kept(double radius, double wavelength, double amplitude, int cells) {
   const Surface wave = make_surface(
       cells, 4, wavelength, 4 * wavelength / cells,
@@ -106,17 +104,17 @@ double kept(double radius, double wavelength, double amplitude, int cells) {
 }
 
 TEST(SphericalTip, LosesAmplitudeWhereTheCosineCurvesMoreThanTheTip) {
-  // case V17: R = 2 µm, λ = 2 µm, A = 0.1 µm; A q² R = 1.97.
+  // R = 2 µm, λ = 2 µm, A = 0.1 µm; A q² R = 1.97.
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 4096), 0.80538, 5e-6);
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 64), 0.80538, 2e-3);
-  // A q² R < 1 keeps all of it, > 1 does not.
+  // The amplitude is complete for A q² R < 1 only.
   const double critical = 0.1e-6 * std::pow(2 * pi / 2e-6, 2);
   EXPECT_NEAR(kept(0.99 / critical, 2e-6, 0.1e-6, 4096), 1, 1e-6);
   EXPECT_LT(kept(1.2 / critical, 2e-6, 0.1e-6, 4096), 1 - 1e-4);
 }
 
 TEST(SphericalTip, IsTheGreatestOverTheDisc) {
-  // Gentle patches, where the point inside a patch counts, and twisted ones, where edges do.
+  // Gentle patches: inner points; twisted patches: edges.
   for (const bool wraps : {true, false})
     for (const double height : {0.02e-6, 0.3e-6, 3e-6}) {
       const Surface s = rough(12, 9, height, 3, wraps);
@@ -124,7 +122,6 @@ TEST(SphericalTip, IsTheGreatestOverTheDisc) {
         const SphericalTip tip(s, radius);
         const Stream stream(7, "places");
         for (std::uint64_t k = 0; k < 20; ++k) {
-          // Far enough from the rim that the disc stays on a surface that ends there.
           const Point at{stream.uniform(2 * k, 5e-6, 6e-6), stream.uniform(2 * k + 1, 5e-6, 6e-6)};
           const double t = tip.height(at), by_hand = tried(s, at, radius);
           EXPECT_GE(t, by_hand - 1e-13 * radius) << height << ", " << radius << ", " << k;
@@ -167,7 +164,7 @@ TEST(SphericalTip, ASpikeIsSeenAsTheTipItself) {
     EXPECT_NEAR(tip.height({10e-6 + d, 10e-6}),
                 std::max(1e-3 + std::sqrt(16e-12 - d * d) - 4e-6, height_between(spike, {10e-6 + d, 10e-6})),
                 1e-17);
-  EXPECT_EQ(tip.height({15.001e-6, 10e-6}), 0);  // the spike's foot is one cell wide
+  EXPECT_EQ(tip.height({15.001e-6, 10e-6}), 0);  // the spike is one cell wide
 }
 
 TEST(SphericalTip, WrapsOnAPeriodicSurfaceAndEndsWithAnyOther) {
@@ -176,7 +173,7 @@ TEST(SphericalTip, WrapsOnAPeriodicSurfaceAndEndsWithAnyOther) {
   const Surface ends = make_surface(16, 4, 16e-6, 4e-6, ridge);
   EXPECT_GT(SphericalTip(wraps, 10e-6).height({14e-6, 1e-6}), 0.5e-6);
   EXPECT_EQ(SphericalTip(ends, 10e-6).height({14e-6, 1e-6}), 0);
-  EXPECT_EQ(SphericalTip(ends, 10e-6).height({-50e-6, 300e-6}), 1e-6);  // as the rim, beside the surface
+  EXPECT_EQ(SphericalTip(ends, 10e-6).height({-50e-6, 300e-6}), 1e-6);  // the rim's height
   EXPECT_NEAR(SphericalTip(wraps, 10e-6).height({14e-6, 1e-6}),
               SphericalTip(wraps, 10e-6).height({14e-6 - 48e-6, 1e-6 + 40e-6}), 1e-20);
 }
@@ -190,7 +187,6 @@ TEST(SphericalTip, StandsOnFlatsAndOnSingleNodes) {
       for (const Surface& s : {dilated(flat, 2e-6), closed(flat, 2e-6)})
         for (const double h : s.heights().values()) EXPECT_EQ(h, 3e-6);
     }
-  // A single row is a line: the tip rests on its edges.
   const Surface line = make_surface(5, 1, 5e-6, 1e-6, [](int i, int) { return 0.5e-6 * i; });
   EXPECT_NEAR(SphericalTip(line, 1e-6).height({2.2e-6, 0}), 1.1e-6 + 1e-6 * (std::sqrt(1.25) - 1), 1e-20);
 }
@@ -256,7 +252,7 @@ TEST(Closing, TwiceIsOnceAndFillsOnly) {
       const Surface once = closed(s, radius), twice = closed(once, radius);
       const Surface lifted = dilated(s, radius), again = dilated(once, radius);
       for (std::size_t k = 0; k < s.heights().size(); ++k) {
-        ASSERT_NEAR(twice.heights()[k], once.heights()[k], 4e-21) << radius;  // heights of 1e-6: few ulps
+        ASSERT_NEAR(twice.heights()[k], once.heights()[k], 4e-21) << radius;  // a few ulps of 1e-6
         ASSERT_NEAR(again.heights()[k], lifted.heights()[k], 4e-21) << radius;
         ASSERT_GE(once.heights()[k], s.heights()[k] - 4e-21);
         ASSERT_LE(once.heights()[k], lifted.heights()[k]);
@@ -282,7 +278,7 @@ TEST(Closing, GrowsWithTheRadiusAndNeedlesChangeNothing) {
 }
 
 TEST(Closing, LeavesWhatTheTipCanEnter) {
-  // A sphere wider than the tip, seen from inside: all of it can be touched.
+  // A sphere wider than the tip.
   const Surface bowl = make_surface(64, 64, 32e-6, 32e-6, [](int i, int j) {
     const double r2 = std::pow((i - 32) * 0.5e-6, 2) + std::pow((j - 32) * 0.5e-6, 2);
     return r2 / (2 * 50e-6);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stylus: where its traces go, what they hold, what it says of its tip, and what it refuses.
 #include "engine/metrology/stylus.hpp"
 
 #include <cmath>
@@ -65,7 +64,7 @@ TEST(Stylus, SpacingIsSpeedOverRate) {
   o.speed = 50e-6;
   o.rate = 100;
   EXPECT_EQ(Stylus(o).spacing(), 0.5e-6);
-  o.spacing = 0.5e-6;  // all three, and they agree
+  o.spacing = 0.5e-6;  // consistent
   EXPECT_EQ(Stylus(o).spacing(), 0.5e-6);
   o.rate.reset();
   EXPECT_DOUBLE_EQ(*Stylus(o).rate(), 100);
@@ -153,7 +152,7 @@ TEST(Stylus, TheEffectOfTheTipIsThatOfTheTraces) {
   EXPECT_DOUBLE_EQ(felt.effect.amplitude_ratio, amplitude[1] / amplitude[0]);
   EXPECT_NEAR(felt.effect.mean_lift, lift, 1e-12 * lift);
   EXPECT_EQ(felt.effect.greatest_lift, most);
-  EXPECT_LT(felt.effect.rms_slope_ratio, 0.95);  // a blunt tip does not reach the steep valleys
+  EXPECT_LT(felt.effect.rms_slope_ratio, 0.95);  // steep valleys are out of reach
   EXPECT_GT(lift, 0);
 }
 
@@ -198,7 +197,7 @@ TEST(Stylus, PlacesAndAnglesAreUniformOnAPeriodicSurface) {
 }
 
 TEST(Stylus, LinesStayInsideASurfaceWithARim) {
-  // Nodes over 96 x 45 µm; a line of 100 µm fits only near the long way, 30 µm at any angle.
+  // Nodes over 96 x 45 µm: 100 µm fits only near the diagonal, 30 µm at any angle.
   const Surface s = make_surface(33, 16, 99e-6, 48e-6, [](int i, int j) { return 1e-9 * i * j; });
   for (const double length : {30e-6, 60e-6, 100e-6, 106e-6}) {
     const Stylus stylus(short_traces(length));
@@ -217,7 +216,6 @@ TEST(Stylus, LinesStayInsideASurfaceWithARim) {
             "a trace of `length` 110 um does not fit on a surface that is not periodic, with nodes over 96 "
             "um x 45 um"
             "; give a `length` of at most 106 um, its diagonal");
-  // One node has no length at all.
   const Surface node = make_surface(1, 1, 1e-3, 1e-3, [](int, int) { return 0.0; });
   EXPECT_EQ(
       refusal([&] { Stylus(short_traces()).scan(node, 1, 1); }),

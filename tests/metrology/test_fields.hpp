@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces and profiles with known answers, for the tests of this folder, and a way to read the text
-// of an expected Error.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +15,6 @@
 
 namespace asperity::testing {
 
-// height(i, j) on nx x ny cells.
 template <class Height>
 Surface make_surface(int nx, int ny, double size_x, double size_y, const Height& height,
                      SurfaceTraits traits = {}) {
@@ -40,7 +37,6 @@ Profile make_profile(int n, double spacing, const Height& height) {
   return Profile(spacing, std::move(z));
 }
 
-// Independent normal heights.
 inline Surface white_noise(int nx, int ny, double size_x, double size_y, std::uint64_t seed) {
   const Stream stream(seed, "white noise");
   return make_surface(nx, ny, size_x, size_y, [&](int i, int j) {
@@ -48,8 +44,7 @@ inline Surface white_noise(int nx, int ny, double size_x, double size_y, std::ui
   });
 }
 
-// n samples of exact fractional Brownian motion of Hurst exponent H, increments of variance 1:
-// circulant embedding of the increments (Davies & Harte 1987).
+// Exact fractional Brownian motion, increments of variance 1, by circulant embedding (Davies & Harte 1987).
 inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
   const int m = 2 * n;
   const auto covariance = [H](double k) {
@@ -78,7 +73,6 @@ inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
   return heights;
 }
 
-// The text of the Error that the call throws.
 template <class Call>
 std::string error_text(const Call& call) {
   try {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Problems of registration of which the answer is known: one continuous surface, a sum of plane waves, is
-// sampled before, and after at places that are turned and shifted; then its highest part is worn, and tilt,
-// noise and holes are added. All draws are by key, so that problem k of a kind is the same on every machine.
+// Registration problems with known answers: a sum of plane waves, sampled before and, turned and shifted,
+// after; then wear, tilt, noise and holes. Draws by key are equal on every machine.
 #pragma once
 
 #include <algorithm>
@@ -20,26 +19,26 @@
 namespace asperity::testing {
 
 struct WornPairKind {
-  std::string name;  // of the stream
+  std::string name;  // of the random stream
   int nx = 256, ny = 256;
   double cell_x = 1e-6, cell_y = 1e-6;            // m
   double rms = 1e-6;                              // m
-  double turn = 5 * pi / 180;                     // rad, drawn up to it on either side
-  double shift = 20;                              // cells, drawn up to it along each axis
+  double turn = 5 * pi / 180;                     // rad, largest
+  double shift = 20;                              // cells, largest along each axis
   double least_worn = 0.03, most_worn = 0.3;      // share of the nodes
   double least_noise = 0.005, most_noise = 0.05;  // of the rms height
   double least_holes = 0.01, most_holes = 0.06;   // share of the nodes
-  double lay = 1;                                 // wave vectors along x are so many times those along y
+  double lay = 1;                                 // ratio of wave vectors along x to y
   int waves = 500;
 };
 
 struct WornPair {
   Surface before, after;
-  double shift_x, shift_y, angle;  // m, rad: as Registration tells them
+  double shift_x, shift_y, angle;  // m, rad, as in Registration
   double lift;                     // m
 };
 
-// Heights at R(angle)(p - c) + c + shift for every node p, c the centre of the nodes.
+// Heights at R(angle)(p - c) + c + shift; c: centre of the nodes.
 class WaveSurface {
  public:
   WaveSurface(const WornPairKind& kind, std::uint64_t seed) : kind_(kind) {
@@ -64,7 +63,7 @@ class WaveSurface {
     Field z(kind_.nx, kind_.ny);
     std::vector<double> cosines(static_cast<std::size_t>(kind_.nx)), sines(cosines.size());
     for (const Wave& wave : waves_) {
-      // A wave turned back is a wave: its phase is a sum over columns and rows.
+      // The phase is a sum over columns and rows.
       const double qx = wave.qx * cosine + wave.qy * sine, qy = -wave.qx * sine + wave.qy * cosine;
       const double start =
           wave.phase + wave.qx * (cx + shift_x) + wave.qy * (cy + shift_y) - qx * cx - qy * cy;
@@ -134,7 +133,6 @@ inline void tilt(Field& z, double across_x, double across_y) {
     for (int i = 0; i < z.nx(); ++i) z(i, j) += across_x * i / z.nx() + across_y * j / z.ny();
 }
 
-// Shift and turn as given, all else drawn.
 inline WornPair worn_pair(const WornPairKind& kind, std::uint64_t seed, double shift_x, double shift_y,
                           double angle) {
   const Stream draw(seed, kind.name);

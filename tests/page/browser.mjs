@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tests of the page share: a browser, pages that note every complaint of the console and of the
-// content policy, and hands that press keys and wait.
+// A browser, pages that record complaints of the console and the content policy, input and waits.
 
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
@@ -13,10 +12,10 @@ const require = createRequire(join(build, 'page-build', 'package.json'));
 const puppeteer = require('puppeteer-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
-/** ms after which a wait counts as a hang; no wait takes a twentieth of it on a quiet machine. */
+/** Time limit of a wait, ms; a quiet machine needs less than a twentieth. */
 const patience = 600_000;
 
-/** ms of the page's timers that wait for a hand to rest or play pictures. */
+/** The page's delays for input at rest and for playing pictures, ms. */
 const sources = ['knobs.ts', 'scrub.ts', 'main.ts'].map((name) =>
   readFileSync(new URL(`../../bindings/web/page/src/${name}`, import.meta.url), 'utf8'),
 );
@@ -41,7 +40,7 @@ export async function openBrowser() {
   });
 }
 
-/** A page of 1280 x 720 without memory of others; `complaints` fills with what the console says. */
+/** 1280 x 720 in its own browser context; `complaints` collects console messages. */
 export async function openPage(browser, url, { scheme = 'light', width = 1280, height = 720, downloads } = {}) {
   const context = await browser.createBrowserContext(
     downloads ? { downloadBehavior: { policy: 'allow', downloadPath: downloads } } : {},
@@ -66,7 +65,7 @@ export async function openPage(browser, url, { scheme = 'light', width = 1280, h
     );
   });
   if (url) await page.goto(url);
-  // Found and read at one time: between two calls the page may draw anew, and what is drawn no more has no size.
+  // One call, because the page may redraw in between and a removed element has no size.
   const atOnce = (found, act, args) => page.evaluate(`(${act})(${found}, ...${JSON.stringify(args)})`);
   const inShadows = page.$$eval.bind(page);
   return Object.assign(page, {
@@ -87,13 +86,13 @@ export async function assertQuiet(page) {
 
 export const pause = (ms) => new Promise((r) => setTimeout(r, ms));
 
-/** Waits until all that the page has to draw by now is on the screen: a frame may ask for one more. */
+/** Waits until all is drawn; a frame may request another. */
 export const painted = (page) =>
   page.evaluate(async () => {
     for (let frame = 0; frame < 3; ++frame) await new Promise(requestAnimationFrame);
   });
 
-/** Waits until `look` finds the same after some frames. */
+/** Waits until `look` is constant over some frames. */
 export async function settled(page, look) {
   for (let now = await look(), before; now !== before; now = await look()) {
     before = now;
@@ -101,12 +100,11 @@ export async function settled(page, look) {
   }
 }
 
-/** Waits until `test` is true; it may look at processes, files or the page. */
+/** Waits until `test` is true of processes, files or the page. */
 export async function comesTrue(test, what) {
   for (const end = Date.now() + patience; !(await test()); await pause(20)) assert.ok(Date.now() < end, what);
 }
 
-/** Waits until `test` is true of the page. */
 export async function until(page, test, what, ...args) {
   try {
     await page.waitForFunction(test, { polling: 50 }, ...args);
@@ -117,7 +115,7 @@ export async function until(page, test, what, ...args) {
   }
 }
 
-/** From here on hands rest and pictures go on only when the test says so: by `tick` once, or from `release` on by the clock. */
+/** Holds the page's timers: `tick` fires them once, `release` restores the clock. */
 export const hold = (page) =>
   page.evaluate((held) => {
     window.release?.();
@@ -143,13 +141,14 @@ export const hold = (page) =>
 
 export const release = (page) => page.evaluate(() => window.release?.());
 
-/** Lets the time pass for which a timer is held, as soon as there is one. */
+/** Waits for a held timer, then fires all. */
 export async function tick(page) {
   await until(page, () => window.held.size > 0, 'the page should wait for time to pass');
   await page.evaluate(() => window.tick());
 }
 
-/** Notes from here on what the status says, beside what the picture shows; values are recorded only after `finished` is asked for. */
+/** Holds timers and notes the status with the picture's title; values are recorded only after `finished`.
+    */
 export async function listen(page) {
   await hold(page);
   await page.evaluate(() => {
@@ -162,7 +161,7 @@ export async function listen(page) {
   });
 }
 
-/** Waits until the status has said this since `listen`, at a time when the picture's title began so. */
+/** Waits until, since `listen`, status and beginning of the title match. */
 export const untilSaid = (page, status, picture = '') =>
   until(
     page,
@@ -193,10 +192,10 @@ export const editorText = (page) =>
     [...document.querySelector('#editor').shadowRoot.querySelectorAll('.cm-line')].map((l) => l.textContent).join('\n'),
   );
 
-/** Puts a script into the editor as a paste does, which closes no brackets by itself. */
+/** Inserts a script like a paste, without automatic brackets. */
 export async function write(page, script) {
   await (await page.$('>>> .cm-content')).focus();
-  await chord(page, 'Control', 'a'); // what is pasted replaces it: an empty script would be checked and shown too
+  await chord(page, 'Control', 'a'); // an empty script would be checked and shown too
   if (!script) return page.keyboard.press('Backspace');
   await page.evaluate((t) => {
     const data = new DataTransfer();
@@ -216,7 +215,7 @@ export async function run(page, script) {
   await chord(page, 'Control', 'Enter');
 }
 
-/** Waits for the end of the run that `run` or a knob at rest begins, and until its results are drawn. */
+/** Waits until a run, by `run` or a resting knob, has ended and is drawn. */
 export async function finished(page, status = 'Done') {
   await release(page);
   await comesTrue(async () => (await runOf(page)) !== (page.before ?? null), 'a run should begin');
@@ -231,7 +230,7 @@ export async function finished(page, status = 'Done') {
   page.before = await runOf(page);
 }
 
-/** Saves the run to a folder that was empty; the path of the file. */
+/** Saves to an empty folder; returns the file's path. */
 export async function save(page, downloads) {
   await page.click('#save');
   await until(page, () => document.querySelector('#live').textContent.startsWith('Saved'), 'the run should be saved');
@@ -241,7 +240,7 @@ export async function save(page, downloads) {
   return join(downloads, files()[0]);
 }
 
-/** Takes what an element looks like now into the page, as `shot`. */
+/** Draws an element to `window.shot`. */
 async function shoot(page, selector) {
   await painted(page);
   const shot = await (await page.$(selector)).screenshot({ encoding: 'base64' });
@@ -257,7 +256,7 @@ async function shoot(page, selector) {
   }, shot);
 }
 
-/** How much there is to see on the relief's canvas, and its pixels to compare. */
+/** Number of colours, drawn share and sampled bytes of the relief. */
 export async function pixels(page) {
   await shoot(page, '.stage');
   return page.evaluate(() => {
@@ -276,7 +275,7 @@ export async function pixels(page) {
   });
 }
 
-/** The share of an element's width over which this colour, [red, green, blue], is seen in full. */
+/** Share of columns with the colour [red, green, blue]. */
 export async function inked(page, selector, colour) {
   await shoot(page, selector);
   return page.evaluate((wanted) => {
@@ -292,7 +291,7 @@ export async function inked(page, selector, colour) {
 
 export const differing = (a, b) => a.bytes.filter((v, k) => Math.abs(v - b.bytes[k]) > 12).length / a.bytes.length;
 
-/** Nothing is wider than the window, and no visible text is smaller than 13 px. */
+/** Nothing is wider than the window, no visible text smaller than 13 px. */
 export async function assertFits(page, what) {
   const found = await page.evaluate(() => {
     const wide = [];
@@ -333,7 +332,6 @@ export async function assertAccessible(page, what) {
   assert.deepEqual(found, [], what);
 }
 
-/** What has the focus, inside shadow roots too. */
 export const focused = (page) =>
   page.evaluate(() => {
     let e = document.activeElement;
@@ -341,8 +339,8 @@ export const focused = (page) =>
     return e?.id || e?.getAttribute('aria-label') || e?.textContent.trim().slice(0, 60) || e?.className || e?.tagName;
   });
 
-/** The page's own files that it had fetched when it became interactive, and when that was: { requests, bytes (unpacked), ms }.
-    What it asks the server is not among them: how much of that is answered by then hangs on the machine. */
+/** The page's own files fetched before it became interactive: { requests, bytes (unpacked), ms }.
+    Requests to the server are excluded, because their answers by then depend on the machine. */
 export function start(page) {
   return page.evaluate(() => {
     const ms = performance.getEntriesByName('asperity-ready')[0].startTime;

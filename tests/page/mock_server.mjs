@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A stand-in for `asperity serve`: the same interface and headers, made-up physics. Tests of the page use
-// it for what the real server does not do on demand: a long run, a limit, a connection that breaks.
-// By hand: node mock_server.mjs DIST [PORT]
+// A stand-in for `asperity serve` with invented physics, for a long run, a limit or a broken connection on
+// demand.
+// Start: node mock_server.mjs DIST [PORT]
 
 import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
@@ -103,17 +103,16 @@ function viewOf(name) {
   };
 }
 
-// With a viewBox and no size of its own, as gnuplot writes it.
+// Like gnuplot: a viewBox and no size.
 const chart =
   '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
 
-// One pixel.
 const pixel = Buffer.from(
   'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==',
   'base64',
 );
 
-// The rows of a study of work and precision, as its file has them: a setting that failed has no error.
+// As in its file: a failed setting has no error.
 const study = `way,cells,end,error,seconds [s],reason
 finer grid,16,measured,0.0054,0.0005,
 finer grid,32,measured,0.00032,0.0013,
@@ -121,7 +120,7 @@ finer grid,32,measured,0.00032,0.0013,
 "tighter, 64 cells",64,failed,,,"no ""answer"", it says"
 `;
 
-/** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; above MOST the script fails. */
+/** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; the script fails above MOST. */
 function knobIn(line, given) {
   const found = /mock\.knob (\w+) (\S+) (\S+) (\S+) (\w+)(?: (\S+))?/.exec(line);
   if (!found) return undefined;
@@ -137,8 +136,9 @@ function knobIn(line, given) {
   };
 }
 
-/** Lines of the script that say what to do: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`,
-    `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
+/** Lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
+    `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
+    `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs, mock) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
@@ -249,7 +249,7 @@ function* eventsOf(script, knobs, mock) {
   yield { type: 'finished', status: 'done', exit: 0, seconds: 1.23 };
 }
 
-/** Two students of a room; the token of the mock is its teacher's, or with `room: 'student'` a student's. */
+/** Two students; the mock's token is the teacher's, or a student's with `room: 'student'`. */
 const people = [
   {
     name: 'Ada',
@@ -263,10 +263,10 @@ const people = [
 ];
 
 export async function startMock(folder, { token = 'testtoken', port = 0, most = 2, room = '' } = {}) {
-  const told = []; // what students put up
+  const told = []; // students' predictions
   const runs = new Map();
-  let cut = 0; // how many event streams to break off
-  const mock = { full: false }; // while it is, runs of `mock.waits` wait
+  let cut = 0; // event streams to break
+  const mock = { full: false }; // while true, runs of `mock.waits` wait
   const start = (script, name, knobs = {}) => {
     const run = { id: String(runs.size + 1), name, script, knobs, events: [], waiters: new Set(), stopped: false };
     const put = (event) => {

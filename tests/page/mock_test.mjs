@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page in Chromium against the stand-in for the server: everything a person does, and everything that
-// can go wrong between page and server.
+// The page in Chromium against the stand-in server.
 
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
@@ -25,7 +24,7 @@ const ready = (page) =>
   on.until(page, () => document.querySelector('.lessons button, .lesson'), 'the lessons should be listed');
 const tab = (page, name) => page.click(`#tab-${name}`);
 
-/** Opens the page, does, and sees that console and content policy had nothing to say. */
+/** Opens the page, runs the test, and expects no complaint. */
 async function visit(options, act) {
   const page = await on.openPage(browser, mock.url, options);
   try {
@@ -37,7 +36,7 @@ async function visit(options, act) {
   }
 }
 
-// How long that takes is the machine's: it is printed.
+// Printed only: the time depends on the machine.
 test('Start, OfFewRequestsAndBytes', async () => {
   const page = await on.openPage(browser, mock.url);
   await ready(page);
@@ -147,7 +146,6 @@ test('Lesson, PredictedBeforeItsTextIsRead', () =>
       ),
       'Kept here and with a saved run.',
     );
-    // A lesson whose script compares nothing promises nothing.
     await page.click('.back');
     await page.waitForSelector('.lessons li:nth-child(2) button');
     await page.click('.lessons li:nth-child(2) button');
@@ -217,7 +215,7 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     const sizes = await page.$eval('.output', (e) => ({
       lines: Math.round(e.clientHeight / parseFloat(getComputedStyle(e).lineHeight)),
       scrolls: document.querySelector('#output').scrollWidth > document.querySelector('#output').clientWidth,
-      bar: document.querySelector('#output').getBoundingClientRect().bottom <= innerHeight, // of the scroll bar
+      bar: document.querySelector('#output').getBoundingClientRect().bottom <= innerHeight, // the scroll bar's
     }));
     assert.deepEqual(sizes, { lines: 2, scrolls: true, bar: true });
     await page.focus('.output');
@@ -236,7 +234,6 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     }, 'it should rest at its beginning');
     await on.assertFits(page, 'a wide table');
     await on.assertAccessible(page, 'a wide table');
-    // Sentences after an empty line are read without scrolling.
     const sentence = 'And that is why friction is a coefficient. '.repeat(4);
     await on.run(page, `print "${wide}|"\nprint ""\nprint "${sentence}"\n`);
     await on.until(
@@ -247,7 +244,7 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     assert.equal(await on.text(page, '.output'), `${wide}|\n\n${sentence}\n`);
     assert.equal(
       await page.$eval('.output .prose', (e) => {
-        // A space at a line's end hangs over the edge.
+        // A trailing space may overhang.
         const lines = [...e.getClientRects()];
         return lines.length > 3 && lines.every((l) => l.width < e.parentElement.clientWidth + 12);
       }),
@@ -360,7 +357,7 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await y.select('mu');
     await per.select('face');
     assert.match(await on.text(page, '.charts .caption'), /^mu against Ra \[µm\]: 16 points, 2 lines, one per face\./);
-    // One line for each face, eight marks of each, and one of each in the legend.
+    // One line and eight marks per face, and one mark each in the legend.
     const marks = (shape) => page.$$eval(`.chart svg .dot ${shape}`, (all) => all.length);
     assert.deepEqual([await marks('circle'), await marks('path'), (await page.$$('.chart svg .line path')).length], [9, 9, 2]);
     for (const box of await page.$$('.charts input[type=checkbox]')) await box.click();
@@ -379,7 +376,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
     await tab(page, 'chart');
-    // The second notebook of the run, and of a list of columns those of one unit.
+    // The second notebook; of a list, the columns of one unit.
     assert.deepEqual(
       await shown(
         'local none, book = 1, lab.notebook "big"\nfor N = 1, 8 do end -- mock.rows 9\n' +
@@ -395,7 +392,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
       ),
       { caption: 'mu against Ra [µm]: 16 points, 2 lines, one per face.', logX: true, logY: true },
     );
-    // Columns that the text does not tell, by the name of the file; without it, columns that vary.
+    // Else the file name decides, or the columns that vary.
     const loop = 'for _, y in ipairs(all) do book:chart{ x=x, y=y } end -- mock.rows 9\n';
     assert.equal((await shown(`${loop}-- mock.file big-i-v.svg\n`)).caption, 'i against v [µm]: 9 points.');
     assert.equal((await shown(loop)).caption, 'v [µm] against i: 9 points.');
@@ -403,7 +400,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
       (await shown('book:write{ level=0, ["v [m]"]=v, i=i } -- mock.rows 9\n')).caption,
       'i against v [µm]: 9 points.',
     );
-    // What a person chose stays.
+    // A manual choice remains.
     const [, y] = (await page.$$('.charts select')).slice(-4);
     await y.select('level');
     assert.equal((await shown(loop)).caption, 'level against v [µm]: 9 points.');
@@ -614,7 +611,7 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await printed(page, 'cells is 3');
     assert.equal(runs(), before + 1, 'two presses of a key are one move');
     assert.equal(await on.focused(page), 'pressure', 'the slider keeps the focus');
-    // An error at one value, and none at the next.
+    // An error at one value only.
     await page.keyboard.press('End');
     await knobSays(page, '100 MPa');
     await printed(page, 'pressure is too much');
@@ -625,11 +622,10 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await knobSays(page, '1 MPa');
     await printed(page, 'pressure is 1000000');
     await on.finished(page);
-    // Run itself takes the script's own values, and the slider says so.
+    // Run uses the script's own values.
     await page.click('#run');
     await printed(page, 'pressure is 10000000');
     await knobSays(page, '10 MPa');
-    // Another script has other knobs, or none.
     await on.run(page, 'print "plain"\n');
     await printed(page, 'plain');
     await on.until(page, () => document.querySelector('.knobs').hidden, 'no knob should be left');
@@ -672,7 +668,6 @@ test('Keyboard, Alone', () =>
       await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle !== 'none'),
       'the focus should be seen',
     );
-    // A lesson, by Enter on its button.
     await page.focus('#keys-button');
     for (let k = 0; k < 20 && !(await on.focused(page)).includes('What roughness'); ++k)
       await page.keyboard.press('Tab');
@@ -700,13 +695,11 @@ test('Keyboard, Alone', () =>
     assert.match(await on.focused(page), /Save tips\.csv|Enlarge chart\.svg/);
     await on.chord(page, 'Shift', 'F6');
     assert.match(await on.focused(page), /Script in Lua/);
-    // A divider, by its arrow keys.
     await page.focus('#results-divider');
     const width = () => page.$eval('#results', (e) => e.clientWidth);
     const before = await width();
     await page.keyboard.press('ArrowLeft');
     assert.ok((await width()) > before);
-    // The list of keys opens, closes, and gives the focus back.
     await page.focus('#keys-button');
     await page.keyboard.press('Enter');
     assert.equal(await page.$eval('#keys', (e) => e.open), true);
@@ -742,7 +735,6 @@ for (const scheme of ['light', 'dark']) {
     }));
 }
 
-// T11
 for (const [width, height] of [
   [1280, 577],
   [1024, 600],
@@ -789,7 +781,6 @@ for (const [width, height] of [
     }
   });
 
-// T9
 test('Script, OfTwoTabsBothAreKept', () =>
   visit({}, async (page) => {
     await on.write(page, 'print "one"\n');
@@ -831,7 +822,6 @@ test('Run, AskedForWhileAnotherGoesOnSaysSo', () =>
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
   }));
 
-// S1
 test('Run, SaysHowManyAreBeforeIt', () =>
   visit({}, async (page) => {
     mock.full = true;
@@ -864,7 +854,7 @@ test('Save, OneFileThatOpensAnywhere', async () => {
     assert.equal(basename(file), 'what-roughness-is-and-what-a-stylus-misses.html');
     const html = readFileSync(file, 'utf8');
     assert.doesNotMatch(html, /\bsrc="(?!data:)|href="(?!data:)|url\(/i);
-    // One script, and the policy lets that one run alone.
+    // The policy permits only the file's single script.
     const scripts = [...html.matchAll(/<script>([^]*?)<\/script>/g)].map((m) => m[1]);
     assert.equal(html.match(/<script/g).length, 1);
     const digest = createHash('sha256').update(scripts[0], 'utf8').digest('base64');

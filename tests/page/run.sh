@@ -1,7 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs one group of the page's tests, or a file that is given by its path; skipped (exit status 77) where npm, the packages
-# or Chromium are missing.
+# Runs one group of the page's tests, or a file; skipped (exit status 77) without npm, the packages or Chromium.
 # usage: run.sh types|mock|teaching|saved|served|FILE BUILD_FOLDER PROGRAM
 set -eu
 group=$1

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A saved run, opened from the disk in Chromium: its pictures one after the other, with play and pause, and the runs
-// that were recorded at other values of the knobs. Nothing is asked of a server, and without scripts and on paper
-// everything is there.
+// A saved run opened from disk in Chromium, without a server: pictures in sequence, and runs at other knob
+// values.
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
@@ -21,7 +20,7 @@ after(async () => {
   await mock?.close();
 });
 
-/** What `act` does on the page is saved, and `look` sees the file opened from the disk. */
+/** Saves the effect of `act`; `look` checks the file opened from disk. */
 async function saved(act, look) {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-saved-'));
   try {
@@ -89,12 +88,11 @@ test('Saved, PicturesAreGoneThroughByKeysAloneWithPlayAndPause', () =>
       await place(page, '7 of 7');
       await on.until(page, () => document.querySelector('.scrubber button').textContent === 'Play', 'it should end');
       await on.assertAccessible(page, 'a saved run');
-      // On paper all of them are there, and nothing to press.
       await page.emulateMediaType('print');
       assert.equal((await seen(page, '.frames figure')).length, 7);
       assert.deepEqual(await seen(page, '.scrubber'), []);
       await page.emulateMediaType('screen');
-      // So they are in a browser that runs no scripts.
+      // Without scripts all pictures are shown, too.
       await page.setJavaScriptEnabled(false);
       await page.goto(address);
       assert.equal((await page.$$('.frames figure:not(.away)')).length, 7);
@@ -122,12 +120,12 @@ test('Saved, KnobsGoFromOneRecordedRunToTheNext', () =>
       const values = () => page.$$eval('.sliders output', (all) => all.map((e) => e.textContent));
       assert.match(await on.text(page, '.about + h2 + ul'), /pressure: 1 MPa \(1 MPa to 100 MPa\)cells: 3 one/);
       assert.match(await page.evaluate(() => document.body.innerText), /3 runs were recorded and are all in this file/);
-      // The knob that was never moved has no slider.
+      // An unmoved knob has no slider.
       assert.deepEqual(await page.$$eval('.sliders input', (all) => all.map((e) => [e.ariaLabel, e.max])), [['pressure', '2']]);
       assert.deepEqual(await values(), ['1 MPa']);
       const output = async () => (await seen(page, '.results pre')).join('').split('\n')[0];
       assert.equal(await output(), 'pressure is 1000000');
-      // The picture that is looked at stays the same one.
+      // The selected picture remains.
       await page.focus('.scrub');
       await page.keyboard.press('Home');
       await page.focus('.sliders input');

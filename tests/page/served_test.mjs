@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page in Chromium, served by the program: a lesson is opened, edited, run and stopped, its picture
-// looked at, a mistake marked, a name completed, and the run saved.
+// The page served by the program, in Chromium.
 
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
@@ -53,7 +52,7 @@ async function visit(options, act) {
   }
 }
 
-// How long that takes is the machine's: it is printed.
+// Printed only: the time depends on the machine.
 test('Served, StartsWithFewRequestsAndBytes', () =>
   visit({}, async (page) => {
     const { requests, bytes, ms } = await on.start(page);
@@ -62,8 +61,7 @@ test('Served, StartsWithFewRequestsAndBytes', () =>
     assert.ok(bytes > 100_000 && bytes < 650_000, `${bytes} bytes`);
   }));
 
-// As the CSV has them: in the order that the notebook was given, those of no order after them by their names, and what
-// comes later last.
+// The notebook's order, then unordered columns by name, then later ones.
 for (const [name, columns, rows] of [
   ['order', 'z,m,a,also,extra', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1, extra=1, m=2, also=3, z=4 }'],
   ['lacking', 'z,m,a,late', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1 } book:write{ a=2, late=1, z=3 }'],
@@ -101,14 +99,14 @@ const titled = (page, text) =>
     text,
   );
 
-/** The confined processes of the server, which are children of its threads. */
+/** Confined processes are children of the server's threads. */
 function processes() {
   const found = [];
   for (const task of readdirSync(`/proc/${server.pid}/task`)) {
     try {
       found.push(...readFileSync(`/proc/${server.pid}/task/${task}/children`, 'utf8').trim().split(' '));
     } catch {
-      // The thread has ended meanwhile.
+      // The thread has ended.
     }
   }
   return found.filter(Boolean).sort();
@@ -132,7 +130,7 @@ test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
       const pressure = await on.text(page, '.knobs output');
       await on.untilSaid(page, new RegExp(`^Live in .*${counts}`), `contact:press at ${pressure}:`);
     };
-    // The first move makes the surface.
+    // The first move computes the surface.
     await page.keyboard.press('ArrowRight');
     await whole('2 computed, 0 from memory');
     const alive = processes().filter((p) => !before.includes(p))[0];
@@ -149,7 +147,7 @@ test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
     console.log(
       `event to painted picture, a press on 256 x 256: median ${Math.round(sorted[sorted.length >> 1])} ms of ${sorted.map(Math.round).join(', ')}`,
     );
-    // When it rests the values are run and recorded.
+    // At rest, the values are run and recorded.
     await on.finished(page);
     assert.match(await on.text(page, '#results-of'), /run \d+/);
     assert.equal(await page.$eval('#save', (e) => e.disabled), false);
@@ -194,8 +192,8 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
     await on.listen(page);
     await page.focus('.knobs input');
-    // The first makes the surface, and the second tells how long the whole takes. A whole answer that comes before the
-    // coarse one is drawn hides it.
+    // The first move computes the surface, the second measures the full time. The full answer may hide the
+    // coarse one.
     let coarse;
     await on.comesTrue(async () => {
       await page.keyboard.press('ArrowRight');
@@ -237,7 +235,7 @@ test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
     await on.write(page, pressed.replace('cells=256', 'cells=64').replace('20 um', '80 um'));
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
     const before = processes();
-    const answered = () => on.untilSaid(page, /^Live in .*2 computed, 0 from memory/); // nothing is in its memory
+    const answered = () => on.untilSaid(page, /^Live in .*2 computed, 0 from memory/); // an empty memory
     await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page as a place to teach, in Chromium against the stand-in for the server: charts as scripts ask for them,
-// results that belong to their script, a window as a projector has it, colours, predictions, and a room.
+// Teaching with the page in Chromium, against the stand-in server.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -33,7 +32,7 @@ async function visit(options, act, server = mock) {
 
 const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${rows}\nbook:chart{ ${chart} }\n`;
 
-/** Runs a script and shows its first chart, whose caption says that it has so many points. */
+/** Shows a script's first chart, whose caption must state the number of points. */
 async function charted(page, script, points) {
   await on.run(page, script);
   await on.finished(page, 'Done|Failed');
@@ -54,7 +53,6 @@ const ticks = (page, axis) =>
     }),
   );
 
-// T2
 test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
   visit({}, async (page) => {
     await charted(page, book(9, 'x="v", y={ "level", "i" }'), 18);
@@ -65,7 +63,6 @@ test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
       places.every((y) => y > 0 && y < 1000),
       'the axis reaches both',
     );
-    // Another is added by hand, where it has the unit.
     await charted(page, book(9, 'x="v", y="i"'), 9);
     await page.click('.axes summary');
     const [, , more] = (await page.$$('.charts select')).slice(-4);
@@ -94,14 +91,14 @@ test('Chart, AxesHaveTheScriptsWordsAndNoneIsCut', () =>
     assert.deepEqual(x, { text: 'place along the way', outside: [] });
     assert.match(y.text, /^how much of it.*… \[µm\]$/, 'the unit is not cut');
     assert.deepEqual(y.outside, []);
-    // Chosen by hand, an axis has the name of its column.
+    // An axis chosen by hand has its column's label.
     await page.click('.axes summary');
     const [along] = (await page.$$('.axes select')).slice(0, 1);
     await along.select('level');
     const [other, same] = await labels();
     assert.equal(other.text, 'level');
     assert.match(same.text, /^how much of it/);
-    // Names of many columns are cut, too, and not the unit.
+    // Long names are shortened, but not the unit.
     const many = Array.from({ length: 9 }, (_, k) => `"column ${k}"`).join(', ');
     await charted(page, `-- mock.wide 9\nlocal book = lab.notebook "wide"\nbook:chart{ x="i", y={ ${many} } }\n`, 81);
     assert.ok((await labels()).slice(0, 2).every((l) => l.outside.length === 0), JSON.stringify(await labels()));
@@ -141,7 +138,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
       await page.setViewport({ width, height });
       for (const n of [2, 5, 60]) {
         await charted(page, script(n), 2 * n);
-        await on.settled(page, () => page.$eval('.chart svg', (e) => e.outerHTML)); // a window of another size is drawn anew
+        await on.settled(page, () => page.$eval('.chart svg', (e) => e.outerHTML)); // redrawn for the new size
         const labels = await ticks(page, 'x');
         assert.ok(labels.length >= 2 && labels.length <= n, `${width}: ${labels.length} of ${n} names`);
         if (n <= 5) assert.equal(labels.length, n, `${width}: every one of ${n} names`);
@@ -156,7 +153,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
           all.map((e) => ({ text: e.textContent, top: e.getBoundingClientRect().top })).find((e) => e.text === 'part'),
         );
         labels.forEach((l) => assert.ok(l.left >= chart.x && l.bottom <= titled.top + 1, `${width}: ${JSON.stringify([l, titled, chart])}`));
-        // Two dots a name, over one place along.
+        // Two dots per name, at one position.
         const across = await page.$$eval('.chart .dot circle, .chart .dot path', (all) => all.filter((c) => c.querySelector('title')).map((c) => c.getBoundingClientRect()).map((b) => Math.round(b.left + b.width / 2)));
         assert.equal(new Set(across).size, n);
         assert.equal((await page.$$('.chart .line path')).length, 0, 'no line goes from name to name');
@@ -184,14 +181,13 @@ test('Chart, OfColumnsThatAVariableNames', () =>
       'v against level',
       'i against level',
     ]);
-    // What no text tells, the names of the files do.
+    // File names decide.
     assert.deepEqual(
       await titles('local function draw(q) book:chart{ x="i", y=q } end -- mock.file big-v-i.svg mock.file big-level-i.svg\ndraw "v"\n'),
       ['big', 'level against i'],
     );
   }));
 
-// T10
 for (const [width, height] of [
   [1280, 720],
   [960, 540],
@@ -209,7 +205,6 @@ for (const [width, height] of [
       }));
       assert.ok(seen.letters >= 13, `letters of ${seen.letters} px`);
       assert.deepEqual([seen.pane, seen.scrolls], [true, 'auto'], 'the drawing scrolls, not the pane');
-      // By keys it is seen whole.
       await page.focus('.previews button');
       await page.keyboard.press('Enter');
       const whole = await (await page.$('.enlarged img')).boundingBox();
@@ -271,7 +266,6 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran(made), 'tab-chart');
     assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');
     assert.match(await on.text(page, '#output .end'), /^Failed after 100 ms: os\.exit\(3\)\.$/);
-    // A tab that was chosen stays, until another script is opened.
     await page.click('#tab-table');
     assert.equal(await ran(made), 'tab-table');
     await page.click('.lessons button');
@@ -282,7 +276,6 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran(`${made}\n`), 'tab-table');
   }));
 
-// T10
 test('Axis, LabelsOfTicksStandApart', () =>
   visit({}, async (page) => {
     for (const [width, height] of [
@@ -342,7 +335,6 @@ test('Axis, LogarithmicEndsWhereItsDataEndAndWritesAllTicksInOneWay', () =>
     }
   }));
 
-// T3
 test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
   visit({}, async (page) => {
     assert.equal(await on.text(page, '#results-of'), 'No run yet');
@@ -361,7 +353,6 @@ test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
     assert.match(await whose(), /^What roughness is.* · not of the open script$/);
     assert.equal(await grey(), 'grayscale(1)');
     await on.assertAccessible(page, 'results of another script');
-    // A reload keeps whose they are, and when.
     const before = await whose();
     await page.reload();
     await on.until(page, () => /run \d/.test(document.querySelector('#results-of').textContent), 'they should be back');
@@ -371,7 +362,6 @@ test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
     assert.equal(await grey(), 'none');
   }));
 
-// T4
 for (const [width, height, columns] of [
   [1280, 720, 5],
   [1151, 700, 5],
@@ -396,7 +386,7 @@ for (const [width, height, columns] of [
       await on.assertAccessible(page, `${width} x ${height}`);
     }));
 
-// What became of a run, and what the page has to say, is read wherever the page is scrolled to.
+// The end of a run and messages are visible at any scroll position.
 for (const [width, height] of [
   [1280, 720],
   [960, 540],
@@ -477,7 +467,6 @@ test('Results, FillTheWindowByKeysAndGoBack', () =>
     assert.equal(await on.focused(page), 'run');
   }));
 
-// T8
 test('Colours, AreThoseOfPictures', () => {
   const page = readFileSync(new URL('bindings/web/page/src/palettes.ts', root), 'utf8');
   const engine = readFileSync(new URL('engine/plot/palette.cpp', root), 'utf8');
@@ -511,7 +500,7 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
     assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=-0\.01 \}/);
     for (let k = 0; k < 5; ++k) await page.keyboard.press('Backspace');
     assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=nil \}/);
-    // It is the script's number: an edit of the one is an edit of the other, also after a reload.
+    // The prediction is the script's number, also after a reload.
     await page.reload();
     await on.until(page, () => document.querySelector('.guesses input')?.value === '0.5', 'the number should be kept');
     const verdict = 'You said 0.5 of the share of Ra: it is 0.96, 1.9 times too little.';
@@ -545,7 +534,7 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
         if (top !== null) e.scrollTop = top;
         return e.scrollTop;
       }, to);
-    // What was written is followed to its end, and only then something else is looked at.
+    // The editor scrolls to the end first.
     await on.comesTrue(async () => (await scrolled(null)) >= 1300, 'the end should be shown');
     await on.settled(page, () => scrolled(null));
     await scrolled(1200);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Axes: prefix units, ranges, and tics a reader can use, up to the ends of the doubles.
 #include "engine/plot/chart_axis.hpp"
 
 #include <cmath>
@@ -49,7 +48,6 @@ TEST(ChartAxis, ConvertsUnitsThatAreNotSi) {
   EXPECT_DOUBLE_EQ(layout.factor, 1000);
 }
 
-// B9: a share in per cent stays one, with its unit.
 TEST(ChartAxis, B9SharesKeepTheirPerCent) {
   const AxisLayout layout = lay(axis("share", "%"), {10, 30});
   EXPECT_EQ(layout.label, "share (%)");

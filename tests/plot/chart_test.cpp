@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts: what is left out and said, what is refused, and files that come out whole.
 #include "engine/plot/chart.hpp"
 
 #include <cmath>
@@ -83,7 +82,7 @@ TEST(Chart, SaysWhatIsNotDrawn) {
                 "1 of 6 values are not drawn: `mu` is not above zero, and its axis is logarithmic"}));
 }
 
-// B13: a number that is too large for the plot is no missing one.
+// A value beyond the plot's range is not a missing value.
 TEST(Chart, B13SaysThatANumberIsTooLarge) {
   LineChart chart = simple();
   chart.series[0].y[0] = 2e300;
@@ -195,7 +194,7 @@ TEST(Chart, BandStandsBehindItsLine) {
   EXPECT_LT(band, line);
   EXPECT_NE(script.find("$line1 using 1:2 with lines linecolor rgb '#d55e00'"), std::string::npos);
   EXPECT_EQ(script.find("yerrorbars"), std::string::npos);
-  EXPECT_NE(script.find("set yrange [0.17"), std::string::npos);  // the band counts, with a margin
+  EXPECT_NE(script.find("set yrange [0.17"), std::string::npos);  // includes the band with a margin
   chart.series[1].y_low.pop_back();
   EXPECT_THROW(script_of(chart), Error);
 }
@@ -265,12 +264,11 @@ TEST(Chart, PanelsStandBelowEachOtherOverOneRange) {
   EXPECT_NE(script.find("set xrange [0.8:6.2]", first + 1), std::string::npos);
   EXPECT_NE(script.find("$panel1line0"), std::string::npos);
   EXPECT_NE(script.find("set lmargin at screen 0.13\n"), std::string::npos);
-  // Longer numbers along y: their label needs room left of them.
+  // Longer labels need more room.
   above.series[0].y = {0.003, 0.004, 0.005};
   EXPECT_EQ(chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings)
                 .find("set lmargin at screen 0.13\n"),
             std::string::npos);
-  // Of different quantities each has its own.
   below.x.label = "force";
   EXPECT_EQ(
       chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings).find("[0.8:6.2]"),

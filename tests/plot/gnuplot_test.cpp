@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running gnuplot: text that stays text, the same bytes twice, and what its failures say.
 #include "engine/plot/gnuplot.hpp"
 
 #include <cstdlib>
@@ -82,7 +81,7 @@ TEST_F(Gnuplot, RunsNothingThatStandsInText) {
   EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
-// F9: with few handles gnuplot drew without its fonts, complained, and nobody heard.
+// gnuplot drew without fonts when handles were scarce, and only complained on stderr.
 TEST_F(Gnuplot, F9WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
   const GnuplotResult odd = run_gnuplot(script(PictureFormat::png, "print \"no\\nfont\"\nplot x\n"));
   EXPECT_TRUE(odd.picture.starts_with("\x89PNG"));

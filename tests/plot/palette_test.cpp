@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Palettes: their ends, order of lightness, and line colours that differ.
 #include "engine/plot/palette.hpp"
 
 #include <cmath>
@@ -10,7 +9,7 @@
 namespace asperity::palette_test {
 namespace {
 
-// Relative luminance of the sRGB colour, roughly what grey print shows.
+// Weighted sRGB value, as in grey print.
 double lightness(unsigned rgb) {
   return 0.2126 * (rgb >> 16 & 255U) + 0.7152 * (rgb >> 8 & 255U) + 0.0722 * (rgb & 255U);
 }
@@ -32,7 +31,7 @@ TEST(Palette, OrderedOnesAreOrderedInGreyPrint) {
     EXPECT_GT(lightness(palette("heat").colour(k / 20.0)), lightness(palette("heat").colour((k + 1) / 20.0)));
 }
 
-// Of sRGB colours, as WCAG 2 has it.
+// Relative luminance as in WCAG 2.
 double luminance(unsigned rgb) {
   const auto linear = [rgb](unsigned shift) {
     const double share = (rgb >> shift & 255U) / 255.0;
@@ -41,7 +40,6 @@ double luminance(unsigned rgb) {
   return 0.2126 * linear(16) + 0.7152 * linear(8) + 0.0722 * linear(0);
 }
 
-// T8
 TEST(Palette, NothingStandsOutFromEachPressureByThreeToOne) {
   const Palette& heat = palette(palette_of_field("pressure"));
   const double nothing = luminance(heat.colour(0));

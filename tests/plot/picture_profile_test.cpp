@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of profiles: traces, outlines, and long traces that keep their peaks.
 #include "engine/plot/picture_profile.hpp"
 
 #include <algorithm>
@@ -35,7 +34,7 @@ TEST(PictureProfile, LongTracesKeepTheirPeaks) {
   EXPECT_TRUE(std::ranges::is_sorted(chart.series[0].x));
 }
 
-// Gaps break the line, without a word of loss; peaks of long traces stay, beside gaps too.
+// Gaps break the line without a warning; peaks next to gaps remain.
 TEST(PictureProfile, GapsBreakTheLine) {
   const double hole = std::nan("");
   const NamedProfile item{"", Profile::with_holes(1e-6, {hole, 1e-6, 2e-6, hole, hole, 1e-6, 3e-6, hole})};
@@ -44,7 +43,7 @@ TEST(PictureProfile, GapsBreakTheLine) {
   EXPECT_TRUE(warnings.empty());
   const std::size_t begin = script.find("$line0 << EOD\n"), end = script.find("EOD\n", begin + 14);
   const std::string data = script.substr(begin + 14, end - begin - 14);
-  EXPECT_EQ(std::ranges::count(data, '\n'), 5);  // four points and the empty line between two and two
+  EXPECT_EQ(std::ranges::count(data, '\n'), 5);  // four points and an empty line
   EXPECT_NE(data.find("\n\n"), std::string::npos);
 
   Array<double> heights(100003, 0.0);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of fields: means that conserve, true scale, strips, blanks, and what is refused.
 #include "engine/plot/picture.hpp"
 
 #include <cmath>
@@ -41,7 +40,7 @@ TEST(Reduced, AveragesByArea) {
   EXPECT_NEAR(small(1, 0), (10 + 0.5 * 4) / 1.5, 1e-15);
 }
 
-// The colours are those of what was measured, and what was not is no number to draw.
+// The colour range excludes missing points, which stay blank.
 TEST_F(PictureTest, LeavesPointsBlankThatWereNotMeasured) {
   Field z = ramp(40, 30);
   z(39, 29) = std::numeric_limits<double>::quiet_NaN();
@@ -76,7 +75,6 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
   EXPECT_EQ(picture.cells.size(), 64U * 64U * sizeof(float));
 }
 
-// F9: the title of a relief's colour bar lay over its numbers.
 TEST(Picture, F9AReliefNamesItsBarAboveIt) {
   PictureOptions options;
   options.view = PictureOptions::View::relief;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps and charts in characters.
 #include "engine/plot/text_picture.hpp"
 
 #include <gtest/gtest.h>

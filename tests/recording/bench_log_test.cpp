@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The log of a bench: what was done by protocol or by hand reads back as it was done, with what was measured
-// beside it; and a recording that was detected, run and logged comes back as the same events.
+// The log of a bench reads back as performed, with its measurements.
 #include "engine/recording/bench_log.hpp"
 
 #include <numbers>

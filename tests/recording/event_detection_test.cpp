@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events found in recordings whose truth is known: counts, loads within four standard errors, dwells within
-// two steps of time, over noise, drift, slow ramps, short holds and overshoot; and what is said where the
-// noise is too much.
+// Recordings with known truth: loads within four standard errors and dwells within two time steps, despite
+// noise, drift, slow ramps, short holds and overshoot; warnings if the noise is too large.
 #include "engine/recording/event_detection.hpp"
 
 #include <filesystem>
@@ -23,7 +22,7 @@ std::string kinds(const Protocol& protocol) {
   return all;
 }
 
-// What differs from the truth, "" if nothing does.
+// The first difference from the truth, or "".
 std::string difference(const SyntheticPress& press, const SyntheticTruth& truth, const Protocol& found) {
   std::string wanted;
   for (const SyntheticHold& hold : press.holds) {
@@ -48,10 +47,10 @@ std::string difference(const SyntheticPress& press, const SyntheticTruth& truth,
         found.recording()->spans.begin(), found.recording()->spans.end(), [&](const RecordedSpan& s) {
           return s.kind == RecordedSpan::Kind::hold && s.end > truth.holds[k].begin + 0.4 * hold.dwell;
         });
-    // A load on its way down to a hold counts as held once it is within two per cent.
+    // A hold begins once an overshoot is within two per cent.
     const double settling = hold.overshoot > 0 ? 1.5 * hold.rise * std::min(1.0, 0.02 / hold.overshoot) : 0;
     const double drift = std::abs(press.drift) * 0.02;
-    // A sample of a ramp within the level, at either end.
+    // Samples of both ramps within the level.
     const double corners = 0.002 * hold.load;
     if (std::abs(pressed.value - hold.load) > 4 * span.load_error + drift + corners)
       return "a load of " + of(pressed.value) + " where " + of(hold.load) + " was held, to " +
@@ -79,7 +78,7 @@ SyntheticPress random_press(std::mt19937_64& random) {
   double last = 0;
   for (int k = 0; k < holds; ++k) {
     SyntheticHold hold;
-    // No load within a tenth of the one before, which without a rest would be the same hold.
+    // Without a rest, loads within ten per cent are one hold.
     do hold.load = 100 * std::pow(10, uniform(random));
     while (std::abs(hold.load - last) < 0.1 * std::max(hold.load, last));
     last = hold.load;
@@ -102,7 +101,7 @@ double lowest(const SyntheticPress& press) {
 }
 
 struct Outcome {
-  std::string difference;  // "" for the truth
+  std::string difference;  // "": the truth
   bool warned_of_noise = false, refused = false;
   std::string warnings;
 };
@@ -124,8 +123,8 @@ Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   return outcome;
 }
 
-// Protocols by the hundred, with holds of 25 samples and more, ramps of up to 40, steps between holds
-// without a rest, zeros off by up to 30 % of the lowest hold, and cells missing in every third recording.
+// Holds of at least 25 samples, ramps of up to 40, direct steps between holds, zero offsets up to 30 % of
+// the lowest hold, missing cells in every third recording.
 TEST(EventDetection, FindsWhatWasDone) {
   for (const double noise : {0.0, 0.001, 0.005, 0.01, 0.02, 0.05}) {
     std::mt19937_64 random(17);
@@ -139,7 +138,7 @@ TEST(EventDetection, FindsWhatWasDone) {
   }
 }
 
-// Up to noise in which the lowest hold drowns: what is found is the truth, or it is said that it may not be.
+// With noise up to the lowest hold: the truth or a warning.
 TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   int wrong = 0, said = 0;
   for (const double noise : {0.1, 0.2, 0.5, 1.0, 3.0}) {
@@ -160,8 +159,7 @@ TEST(EventDetection, SaysWhereTheNoiseIsTooMuch) {
   EXPECT_GT(said, 500);
 }
 
-// A press that shoots over by 5 to 30 %, and a zero that drifts by half a per cent of the highest load a
-// hold.
+// Overshoot of 5 to 30 %; per hold the zero drifts by half a per cent of the highest load.
 TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   for (const double noise : {0.0, 0.002, 0.005}) {
     std::mt19937_64 random(29);
@@ -184,7 +182,7 @@ TEST(EventDetection, FindsOvershootAndFollowsTheZero) {
   }
 }
 
-// Ramps of hundreds of samples to holds of eight, told or said not to be.
+// Ramps of hundreds of samples, holds of eight.
 TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   for (const double noise : {0.0, 0.001, 0.01}) {
     for (unsigned seed = 0; seed < 200; ++seed) {
@@ -200,7 +198,7 @@ TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   }
 }
 
-// Four presses with turns, as a logger at 10 Hz writes them.
+// Sampled at 10 Hz.
 SyntheticPress four_presses() {
   SyntheticPress press;
   press.step = 0.1;
@@ -208,7 +206,7 @@ SyntheticPress four_presses() {
   return press;
 }
 
-// F8: noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
+// Slow waves of filtered noise, y(k) = r y(k-1) + e, are not holds.
 TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   for (const double share : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -242,7 +240,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   }
 }
 
-// F8: a sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
+// A sensor saturated at 50 kN in a hold of 78 kN reads a constant.
 TEST(EventDetection, F8AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
@@ -259,7 +257,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
   }
 }
 
-// F8: compression recorded as negative is not told as a turn under load.
+// Negative compression is not a turn under load.
 TEST(EventDetection, F8NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;
@@ -272,8 +270,8 @@ TEST(EventDetection, F8NegativeCompressionIsSaid) {
       << error;
 }
 
-// After a filter neighbouring readings are alike, and what is no press must not become one unsaid. The error
-// of a load may then be told too small, so loads are looked at in the count alone.
+// Correlated noise must not become a press unnoticed. Load errors may be underestimated, so only counts are
+// checked.
 TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   for (const double noise : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -291,7 +289,7 @@ TEST(EventDetection, F8FilteredNoiseIsNoPress) {
   }
 }
 
-// A recording of samples at one a second, with an angle where it is given.
+// One sample per second.
 struct Sample {
   double load;
   double angle = 0;
@@ -430,7 +428,7 @@ TEST(EventDetection, AMillionSamplesTakeNoLonger) {
   EXPECT_EQ(difference(press, truth, detect_events(recording)), "");
 }
 
-// Loads are rounded to digits that mean something, which one wild sample must not take from all others.
+// One extreme sample must not coarsen all loads.
 TEST(EventDetection, OneSampleFarTooHighLeavesEveryPressItsLoad) {
   const std::filesystem::path file =
       std::filesystem::path(ASPERITY_TEST_DATA) / "../fuzz/corpus/press_recording/one_sample_too_high.csv";

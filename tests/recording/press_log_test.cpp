@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Press logs: rows as people write them become events, everything wrong with a file is named by line and
-// column, and a protocol written out reads back as itself.
+// Rows become events, errors name line and column, written protocols read back equal.
 #include "engine/recording/press_log.hpp"
 #include "engine/core/files/source_file.hpp"
 
@@ -25,14 +24,13 @@ class PressLog : public InFolder {
     write_log(content);
     return read_press_log(path(), listener);
   }
-  // One event a line.
   std::string events(const std::string& content) {
     std::string lines;
     const Protocol protocol = read(content);
     for (const Protocol::Event& event : protocol.events()) lines += text(event.step) + "\n";
     return lines;
   }
-  // The error without the name of the file.
+  // The error without the file name.
   std::string refusal(const std::string& content) {
     write_log(content);
     std::string error = error_of([&] { read_press_log(path(), listener); });
@@ -62,7 +60,6 @@ TEST_F(PressLog, RowsAreEvents) {
             "  3  rotate 90 deg (at 900 s, log.csv line 3)\n"
             "  4  press 152.78 MPa for 10 min (at 900 s, log.csv line 3)\n"
             "  5  release (at 1800 s, log.csv line 4)");
-  // The same doubles as in a script.
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).value, 152.78e6);
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).dwell, 600.0);
   EXPECT_EQ(p.events()[3].origin, "log.csv line 3");
@@ -118,11 +115,11 @@ TEST_F(PressLog, CommentsEndARowAndNotesMayHoldTheirMark) {
 }
 
 TEST_F(PressLog, NoPressureTakesTheLoadOff) {
-  // The last row is not blank: it has a dwell.
+  // The last row has a dwell, so it is not blank.
   EXPECT_EQ(events("pressure [MPa]; dwell [s]\n1;\n0;\n;\n;0\n"), "press 1 MPa\nrelease\nrelease\n");
 }
 
-// F8: a forgotten number and a release look the same.
+// A forgotten number looks like a release.
 TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n,45\n"),
             "press 1 MPa\nrelease\nrotate 90 deg\npress 1 MPa\nrelease\nrotate 45 deg\n");
@@ -136,7 +133,7 @@ TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: twenty minutes do not fit between two presses ten minutes apart.
+// Twenty minutes do not fit in ten.
 TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -149,7 +146,7 @@ TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: in half of all laboratories 1,250 is twelve hundred and fifty.
+// 1,250 is a thousand in many countries.
 TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
             "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
@@ -172,7 +169,6 @@ TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
   EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
 }
 
-// F8: the forms in which loggers and spreadsheets write a log.
 TEST_F(PressLog, F8FormsOfLoggersAreRead) {
   const std::string first = "press 1 MPa (at 0 s, ", second = "press 2 MPa (at 900 s, ";
   const std::string utf8 = "time [s],pressure [MPa]\n0,1\n900,2\n";
@@ -201,7 +197,6 @@ TEST_F(PressLog, F8FormsOfLoggersAreRead) {
             std::string::npos);
 }
 
-// F8: what a log does not say may be said beforehand.
 TEST_F(PressLog, F8FormsThatAreSaid) {
   const auto said = [this](const std::string& log, const TableForm& form) {
     std::string lines;
@@ -238,7 +233,6 @@ TEST_F(PressLog, F8FormsThatAreSaid) {
       "`load`");
 }
 
-// F8: what can be read in two ways, or not at all, is refused with what to write.
 TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
@@ -270,12 +264,12 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
     const std::string error = refusal(log);
     EXPECT_NE(error.find(words), std::string::npos) << log << "\n" << error;
   }
-  // The call chooses between two columns by their titles.
+  // Titles decide between two columns.
   EXPECT_EQ(events("load [N],result pressure [Pa]\n1,1\n"), "press 1 N\n");
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: an angle is a reading of a stage; in a table of events the turn is called otherwise.
+// An angle is a stage reading, not a turn.
 TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -389,7 +383,7 @@ TEST_F(PressLog, FilesThatAreNoLogs) {
   EXPECT_NE(error_of([&] { read_press_log(path() + "x"); }).find("there is no file"), std::string::npos);
 }
 
-// A spreadsheet of another country: semicolons, decimal commas, Latin-1, CRLF, notes.
+// Semicolons, decimal commas, Latin-1, CRLF, notes.
 TEST_F(PressLog, AFileAsItIsKept) {
   const Protocol p = read_press_log(ASPERITY_TEST_DATA "/../data/press_log.csv", listener);
   EXPECT_EQ(p.text(),
@@ -406,8 +400,6 @@ TEST_F(PressLog, AFileAsItIsKept) {
   ASSERT_EQ(listener.warnings.size(), 1U);
   EXPECT_NE(listener.warnings[0].find("\"Operator\""), std::string::npos);
 }
-
-// --- written out
 
 TEST_F(PressLogWriter, WritesWhatAPersonWould) {
   const std::string log =

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press: units of the titles, missing cells, and everything wrong with a file by line and
-// column; and which tables look like one.
+// Units, missing cells, errors by line and column, recognition.
 #include "engine/recording/press_recording.hpp"
 
 #include <cmath>
@@ -65,7 +64,7 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
   EXPECT_TRUE(refusal("time [s],load [N]\n").find("names columns but holds no row") != std::string::npos);
 }
 
-// F8: a recording with a unit that is not read is none the less a recording.
+// An unknown unit does not prevent recognition.
 TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   std::string text = "time [s],load [kN],angle [gon]\n";
   for (int k = 0; k < 120; ++k)
@@ -88,7 +87,7 @@ TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
   EXPECT_DOUBLE_EQ(r.angle[1], 0.5 * std::numbers::pi);
 }
 
-// F8: a logger that is faster than its clock.
+// A logger faster than its clock.
 TEST(PressRecording, F8EqualTimesAreSpreadWhereThatIsSaid) {
   const SourceFile file("press.csv", "time [s],load [N]\n0,1\n0,2\n1,3\n1,4\n2,5\n2,6\n2,7\n");
   Listener listener;

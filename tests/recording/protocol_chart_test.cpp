@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a protocol's chart shows: a recording with what was found in it, recorded times, dwells that add up,
-// or events one by one.
 #include "engine/recording/protocol_chart.hpp"
 
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings in which rows are absent: what was recorded beside a gap is found, what may have happened in one
-// is refused or warned of as for empty cells, and a logger that writes at uneven times loses no rows by that.
+// Events outside absent rows are found; possible events in gaps are refused or reported; uneven sampling is
+// no gap.
 #include "engine/recording/recording_holes.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ PressRecording recorded(const std::vector<double>& times, const std::function<do
   return recording;
 }
 
-// Row k on line k + 2; `count` of them left out, or their loads missing.
+// Row k is on line k + 2; `count` rows or their loads are missing.
 PressRecording without_rows(const PressRecording& all, std::size_t first, std::size_t count) {
   PressRecording recording;
   recording.name = all.name;
@@ -53,7 +53,7 @@ std::vector<double> seconds(std::size_t count) {
   return times;
 }
 
-// Four minutes at a sample a second: rest, a level, `between` until 150 s, another level, rest.
+// One sample per second: rest, `first`, `between` until 150 s, `second`, rest.
 PressRecording two_levels(double first, double between, double second) {
   return recorded(seconds(260), [=](double t) {
     return t < 20 ? 0 : t < 100 ? first : t < 150 ? between : t < 220 ? second : 0;
@@ -80,8 +80,7 @@ TEST(RecordingHoles, AHoldAfterAGapIsKept) {
   EXPECT_NE(found.recording()->text().find("some 46 more absent"), std::string::npos);
 }
 
-// Every second under load, every ten seconds elsewhere and while the load steps: what lasts as long as it was
-// recorded is a hold, though the steps of time beside it are nearly as long.
+// Every second under load, otherwise every ten: the hold counts.
 TEST(RecordingHoles, AHoldBetweenLongStepsIsNeitherSwallowedNorAPeak) {
   std::vector<double> times{0};
   const auto go = [&](int count, double step) {
@@ -138,7 +137,6 @@ TEST(RecordingHoles, AGapInAHoldOrARestIsWarnedOf) {
   EXPECT_TRUE(brief.told("the load is missing while it changes, in the time between lines 100 and 103"));
 }
 
-// Wherever a stretch is lost: the same is refused, found to the digit, and warned of as often.
 TEST(RecordingHoles, AbsentRowsAndEmptyCellsGiveTheSameFinding) {
   const auto finding = [](const PressRecording& recording) {
     Listener listener;
@@ -174,7 +172,7 @@ TEST(RecordingHoles, AbsentRowsAndEmptyCellsGiveTheSameFinding) {
   EXPECT_LT(refused, 250);
 }
 
-// In bursts, at random, or seldom while the load stays.
+// In bursts, at random, or rarely under constant load.
 TEST(RecordingHoles, UnevenStepsAreNoGaps) {
   const auto load = [](double t) {
     const auto pressed = [t](double from, double to, double height) {
@@ -203,7 +201,7 @@ TEST(RecordingHoles, UnevenStepsAreNoGaps) {
   }
 }
 
-// What is lost so often that it is taken for the way of sampling is said too.
+// Frequent gaps look like the sampling: a warning.
 TEST(RecordingHoles, StepsTooUnevenToTellGapsAreWarnedOf) {
   PressRecording recording = two_levels(75, 0, 50);
   for (std::size_t first = 5; first + 21 < recording.time.size(); first += 15)

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stray readings on ramps, holds and rests leave the presses of a recording as they were; short presses and
-// sudden releases are not taken for stray.
 #include "engine/recording/stray_readings.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +33,7 @@ PressRecording recorded(const std::vector<double>& loads, double step = 1) {
   return recording;
 }
 
-// 20 s of rise to 40 N, 80 s of hold and 20 s of fall, two readings a second.
+// 20 s rise to 40 N, 80 s hold, 20 s fall, two readings per second.
 std::vector<double> one_press() {
   std::vector<double> loads;
   for (int k = 0; k <= 480; ++k) {
@@ -53,7 +51,7 @@ std::vector<std::string> stray_warnings(const Listener& listener) {
   return found;
 }
 
-// One press of 40 N for 80 s, whatever the readings from `first` on are.
+// Readings from `first` on do not change one press of 40 N for 80 s.
 void expect_one_press(std::size_t first, const std::vector<double>& readings) {
   std::vector<double> loads = one_press();
   std::copy(readings.begin(), readings.end(), loads.begin() + static_cast<std::ptrdiff_t>(first));
@@ -105,7 +103,7 @@ std::vector<double> operator+(std::vector<double> a, const std::vector<double>& 
 }
 std::vector<double> times(std::size_t count, double load) { return std::vector<double>(count, load); }
 
-// No reading is called stray, and the presses are these.
+// No stray reading.
 void expect_kept(const std::vector<double>& loads, const std::string& wanted) {
   Listener listener;
   EXPECT_EQ(kinds(detect_events(recorded(loads), {}, listener)), wanted);
@@ -149,7 +147,7 @@ TEST(StrayReadings, SuddenReleasesAndOvershootsAreKept) {
   expect_kept(rest + times(20, 40) + times(3, 0) + times(20, 60) + rest, "prreprre");
 }
 
-// 300 recordings with up to ten stray readings each, in runs of up to three.
+// Up to ten stray readings, in runs of up to three.
 class RandomRecording {
  public:
   explicit RandomRecording(unsigned seed) : random_(seed) {
@@ -226,7 +224,6 @@ class RandomRecording {
       count += length;
     }
   }
-  // A sensor's greatest reading, zero, or anything between.
   double value() {
     const double kind = uniform(), sign = uniform() < 0.5 ? -1 : 1;
     return kind < 0.25 ? sign * 1e4 * highest_ : kind < 0.5 ? 0 : sign * highest_ * (0.5 + 3 * uniform());

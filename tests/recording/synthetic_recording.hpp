@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings with known truth: a protocol of holds, releases and turns played on a clock that jitters, with
-// noise, a zero that drifts, cells that are missing, overshoot and ramps of any slowness.
+// Recordings with known truth: holds, releases and turns on a jittering clock, with noise, drift, missing
+// cells and overshoot.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,6 @@
 
 namespace asperity {
 
-// Keeps what is warned of.
 class Listener final : public Monitor {
  public:
   void progress(std::string_view, double) override {}
@@ -32,18 +31,18 @@ class Listener final : public Monitor {
 struct SyntheticHold {
   double load, dwell;         // N, s
   double rise = 1, fall = 1;  // s
-  double overshoot = 0;       // share of the load; reached in a straight line and left in one
-  double rest = 20;           // s without load afterwards; 0: goes on to the next hold
-  double turn = 0;            // rad, in that rest
+  double overshoot = 0;       // share of the load; straight up and down
+  double rest = 20;           // s without load; 0: directly to the next hold
+  double turn = 0;            // rad, during the rest
 };
 
 struct SyntheticPress {
   std::vector<SyntheticHold> holds;
-  double step = 0.1, jitter = 0.5;  // s, and share of it
+  double step = 0.1, jitter = 0.5;  // s, and share of the step
   double noise = 0;                 // N
-  double likeness = 0;              // of the noise of neighbouring readings: 0.9 after a slow filter
-  double offset = 0, drift = 0;     // N, and N over the whole
-  double missing = 0;               // share of cells without load, within holds and rests
+  double likeness = 0;              // correlation of neighbours; 0.9: slow filter
+  double offset = 0, drift = 0;     // N, and N over the recording
+  double missing = 0;               // share of missing loads
   double first_rest = 20;
 };
 
@@ -51,7 +50,7 @@ struct SyntheticTruth {
   struct Corner {
     double time, load;
   };
-  std::vector<Corner> corners;  // of the load without noise
+  std::vector<Corner> corners;  // of the noise-free load
   struct Hold {
     double begin, end, load, steps;
   };
@@ -114,7 +113,7 @@ inline PressRecording play(const SyntheticPress& press, unsigned seed, Synthetic
         a.load + (b.load - a.load) * (b.time > a.time ? (t - a.time) / (b.time - a.time) : 0);
     scatter = press.likeness * scatter + fresh * normal(random);
     double reading = clean + press.offset + press.drift * t / end + press.noise * scatter;
-    // Missing where neither this nor the next few samples are near a corner.
+    // At least five steps from a corner.
     const bool steady = a.load == b.load && t - a.time > 5 * press.step && b.time - t > 5 * press.step;
     if (steady && uniform(random) < press.missing) reading = std::numeric_limits<double>::quiet_NaN();
     recording.time.push_back(t);

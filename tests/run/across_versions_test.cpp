@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of a run by another minor version: which values are compared, to how many digits, and which
-// differences are reported.
 #include "engine/run/across_versions.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +49,7 @@ TEST(AcrossVersions, NumbersAreComparedInTheDigitsThatAreKept) {
   EXPECT_EQ(other.differences[0].again, "1.00002");
 }
 
-// A mean of heights that is 0 but for rounding has no digits to compare.
+// Rounding of a zero mean has no digits.
 TEST(AcrossVersions, RoundingOfAColumnIsNotCompared) {
   const auto then_and_now = [&](const std::string& one, const std::string& other) {
     return compared({row(R"("z":2.0)"), row(R"("z":)" + one)}, {row(R"("z":2.0)"), row(R"("z":)" + other)})
@@ -68,7 +66,7 @@ TEST(AcrossVersions, TextsVerdictsAndColumnsOfTheRecordMustBeThere) {
   EXPECT_EQ(compared({row(R"("t":1)")}, {row(R"("t":1,"u":1)")}).differences.size(), 0U);
   EXPECT_EQ(compared({verdict("true", "a")}, {verdict("true", "b")}).differences.size(), 0U);
   EXPECT_EQ(compared({verdict("true", "a")}, {verdict("false", "a")}).differences.size(), 1U);
-  // A column may have the name of a member of a verdict.
+  // A column and a verdict's member may share a name.
   EXPECT_EQ(compared({row(R"("passed":1,"a":1)")}, {row(R"("passed":1,"a":2)")}).differences.size(), 1U);
 }
 
@@ -79,7 +77,7 @@ TEST(AcrossVersions, RowsAreCountedByNotebook) {
   EXPECT_EQ(fewer.differences[0].again, "1");
   EXPECT_EQ(compared({row("\"a\":1")}, {row("\"a\":1"), row("\"a\":2")}).differences.size(), 1U);
   EXPECT_EQ(compared({row("\"a\":1", "x")}, {row("\"a\":1", "y")}).differences.size(), 1U);
-  // Warnings and calls come and go between versions.
+  // Warnings and calls may differ between versions.
   EXPECT_TRUE(
       compared({row("\"a\":1", "x"), row("\"a\":1", "y")},
                {R"({"event":"warning","sentence":"steep"})", row("\"a\":1", "y"), row("\"a\":1", "x")})

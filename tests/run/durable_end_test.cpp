@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run waits for before its manifest says that it is done: this program's own fsync and rename stand
-// before those of the system and keep the order in which files are brought to the disk.
+// All files are on disk before the manifest says done. Replaces fsync and rename to record their order.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -105,7 +104,7 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   EXPECT_GT(last("sync " + root), said);
 }
 
-// Small results share a file and a wait for the disk: what came since the last one is waited for at the end.
+// The end of the run waits for results of a shared file.
 TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
@@ -131,7 +130,7 @@ TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone)
   EXPECT_LT(first("sync " + log), last("to " + run.path().string() + "/manifest.json"));
 }
 
-// What it takes to go on after a cut is there before the script begins.
+// A resume needs both files.
 TEST_F(DurableEnd, F2ScriptAndManifestAreOnTheDiskFromTheBeginning) {
   RunSetup setup;
   setup.script_name = "s.lua";

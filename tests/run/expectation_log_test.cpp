@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verdicts of a run and their summary.
 #include "engine/run/expectation_log.hpp"
 
 #include <gtest/gtest.h>

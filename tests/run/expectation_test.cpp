@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expectations: every form, the edges, negative controls, and what cannot be judged.
 #include "engine/run/expectation.hpp"
 
 #include <cmath>
@@ -10,7 +9,7 @@
 namespace asperity::expectation_test {
 namespace {
 
-// mu rises with D by 0.1 a step on average; single seeds do not.
+// Mean mu rises with D by 0.1 a step; single seeds may fall.
 Table study() {
   Table table;
   for (int k = 0; k < 3; ++k)
@@ -234,11 +233,11 @@ TEST(Expectation, RefusesToSayNothing) {
             "bad_value: `increasing_in` and `decreasing_in` both name `D`; keep one of them");
 }
 
-// B6: a bound written with a unit is counted in the unit of its column.
+// A bound is converted to the column's unit.
 struct UnitCase {
   const char* column;    // its unit
   const char* quantity;  // of the bound
-  double cell;           // the same in the column's unit
+  double cell;           // in the column's unit
 };
 constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},       {"MPa", "0.01 GPa", 10},
                                   {"kPa", "10 MPa", 10000},    {"Pa", "10 MPa", 1e7},
@@ -309,7 +308,6 @@ TEST(Expectation, B6SaysWhatWasWantedInTheUnitOfTheColumn) {
   EXPECT_EQ(judge(e, table).sentence, "`p` should be near 10 MPa within 1.5, but row 1 has 12 (1 of 1 row)");
   e.within = ExpectedValue(std::string_view("0.002 GPa"));
   EXPECT_EQ(judge(e, table).sentence, "`p` is near 10 MPa within 2 MPa (1 row, 12)");
-  // A quantity beside a plain number: they are compared once both are in the column's unit.
   Expectation between = about("p");
   between.at_least = ExpectedValue(std::string_view("5 MPa"));
   between.at_most = 20.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The journal: one whole line an event, numbered, from any thread, until it is closed.
+// One whole numbered line per event, from any thread, until closed.
 #include "engine/run/journal.hpp"
 
 #include <limits>
@@ -74,7 +74,7 @@ TEST(Journal, WithoutAFileOnlyCounts) {
   EXPECT_EQ(journal.count(), 1);
 }
 
-// A run that is taken up again writes the same lines; those that stand there are not written twice.
+// A resumed run does not write existing lines twice.
 TEST_F(JournalTest, IsRepeatedUpToWhereItEndedAndThenGoesOn) {
   const auto first_lines = [](Journal& journal) {
     journal.write("begin", Json::object({{"seed", 1}}));
@@ -135,7 +135,7 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
   EXPECT_EQ(content_of(folder / "j.jsonl"), before);
 }
 
-// F14: a power cut leaves holes, which read as zeros; from there on the run writes its lines again.
+// A power cut leaves zeros; the run rewrites lines from there.
 TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
   const auto lines = [](Journal& journal) {
     for (int k = 1; k <= 4; ++k) journal.write("row", Json::object({{"row", Json::object({{"k", k}})}}));
@@ -173,7 +173,7 @@ TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
   EXPECT_EQ(content_of(folder / "victim"), before);
 }
 
-// As in a copy of a run directory by hard links: the copy stays as it is, and the journal is whole.
+// A hard-linked copy stays unchanged; the journal is complete.
 TEST_F(JournalTest, S3AnotherNameOfTheFileKeepsItsBytes) {
   const std::filesystem::path file = folder / "j.jsonl", copy = folder / "copy";
   {

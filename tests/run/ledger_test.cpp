@@ -45,7 +45,7 @@ TEST(Ledger, ACallIsChargedWhatItDidItself) {
   EXPECT_EQ(report.transforms, 31);
 }
 
-// Lines and remainder make the whole, whatever was done in between.
+// Lines and remainder sum to the total.
 TEST(Ledger, NothingIsLostOrCountedTwice) {
   Ledger ledger;
   for (int k = 0; k < 4; ++k) {
@@ -96,7 +96,7 @@ TEST(Ledger, CasesAreKeptApartWhateverThreadRunsThem) {
   const LedgerReport report = ledger.report();
   EXPECT_EQ(line_of(report, "contact:press", true)->calls, 2);
   EXPECT_EQ(line_of(report, "contact:press"), nullptr);
-  // The cases' time is also that in which the ensemble waited for them.
+  // The ensemble waits while its cases run.
   EXPECT_GE(line_of(report, "lab.ensemble")->cost.seconds, 2e-3);
   EXPECT_EQ(line_of(report, "lab.ensemble")->cost.transforms, 0);
   EXPECT_EQ(report.transforms, 10);
@@ -125,7 +125,7 @@ TEST(Ledger, TextAndJsonSayTheSame) {
   ledger.add("contact:press", false, {1.5, 48, 3 << 20});
   ledger.add_effects(Effects{{"elasticity", {1.5, 48, 3 << 20}}});
   const LedgerReport report = ledger.report();
-  // The columns are as wide as the time of the run makes them.
+  // The total time sets the column width.
   EXPECT_TRUE(std::regex_search(report.text(), std::regex("\n  contact:press +1 +1.5 s +48 +3 MiB\n")))
       << report.text();
   const Json json = Json::parse(report.json().text(), "ledger");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of notebooks: lines, means and spreads, labels, and what is refused.
 #include "engine/run/notebook_chart.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The notebook: journalled rows, a CSV that is whole after every write, expectations on the log.
+// Journalled rows and a CSV complete after every write.
 #include "engine/run/notebook.hpp"
 
 #include <thread>
@@ -64,7 +64,7 @@ TEST_F(NotebookTest, RowsOfManyThreadsAreAllThere) {
 
 TEST_F(NotebookTest, WritesAgainWhatTheDiskRefused) {
   write({{"a", 1.0}});
-  // A folder in the way of the temporary name is beyond what a test can rely on; a missing folder is not.
+  // A missing folder fails reliably; a folder at the temporary name does not.
   std::filesystem::rename(folder / "book.csv", folder / "kept.csv");
   Notebook lost("lost", folder / "gone" / "lost.csv", *journal, log);
   const std::vector<Entry> row = {{"a", 1.0}};
@@ -103,7 +103,7 @@ TEST_F(NotebookTest, WithoutAFileKeepsRowsInMemory) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
-// Cut off again while it repeats its rows, a run still has all it had.
+// The resumed run is interrupted while it repeats rows.
 TEST_F(NotebookTest, TheFileOfARunThatIsTakenUpNeverLosesARow) {
   write({{"N", 1.0}});
   write({{"N", 2.0}});

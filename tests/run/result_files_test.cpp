@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results in a folder: what is kept comes back to the bit, what is damaged does not, and the folder stays
-// within its limit.
+// Stored results return bit for bit, damaged files are ignored, the folder has a limit.
 #include "engine/run/result_files.hpp"
 
 #include <chrono>
@@ -89,7 +88,7 @@ TEST_F(ResultFilesTest, CheapResultsAreNotWorthAFile) {
   EXPECT_FALSE(std::filesystem::exists(folder / "store"));
 }
 
-// Cut at every length, and one bit flipped in every byte: never taken for the result, never a crash.
+// Cut at any length, or one bit flipped: never the result, never a crash.
 TEST_F(ResultFilesTest, ATornOrAlteredFileIsNotTakenForTheResult) {
   ResultFiles writer(setup());
   keep(writer, "key", ramp());
@@ -110,13 +109,13 @@ TEST_F(ResultFilesTest, ATornOrAlteredFileIsNotTakenForTheResult) {
     write(altered);
     std::optional<FoundResult> found = ResultFiles(setup()).find("key");
     if (!found) continue;
-    ++harmless;  // bytes that mean nothing, such as padding
+    ++harmless;  // padding, for example
     EXPECT_EQ(found->number("approach"), 1.0 / 3);
     EXPECT_TRUE(std::ranges::equal(found->take("pressure").values(), ramp().values()));
     EXPECT_TRUE(std::ranges::equal(found->take("gap").values(), ramp().values()));
   }
   EXPECT_LT(harmless, whole.size() / 2);
-  // A result of another key under this name.
+  // A result of another key.
   write(whole);
   ResultFilesSetup elsewhere = setup("elsewhere");
   ResultFiles others(elsewhere);
@@ -138,7 +137,7 @@ TEST_F(ResultFilesTest, WhatAnotherFolderHasIsBroughtOver) {
 }
 
 TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
-  const Field field = ramp(64, 64);  // 32 KiB, two of them a result
+  const Field field = ramp(64, 64);  // 32 KiB; two per result
   ResultFilesSetup limited = setup();
   limited.most_bytes = 250 << 10;
   {
@@ -166,7 +165,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
   EXPECT_EQ(count(tiny.folder), 0U);
 }
 
-// S2: a script of somebody else's does not fill a folder that others share.
+// One user cannot fill a shared folder.
 TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
   const Field field = ramp(64, 64);
   ResultFilesSetup shared = setup();
@@ -201,7 +200,7 @@ TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
   EXPECT_TRUE(std::filesystem::exists(now));
   keep(files, "key", field);
   EXPECT_EQ(files.counts().kept, 0);
-  EXPECT_TRUE(std::filesystem::exists(now));  // somebody writes it
+  EXPECT_TRUE(std::filesystem::exists(now));  // another process writes the file
 }
 
 TEST_F(ResultFilesTest, F14TheLimitIsToldInItsOwnUnit) {

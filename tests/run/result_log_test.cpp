@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small results, many to a file: kept to the bit, found by others while they come, never taken where they
-// were altered, and brought to the disk together.
+// Many small results per file, visible to other processes at once and synced together.
 #include "engine/core/files/result_log.hpp"
 
 #include <sys/stat.h>
@@ -36,7 +35,6 @@ class ResultLogTest : public InFolder {
     return record ? record->bytes : "none";
   }
 
-  // Of a store of which results are one of many.
   ResultFilesSetup setup() const {
     ResultFilesSetup made;
     made.folder = folder / "store";
@@ -72,7 +70,6 @@ TEST_F(ResultLogTest, ThousandsStandInOneFileAndAreFoundToTheBit) {
   EXPECT_TRUE(notices.empty());
 }
 
-// Two processes with one store: what one appended is found by the other at once.
 TEST_F(ResultLogTest, OthersFindWhatComesWhileItComes) {
   ResultLog one(store(), note()), other(store(), note());
   EXPECT_EQ(found(other, 1), "none");
@@ -101,7 +98,7 @@ TEST_F(ResultLogTest, SeveralThreadsKeepAndFind) {
   for (int k = 0; k < 800; ++k) ASSERT_EQ(found(again, k), bytes(k)) << k;
 }
 
-// Cut at every length, as a kill or a power cut leaves it: what was whole is found, the rest is not.
+// A kill or power cut leaves complete records usable.
 TEST_F(ResultLogTest, ATornEndLosesNoRecordBeforeIt) {
   {
     ResultLog log(store(), note());
@@ -144,12 +141,12 @@ TEST_F(ResultLogTest, AnAlteredRecordIsToldAndNotTaken) {
       if (record == "none") ++lost;
     }
     ASSERT_GE(lost, 1) << at;
-    // A length that reaches past the end looks like a record that is still being written.
+    // A length beyond the end looks like an unfinished record.
     if (!notices.empty()) {
       ASSERT_TRUE(notices.front().ends_with("; it was computed again")) << notices.front();
     }
   }
-  // The end of a file as zeros, as a power cut leaves it.
+  // A power cut leaves zeros.
   notices.clear();
   std::ofstream(file, std::ios::binary)
       << whole.substr(0, whole.size() - 100) + std::string(100, '\0') + std::string(200, '\0');

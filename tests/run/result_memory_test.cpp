@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results in memory: found to the last bit, bounded, what was used longest ago first out, and the store
-// behind.
+// Least recently used results are dropped first; a store is the second level.
 #include "engine/run/result_memory.hpp"
 
 #include <gtest/gtest.h>
@@ -36,13 +35,13 @@ TEST(ResultMemory, GivesBackWhatWasKeptHoweverCheap) {
   EXPECT_EQ(found->text("t"), "a");
   EXPECT_EQ(found->cost.transforms, 3);
   EXPECT_EQ(found->take("f")(15, 15), 0.1);
-  EXPECT_EQ(memory.find("a")->take("f")(0, 0), 0.1);  // what is taken stays
+  EXPECT_EQ(memory.find("a")->take("f")(0, 0), 0.1);  // copied
   EXPECT_EQ(memory.counts().found, 2);
   EXPECT_EQ(memory.counts().missed, 1);
 }
 
 TEST(ResultMemory, DropsWhatWasUsedLongestAgo) {
-  ResultMemory memory(3 * 2048 + 2048);  // three of 16 x 16 nodes and what holds them
+  ResultMemory memory(3 * 2048 + 2048);  // three of 16 x 16 nodes, with overhead
   keep(memory, "a", 1);
   keep(memory, "b", 2);
   keep(memory, "c", 3);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run directory: where it is made, what may be written where, the manifest, and how a run ends.
 #include "engine/run/run_directory.hpp"
 
 #include <sys/stat.h>
@@ -113,7 +112,7 @@ TEST_F(RunDirectoryTest, FilesGoUnderIt) {
   EXPECT_EQ(run.path_for("./c.png"), run.path() / "c.png");
 }
 
-// A script that writes press.csv and reads it back once got the one beside it.
+// A script must read the press.csv it wrote, not the file in the working directory.
 TEST_F(RunDirectoryTest, WhatTheRunWroteIsReadBeforeWhatLiesBeside) {
   const fs::path beside = fs::current_path();
   fs::current_path(folder);
@@ -161,7 +160,6 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  // S10: also what the page draws of it.
   for (const std::string file :
        {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock", ".views/x", "./.views/a/b"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
@@ -243,7 +241,7 @@ TEST_F(RunDirectoryTest, AWatchdogMayEndItDuringWrites) {
         written = k + 1;
       }
     } catch (const Error&) {
-      // The journal is closed: what the script would see.
+      // A closed journal refuses events.
     }
   });
   while (written < 50) std::this_thread::yield();
@@ -259,14 +257,14 @@ TEST_F(RunDirectoryTest, AWatchdogMayEndItDuringWrites) {
 }
 
 TEST_F(RunDirectoryTest, AStuckWriterDoesNotHoldTheWatchdog) {
-  // A file that is a pipe nobody reads blocks its writer, as a dead disk does.
+  // An unread pipe blocks its writer like a dead disk.
   RunDirectory run(setup());
   const auto book = run.notebook("book");
   std::vector<Entry> row = {{"k", 1.0}};
   book->write(row);
   fs::remove(run.path() / "book.csv");
   ASSERT_EQ(::mkfifo((run.path() / "book.csv").c_str(), 0600), 0);
-  std::thread writer([&] { book->write(row); });  // waits for a reader, holding the notebook
+  std::thread writer([&] { book->write(row); });  // holds the notebook
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_TRUE(run.finish(RunStatus::killed, "stuck", std::chrono::milliseconds(100)));
   EXPECT_EQ(manifest(run).find("status")->string(), "killed");
@@ -332,7 +330,7 @@ TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
   EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
 }
 
-// What was read is known though the run be cut off, and so is what has changed since.
+// An interrupted run records its inputs.
 TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -342,7 +340,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
     EXPECT_FALSE(run.note_input("b.csv", 10, "d2"));
     EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far")->list().size(), 2U);
     EXPECT_EQ(manifest(run).find("inputs"), nullptr);
-  }  // cut off
+  }  // interrupted
   RunSetup again = setup();
   again.resume = s.out;
   RunDirectory run(again);
@@ -354,8 +352,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
   EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far"), nullptr);
 }
 
-// F1: who makes and locks a directory for another process holds it, and leaves nothing where nothing was
-// begun.
+// The directory is locked throughout for the other process.
 TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
   RunSetup s = setup();
   s.out = folder / "above" / "r";
@@ -393,7 +390,6 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
     prepared.leave();
     EXPECT_FALSE(fs::exists(prepared.path)) << kind;
   }
-  // A folder that is no run is not touched.
   fs::create_directory(folder / "mine");
   std::ofstream(folder / "mine" / "data.csv") << "1";
   RunSetup s = setup();
@@ -403,7 +399,7 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
   EXPECT_EQ(files_in(folder / "mine"), 1U);
 }
 
-// F4: a run that died before its first manifest was "not empty" for ever.
+// A run killed before its first manifest may start again.
 TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -486,7 +482,7 @@ TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
     damage(how);
     EXPECT_EQ(altered_outputs(read_run(*s.out)).size(), 1U);
     {
-      const RunDirectory cut_off(again);  // the mending itself is cut off
+      const RunDirectory cut_off(again);  // the repair is interrupted
     }
     RunDirectory run(again);
     work(run, 0.4);
@@ -546,7 +542,7 @@ TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
   EXPECT_EQ(read_run(*s.out).journal.size(), 2U);
 }
 
-// S3: each of a run's own files and folders, replaced by a link to somebody else's.
+// A link replaces each of the run's own files and folders.
 TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -580,7 +576,7 @@ TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   EXPECT_EQ(error_of([&] { RunDirectory run(again); }), "");
 }
 
-// S3: a table that is a link is written anew in its place.
+// A linked table is replaced.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
@@ -593,8 +589,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 
-// S3: a copy of the directory by hard links (cp -al), of which either is taken up while the other stays as it
-// is.
+// Resuming a run leaves its hard-linked copy (cp -al) unchanged.
 TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -619,7 +614,6 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
     RunDirectory run(again);
     run.notebook("book")->write(row);
     run.notebook("book")->write(row);
-    // Each has a lock of its own.
     EXPECT_EQ(error_of([&] { RunLock::take(other); }), "");
     EXPECT_NE(error_of([&] { RunLock::take(folder / taken); }), "");
     EXPECT_TRUE(run.finish(RunStatus::interrupted));
@@ -629,7 +623,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   }
 }
 
-// S3: a table with another name is written anew, too.
+// A table with a second hard link is replaced too.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Facts about the surroundings of a run.
 #include "engine/run/run_facts.hpp"
 
 #include "engine/core/files/atomic_file.hpp"
@@ -22,7 +21,7 @@ TEST(RunFacts, MachineHasProcessors) {
   EXPECT_NE(machine_facts().find("system"), nullptr);
 }
 
-TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
+TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {
   const Json here = machine_facts();
   for (const char* name : {"c_library_functions", "build"}) EXPECT_NE(here.find(name), nullptr) << name;
   EXPECT_TRUE(differing_machines(here, here).empty());
@@ -39,7 +38,6 @@ TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
   }
   EXPECT_NE(all.find("rounding of the C library's functions"), std::string::npos) << all;
   EXPECT_EQ(all.find("memory"), std::string::npos);
-  // A run of an earlier version noted less.
   EXPECT_TRUE(differing_machines(Json::object(), here).empty());
 }
 

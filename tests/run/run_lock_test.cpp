@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lock of a run directory: one holder at a time, named to all others, and none once its process has
-// ended.
+// One holder, named in errors; the lock ends with its process.
 #include "engine/run/run_lock.hpp"
 
 #include <sys/utsname.h>
@@ -28,7 +27,6 @@ class RunLockTest : public InFolder {
     return "`" + folder.string() + "` is being written by process " + std::to_string(process) + " on " +
            system.nodename;
   }
-  // Another process that holds the lock until it is killed.
   pid_t holder(const RunLock::Ask& ask = RunLock::ask_system) const {
     int ready[2];
     EXPECT_EQ(::pipe(ready), 0);
@@ -76,7 +74,7 @@ TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// Who has just taken up what a dead process left has not yet written its name.
+// A new holder may not have written its name.
 TEST_F(RunLockTest, F1WhoIsNamedLives) {
   const pid_t child = holder();
   kill(child);
@@ -93,7 +91,7 @@ TEST_F(RunLockTest, F1WhoIsNamedLives) {
       "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
 }
 
-// Of many at once one holds it: until all others have been refused.
+// One holds the lock until all others are refused.
 TEST_F(RunLockTest, F1OfManyOneHasIt) {
   constexpr int comers = 8;
   int until[2];
@@ -152,8 +150,7 @@ TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
                 (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
 }
 
-// What cannot be known of a holder is no sign of its end: behind barriers neither the start of the machine
-// nor the name space of processes can be read, and a signal to another process is not permitted.
+// A sandbox hides boot time and process namespace and forbids signals: the holder counts as alive.
 TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   utsname system{};
   ::uname(&system);
@@ -163,7 +160,7 @@ TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
 }
 
-// F1: a child that works for this process holds the folder as long as either of them.
+// The lock lasts as long as either process.
 TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   const std::string held = "bad_state: " + held_by(::getpid());
   std::shared_ptr<RunLock> parent = RunLock::take(folder);
@@ -178,7 +175,6 @@ TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// F1: the child of a holder that was killed dies with it, a moment later.
 TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
@@ -201,7 +197,6 @@ TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// Text that is no name stands for nobody.
 TEST_F(RunLockTest, ATornNameHoldsNothing) {
   for (const char* text : {"", "{\"process\":1", "[]\n", "{}\n", "\n"}) {
     std::ofstream(folder / ".lock") << text;
@@ -232,7 +227,7 @@ TEST_F(RunLockTest, S3AnotherNameOfItsFileKeepsItsBytes) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// The file may be replaced between its opening and the lock.
+// The file may be replaced between opening and locking.
 TEST_F(RunLockTest, OfAFileThatWasReplacedLocksTheNewOne) {
   int asked = 0;
   const std::shared_ptr<RunLock> lock = RunLock::take(folder, [&](int descriptor) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lock waited for with patience: had at once when free, given up when held, had when let go in time.
 #include "engine/run/timed_lock.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linked into every program of tests: a case after which more file descriptors are open than before has
-// failed, and the failure names what they lead to.
+// Part of every test program: a test that leaks file descriptors fails and names their targets.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,13 +10,12 @@
 namespace asperity::testing {
 namespace {
 
-// Each descriptor of this process and what it leads to.
 std::map<std::string, std::string> open_files() {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> found;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd", ignored)) {
-    std::error_code gone;  // the descriptor that reads this folder
+    std::error_code gone;  // the descriptor of this listing
     const fs::path target = fs::read_symlink(entry.path(), gone);
     if (!gone) found.emplace(entry.path().filename().string(), target.string());
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small helpers for tests that write files: a folder of their own, whole contents, the text of an error.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +12,6 @@
 
 namespace asperity {
 
-// A fresh folder for each test, gone afterwards.
 class InFolder : public testing::Test {
  protected:
   void SetUp() override {
@@ -36,7 +34,7 @@ inline std::size_t files_in(const std::filesystem::path& path) {
       std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
 }
 
-// "code: text" of the Error that `call` throws, "" if it throws none.
+// "code: text" of the Error that `call` throws, or "".
 template <class Call>
 std::string error_of(const Call& call) {
   try {

@@ -36,7 +36,7 @@ TEST(Al3d, HeightsAreMetresLineByLine) {
   EXPECT_EQ(s.grid(), (Grid{4, 2, 4e-6, 4e-6}));
   EXPECT_EQ(s.height(1, 1), static_cast<double>(2e-6F));
   EXPECT_EQ(s.height(0, 0), static_cast<double>(5e-6F));
-  EXPECT_TRUE(std::isnan(s.height(1, 0)));  // rounded in the text, in single precision here
+  EXPECT_TRUE(std::isnan(s.height(1, 0)));  // rounded in the text
   EXPECT_TRUE(std::isnan(s.height(3, 0)));
   EXPECT_EQ(s.measured(), 6U);
 }
@@ -53,7 +53,7 @@ TEST(Al3d, LinesOfOddLengthArePadded) {
   const std::vector<std::vector<float>> six{{1, 2, 3}, {4, 5, 6}};
   three.pad = 4;
   EXPECT_EQ(read(three(six)).height(0, 0), 4);
-  three.pad = 0;  // nothing after them tells that they are not
+  three.pad = 0;  // no padding
   EXPECT_EQ(read(three(six)).height(0, 0), 4);
   three.pad = 4;
   three.after = "a picture";

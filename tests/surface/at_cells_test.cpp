@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same surface on other cells: what generators make again, what operations keep of it, and what is
-// sampled or interpolated where nobody knows how to make it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +20,7 @@
 namespace asperity::at_cells_test {
 namespace {
 
-// Greatest difference at the nodes of the coarser grid, over the peak-to-valley.
+// At common nodes, relative to the peak-to-valley height.
 double difference(const Surface& coarse, const Surface& fine) {
   const int step_x = fine.grid().nx / coarse.grid().nx, step_y = fine.grid().ny / coarse.grid().ny;
   double worst = 0;
@@ -81,7 +79,7 @@ TEST(AtCells, ResolvedFractalKeepsItsWaves) {
   o.band = WaveBand::resolved;
   const Surface surface = weierstrass_mandelbrot(o);
   expect_same(surface, 1e-12);
-  // A surface generated there would hold more of them.
+  // A generator on 80 cells would add waves.
   o.nx = o.ny = 80;
   EXPECT_GT(difference(surface, weierstrass_mandelbrot(o)), 1e-3);
   EXPECT_EQ(at_cells(surface, 80, 80).surface.traits().aliased_share, 0.0);
@@ -132,7 +130,7 @@ TEST(AtCells, BlastedSurfaceIsTheSameUpToItsSums) {
 
 TEST(AtCells, SelfAffineOfTooFewCellsIsSampledInstead) {
   const Surface surface = self_affine_surface(self_affine(96));
-  const AtCells coarse = at_cells(surface, 24, 24);  // under two cells a wave
+  const AtCells coarse = at_cells(surface, 24, 24);  // under two per wave
   EXPECT_EQ(coarse.how, AtCells::How::sampled);
   EXPECT_EQ(difference(coarse.surface, surface), 0);
   EXPECT_NE(coarse.surface.recipe(), nullptr);

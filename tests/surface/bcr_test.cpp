@@ -59,7 +59,7 @@ TEST(Bcr, FloatsAreNanometres) {
   EXPECT_EQ(s.height(1, 0), 0);
 }
 
-// As one program writes them: the number of a missing point in voidpixels, heights in the unit zunit.
+// Some programs store the missing-point number in voidpixels and heights in zunit.
 TEST(Bcr, FloatsAreInTheirUnitAndVoidpixelsMayBeTheNumber) {
   const std::string header =
       "fileformat = bcrf\nxpixels = 2\nypixels = 1\nxlength = 2\nylength = 1\nzunit = um\nbit2nm = 1\n";
@@ -116,7 +116,7 @@ TEST(Bcr, EachFaultIsSaid) {
             "another format, name it with `format`");
 }
 
-// Found by fuzzing: without its blanks the line was the right one, but its key was not.
+// Found by fuzzing: blanks had been removed before the comparison.
 TEST(Bcr, FirstLineHasTheKeyInOnePiece) {
   EXPECT_EQ(refusal(example("fileforma t= bcrstm\nxpixels = 3\nypixels = 2\n", six)),
             "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bead-blasted surfaces: a single dent by its definition, requested numbers met exactly, the same surface
-// on every grid, and each refusal.
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/core/constants.hpp"
 
@@ -24,7 +22,6 @@ BeadBlastedOptions example(int nx = 128, int ny = 128) {
   return options;
 }
 
-// One dent of radius 40 µm by a bead of radius 125 µm, and nothing else.
 BeadBlastedOptions one_dent(int nx = 400, int ny = 400) {
   BeadBlastedOptions options = example(nx, ny);
   options.bead_low = options.bead_high = 250e-6;
@@ -79,34 +76,33 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
   const BeadBlastedOptions options = one_dent();
   const Surface s = bead_blasted_surface(options);
   const Field& z = s.heights();
-  // The dent's centre is its deepest node; far from it is the ground, at height `ground`.
+  // The deepest node is the dent's centre; the surroundings have height `ground`.
   std::size_t deepest = 0;
   for (std::size_t k = 0; k < z.size(); ++k)
     if (z[k] < z[deepest]) deepest = k;
   const int ci = static_cast<int>(deepest % 400), cj = static_cast<int>(deepest / 400);
   const double h = 1.25e-6;
-  const auto at = [&](double x, double y) {  // offsets in metres from the deepest node, along the nodes
+  const auto at = [&](double x, double y) {  // m from the deepest node
     const int i = ci + static_cast<int>(std::lround(x / h)), j = cj + static_cast<int>(std::lround(y / h));
     return z(((i % 400) + 400) % 400, ((j % 400) + 400) % 400);
   };
   const double ground = at(200e-6, 0);
   EXPECT_NEAR(at(0, 200e-6), ground, 1e-6 * (ground - z[deepest]));
-  // Heights before scaling: a²/2R deep, less the rim that reaches the centre (4e-15 of its crest).
+  // Depth a²/2R; the rim's height at the centre is 4e-15 of its crest.
   const double depth = 40e-6 * 40e-6 / (2 * 125e-6);
   const double scale = (ground - z[deepest]) / depth;
-  // Rim: crest c with c · ∫ rim = half of the paraboloid's volume, π a⁴ / 8R.
+  // c · ∫ rim = half of the paraboloid's volume, π a⁴/8R.
   const double a = 40e-6, width = 0.2 * a, radius = 1.15 * a;
   const double rim_area = 2 * pi * radius * width * std::sqrt(pi);
   const double crest = 0.5 * pi * std::pow(a, 4) / (8 * 125e-6) * 2 / rim_area;
   for (const double r : {5e-6, 10e-6, 20e-6, 30e-6, 40e-6, 46.25e-6, 52.5e-6, 60e-6, 75e-6}) {
     const double floor = std::min(0.0, (r * r - a * a) / (2 * 125e-6));
     const double rim = crest * std::exp(-std::pow((r - radius) / width, 2));
-    // The centre lies up to half a cell from the deepest node: r is known to 0.9 µm, slopes reach 0.4.
+    // The centre is within half a cell of the deepest node (0.9 µm); slopes reach 0.4.
     EXPECT_NEAR((at(r, 0) + at(-r, 0) + at(0, r) + at(0, -r)) / 4 - ground, scale * (floor + rim),
                 0.02 * scale * depth)
         << r;
   }
-  // Half of what was taken away is there again.
   double below = 0, above = 0;
   for (const double height : z.values()) (height < ground ? below : above) += height - ground;
   EXPECT_LT(above, -below);
@@ -114,8 +110,7 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
 }
 
 TEST(BeadBlasted, DentsWrapRoundTheTile) {
-  // With wrapping, moving a dent across the rim changes nothing but its place: the variance of a surface of
-  // one dent does not depend on where it lies.
+  // A wrapped dent has the same variance at any position.
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     BeadBlastedOptions options = one_dent(200, 200);
@@ -128,7 +123,7 @@ TEST(BeadBlasted, DentsWrapRoundTheTile) {
 }
 
 TEST(BeadBlasted, AFinerGridIsTheSameSurface) {
-  // Nodes that grids share differ by the sampling error of the sums over nodes, which falls with the cell.
+  // Common nodes differ by the sampling error of sums, which falls with the cell size.
   for (const bool fine : {true, false}) {
     BeadBlastedOptions options = example(64, 80);
     if (fine)
@@ -164,12 +159,12 @@ TEST(BeadBlasted, SeedsDiffer) {
 }
 
 TEST(BeadBlasted, TheTextureIsItsShareOfRa) {
-  // What the texture adds, before the last scaling by c: surface = c (dents + texture).
+  // Final scaling: surface = c (dents + texture).
   BeadBlastedOptions options = example();
   const Surface with = bead_blasted_surface(options);
   options.fine.reset();
   const Surface without = bead_blasted_surface(options);
-  // c from the least-squares share of the dents in the whole; dents and texture are independent.
+  // c: least-squares share of the dents, which are independent of the texture.
   double cross = 0, square = 0;
   for (std::size_t k = 0; k < with.heights().size(); ++k) {
     cross += with.heights()[k] * without.heights()[k];
@@ -191,7 +186,7 @@ TEST(BeadBlasted, TheNumberOfDentsIsRounded) {
 }
 
 TEST(BeadBlasted, SameBitsForAnyNumberOfThreads) {
-  // 1200 cells over three dents' width: rows of a dent are shared out between threads.
+  // Threads share the rows of a dent.
   BeadBlastedOptions options = example(1200, 1100);
   options.fine.reset();
   set_thread_count(1);
@@ -203,12 +198,12 @@ TEST(BeadBlasted, SameBitsForAnyNumberOfThreads) {
 
 TEST(BeadBlasted, SmallTilesAndOblongCells) {
   BeadBlastedOptions options = example(16, 40);
-  options.grid.size_x = 60e-6;  // a dent meets itself
+  options.grid.size_x = 60e-6;  // overlaps itself
   options.grid.size_y = 90e-6;
   options.fine.reset();
   const Surface s = bead_blasted_surface(options);
   EXPECT_NEAR(mean_magnitude(s), 3e-6, 3e-18);
-  options = example(400, 40);  // cells of 1.25 x 12.5 µm
+  options = example(400, 40);  // 1.25 x 12.5 µm
   options.fine.reset();
   EXPECT_NEAR(mean_magnitude(bead_blasted_surface(options)), 3e-6, 3e-18);
 }

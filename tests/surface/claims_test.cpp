@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Headers that claim more than there is: a reader allocates for the bytes of a file, never for what they
-// say of themselves.
+// Memory follows the bytes of a file, never its header.
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/surface/io/read.hpp"
@@ -31,7 +30,7 @@ std::string x3p_of(const std::string& cells, const std::string& points,
       claimed);
 }
 
-// The error of reading those bytes in 128 KiB of counted memory.
+// Limit: 128 KiB of counted memory.
 std::optional<Error> refusal(const std::string& bytes, const std::string& format = "") {
   const std::int64_t before = memory::held();
   memory::set_limit(before + 131072);
@@ -69,7 +68,6 @@ TEST(Claims, SmallFilesThatClaimMuchAreRefusedWithoutAllocating) {
   }
 }
 
-// A diagonal of n points spans n x n places.
 TEST(Claims, PointsThatSpanALatticeDoNotMakeIt) {
   std::string diagonal;
   for (int k = 0; k < 200; ++k) diagonal += std::to_string(k) + " " + std::to_string(k) + " 1\n";
@@ -78,7 +76,7 @@ TEST(Claims, PointsThatSpanALatticeDoNotMakeIt) {
   EXPECT_NE(error->sentence().find("200 points for 200 x 200 places"), std::string::npos) << error->what();
 }
 
-// Half a million empty elements pack into some two thousand bytes; the tree of them would take 64 MiB.
+// Empty elements compress well; their tree exceeds the limit.
 TEST(Claims, TheTreeOfMainXmlIsCountedAndBounded) {
   std::string xml = "<X>";
   for (int k = 0; k < 40000; ++k) xml += "<a/>";

@@ -27,7 +27,6 @@ TEST(Gzip, AFileInsideIsReadAsItIs) {
   EXPECT_EQ(read_profile(SourceFile("a.csv.gz", gzipped("x [mm],z [um]\n0,1\n1,2\n2,4\n"))).size(), 3);
 }
 
-// Its ending is that before .gz: x y z are points by it, and a matrix under another name.
 TEST(Gzip, TheEndingBeforeGzCounts) {
   EXPECT_EQ(inside_gzip(SourceFile("a.XYZ.gz", gzipped("1")), Monitor::silent())->extension(), "xyz");
   EXPECT_EQ(inside_gzip(SourceFile("a.gz", gzipped("1")), Monitor::silent())->extension(), "");
@@ -48,7 +47,7 @@ TEST(Gzip, EachFaultIsSaid) {
               "\"a.gz\" is packed with gzip and cut short; fetch or pack it again")
         << length;
   std::string damaged = whole;
-  damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] + 1);  // in its checksum
+  damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] + 1);  // in the checksum
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("a.gz", damaged)); }),
             "\"a.gz\" is packed with gzip and does not unpack; the file is damaged");
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("a.gz", whole + "more")); }),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// F13: a head and a length that contradict each other are refused, for every binary kind: with a column more
-// or less than there is, the lines of a map are shifted against each other and nothing else tells.
+// A header that contradicts the length would shear the map unnoticed.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -28,7 +27,7 @@ std::string refusal(const std::string& name, const std::string& bytes) {
   });
 }
 
-// The file of 5 x 4 heights, whatever its head says, in each binary kind.
+// A file of 5 x 4 heights whose header claims nx x ny.
 struct BinaryKind {
   std::string name;
   std::function<std::string(int nx, int ny)> file;
@@ -137,7 +136,6 @@ TEST(FileLengths, F13BytesOverAreCounted) {
       "many; its header is wrong or the file is damaged: read so, its lines would be shifted");
 }
 
-// What may stand after the heights does.
 TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
   const std::string sdf = testing::SdfExample{.points = 5, .profiles = 4, .type = 5}(twenty);
   EXPECT_EQ(refusal("a.sdf", sdf + "*\r\n<Operator>somebody</Operator>\r\n"), "no error");
@@ -145,13 +143,13 @@ TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
   const std::string one = testing::SurExample{.nx = 5, .ny = 4}(twenty);
   const std::string two = testing::SurExample{.objects = 2, .nx = 5, .ny = 4}(twenty);
   EXPECT_EQ(refusal("a.sur", two + one), "no error");
-  EXPECT_EQ(refusal("a.sur", two), "no error");  // the first of those that were cut off
+  EXPECT_EQ(refusal("a.sur", two), "no error");  // the second is missing
   EXPECT_NE(refusal("a.sur", testing::SurExample{.objects = 2, .nx = 4, .ny = 4}(twenty) + one)
                 .find("holds 2 objects, and no second one after the 4 x 4 heights"),
             std::string::npos);
 }
 
-// Files that state their own end: what is appended moves no height, and is not passed over in silence.
+// Bytes after a stated end change no height but cause a warning.
 TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
   const testing::Scratch scratch;
   write_surface(Surface(Grid{3, 2, 3e-6, 2e-6}, Field(3, 2, 1e-6)), scratch.path("a.h5"));
@@ -176,7 +174,7 @@ TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
   }
 }
 
-// With 555 columns for 563 it was read, sheared.
+// 555 instead of 563 columns would shear the map.
 TEST(FileLengths, F13MeasuredFileOfAnotherWidth) {
   if (testing::measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
   std::string bytes = testing::bytes_of(testing::measured("sur-2.sur"));

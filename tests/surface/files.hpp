@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tests of readers and writers share: a directory that goes away, files from bytes, zip
-// archives without compression, measured files where there are some, and errors as values.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,12 +50,11 @@ inline std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A small file kept beside the tests.
 inline std::string sample(const std::string& name) {
   return std::string(ASPERITY_TEST_DATA) + "/../data/" + name;
 }
 
-// A file of the directory that ASPERITY_MEASURED names; empty if there is none.
+// Path below ASPERITY_MEASURED; empty if unset.
 inline std::string measured(const std::string& name) {
   const char* const directory = std::getenv("ASPERITY_MEASURED");
   return directory == nullptr || *directory == '\0' ? std::string() : std::string(directory) + "/" + name;
@@ -79,14 +76,13 @@ std::string message_of(Call&& call) {
   return error ? std::string(error->what()) : "no error";
 }
 
-// The bytes of numbers as they lie in memory.
 template <class T>
 std::string raw(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-// Cuts `whole` at many lengths and flips bytes of it, keyed by `seed`, and hands each to `attempt`,
-// which must return or throw Error; anything else fails the test.
+// Passes truncated copies, and copies with flipped bits keyed by `seed`, to `attempt`, which must return or
+// throw Error.
 template <class Attempt>
 void damage(const std::string& whole, std::uint64_t seed, int flips, Attempt&& attempt) {
   const auto harmless = [&](const std::string& bytes, const std::string& what) {

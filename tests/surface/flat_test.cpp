@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The flat surface, the simplest of the generators.
 #include "engine/surface/generators/flat.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// F7: what is not read is named, with a way to something that is.
 #include "engine/surface/io/foreign_format.hpp"
 
 #include <gtest/gtest.h>
@@ -40,21 +39,20 @@ TEST(ForeignFormat, F7EachIsNamedByItsContent) {
       {"map.plux", testing::zip_of({{"index.xml", "<x/>"}, {"LAYER_0.raw", "0000"}}),
        "a Sensofar topography (.plux)"},
       {"map.zip", testing::zip_of({{"map.txt", "1 2"}}), "a zip archive without main.xml"},
-      // By their ending: no mark is certain.
+      // Without a reliable mark: by extension.
       {"map.mnt", "\x01\x02" + rest, "a document of MountainsMap"},
   }};
   for (const auto& [name, bytes, what] : files) {
     const std::string message = refusal(name, bytes);
     EXPECT_NE(message.find("\"" + name + "\" is " + what), std::string::npos) << name << ": " << message;
     EXPECT_NE(message.find("which is not read; "), std::string::npos) << message;
-    // Under any other name it is the same, where the content tells.
     if (what.find("Mountains") == std::string::npos && what.find("Igor") == std::string::npos) {
       EXPECT_NE(refusal("other", bytes).find(what), std::string::npos) << name;
     }
   }
 }
 
-// A text whose ending is that of another maker's binary files is no such file.
+// Text is read despite another maker's binary extension.
 TEST(ForeignFormat, F7TextsAreLookedAtByTheirContent) {
   ReadOptions options;
   options.size_x = options.size_y = options.unit = 1e-6;

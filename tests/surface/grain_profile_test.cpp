@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The grain of the paper's Fig. 1: its circular structure function is known for every set of phases.
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/core/constants.hpp"
 
@@ -44,7 +43,7 @@ double measured_structure_function(const Array<double>& w, std::size_t lag) {
   return sum / static_cast<double>(w.size());
 }
 
-// Exact for every set of phases: Σ_n γ^(2(D-2)n) (1 - cos(2πk_n lag/K)), with 1 - cos x = 2 sin²(x/2).
+// Exact: Σ_n γ^(2(D-2)n) (1 - cos(2πk_n lag/K)), with 1 - cos x = 2 sin²(x/2).
 double structure_function(const GrainProfileOptions& options, int lag) {
   double sum = 0;
   for (const GrainTerm& term : grain_terms(options)) {
@@ -73,7 +72,7 @@ TEST(GrainProfile, StructureFunctionIsExactForEverySeed) {
 }
 
 TEST(GrainProfile, StructureFunctionIsTheWrittenSum) {
-  const GrainProfileOptions options = example(20);  // k = 3, 5, 7; 10 is half the points and left out
+  const GrainProfileOptions options = example(20);  // k = 3, 5, 7; 10, half the points, is excluded
   const Array<double> w = grain_outline(options);
   for (const int q : {1, 4, 19}) {
     const auto term = [&](int k, int n) {

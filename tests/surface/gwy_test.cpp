@@ -49,7 +49,6 @@ TEST(Gwy, FirstMapOfLengthsIsTaken) {
   phase.unit_z = "deg";
   GwyField later;
   later.heights = {9, 8, 7, 6, 5, 4};
-  // In any order in the file.
   const std::string content = map(12, later, "Late") + gwy_text("/0/base/palette", "Gray") +
                               map(3, phase, "Phase") + map(7, {}, "Height") +
                               gwy_inner("/brick/1", gwy_object("GwyBrick", ""));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that this program writes, whole and damaged. That other programs read them is tested in
-// tests/scripts.
+// Files of this program; tests/scripts checks other readers.
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +91,7 @@ TEST_F(Hdf5File, EmptyContentIsAFile) {
   expect_same(read_hdf5(folder_.path("a.h5")), {});
 }
 
-// What was written, or an error: never something else, and no crash.
+// The written content or an error.
 void expect_told(const std::string& bytes, const Hdf5Content& whole, const std::string& how, int& errors) {
   try {
     const Hdf5Content found = read_hdf5(SourceFile("damaged.h5", bytes));
@@ -124,7 +123,7 @@ TEST_F(Hdf5File, FlippedBitIsAnErrorOrMeansNothing) {
       damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
       expect_told(damaged, content, "bit " + std::to_string(bit) + " of byte " + std::to_string(at), errors);
     }
-  // Room that the format leaves between its structures may change unseen; what says something may not.
+  // Only unused bytes between structures may change unnoticed.
   EXPECT_GT(errors, static_cast<int>(bytes.size()) / 2);
 }
 
@@ -146,7 +145,7 @@ TEST_F(Hdf5File, ChangedNumbersAreTold) {
   }
 }
 
-// Small files written by h5py, which stand among the seeds of the fuzzing target.
+// Written by h5py, from the fuzzing corpus.
 Hdf5Content sample_content(const std::string& name) {
   return read_hdf5(std::string(ASPERITY_TEST_DATA) + "/../fuzz/corpus/hdf5/" + name + ".h5");
 }

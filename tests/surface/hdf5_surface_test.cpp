@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces in HDF5 files of this program and as others might write them, and the XDMF beside them.
 #include "engine/surface/io/hdf5_surface.hpp"
 
 #include <gtest/gtest.h>
@@ -127,7 +126,7 @@ TEST(Xdmf, DescribesWhatStandsInTheHdf5File) {
   const pugi::xml_node grid = document.child("Xdmf").child("Domain").child("Grid");
   EXPECT_STREQ(grid.child("Topology").attribute("Dimensions").value(), "1 3 5");
   EXPECT_STREQ(grid.child("Topology").attribute("TopologyType").value(), "3DCoRectMesh");
-  // Origin and spacing, slowest axis first.
+  // Slowest axis first.
   const pugi::xml_node origin = grid.child("Geometry").child("DataItem");
   EXPECT_STREQ(origin.text().get(), "0 0 0");
   EXPECT_STREQ(origin.next_sibling().text().get(), "1e-04 9.999999999999999e-05 1e-04");
@@ -142,7 +141,7 @@ TEST(Xdmf, DescribesWhatStandsInTheHdf5File) {
   const Hdf5Array* const array = content.array(place.substr(place.find(":/") + 2));
   ASSERT_NE(array, nullptr);
   EXPECT_EQ(array->shape, (std::vector<std::size_t>{3, 5}));
-  // `size` is no field of the tile.
+  // `size` is not a field of the tile.
   EXPECT_FALSE(height.next_sibling());
 }
 

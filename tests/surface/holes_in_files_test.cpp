@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points that were not measured go to files and come back: the same holes and, where the format holds
-// doubles, the same heights to the bit. What other programs write for a missing point, and marks that
-// contradict the heights, are beside them.
+// Missing points in files: equal holes and, in double formats, equal bits; marks of other programs;
+// contradictory marks.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -125,7 +124,6 @@ TEST(HolesInFiles, FillActsOnWhatWasWritten) {
   EXPECT_TRUE(read_surface(scratch.path("a.x3p"), options).complete());
 }
 
-// Of a surface without holes a file says nothing of any.
 TEST(HolesInFiles, CompleteSurfacesAreNotMarked) {
   const Scratch scratch;
   const Surface surface(make_grid(4, 3, 1e-3, 1e-3), Field(4, 3));
@@ -137,7 +135,6 @@ TEST(HolesInFiles, CompleteSurfacesAreNotMarked) {
   }
 }
 
-// The text and HDF5 say how many points are missing.
 TEST(HolesInFiles, FilesSayHowManyPointsAreMissing) {
   const Scratch scratch;
   const Surface surface = holed(Holes::row);
@@ -150,7 +147,7 @@ TEST(HolesInFiles, FilesSayHowManyPointsAreMissing) {
   EXPECT_EQ(*content.number("not_measured"), 7);
 }
 
-// How each format of instruments says that the second point of the first line it stores was not measured.
+// The second point of the first stored line is missing.
 TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
   struct Example {
     std::string name, bytes;
@@ -211,7 +208,7 @@ TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
   }
 }
 
-// X3P: NaN in floating-point heights, no mask; the checksums are those of the entries as they lie.
+// X3P: NaN without a mask; checksums cover the stored entries.
 TEST(HolesInFiles, ChecksumsOfX3pAreRight) {
   const Scratch scratch;
   write_surface(holed(Holes::scattered), scratch.path("a.x3p"));
@@ -233,7 +230,7 @@ TEST(HolesInFiles, ChecksumsOfX3pAreRight) {
   EXPECT_EQ(xml.find("ValidPoints"), std::string::npos);
 }
 
-// GWY: a mask over the mean, which the metadata explain.
+// GWY: a mask over the mean, explained in the metadata.
 TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
   const Scratch scratch;
   const Surface surface = holed(Holes::corners);
@@ -245,7 +242,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
     EXPECT_NE(at, std::string::npos) << from;
     return bytes.replace(at, from.size(), to);
   };
-  // Without the entry of the metadata it is a mask like any other: the points have the mean.
+  // An unexplained mask is ordinary: its points have the mean.
   testing::Warnings warnings;
   const Surface taken = read_surface(SourceFile("a.gwy", with("Not measured", "Not Measured")), {}, warnings);
   EXPECT_TRUE(taken.complete());
@@ -254,7 +251,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
   EXPECT_NEAR(taken.height(0, 0), sum / static_cast<double>(surface.measured()), 1e-20);
   ASSERT_EQ(warnings.all.size(), 1U);
   EXPECT_NE(warnings.all[0].find("has a mask, which is not applied"), std::string::npos);
-  // A mask that somebody has changed is not that of the holes.
+  // The changed mask no longer matches the metadata.
   EXPECT_EQ(
       message_of([&] { read_surface(SourceFile("a.gwy", with("4 points", "5 points"))); }),
       "\"a.gwy\" says of the map 0 \"height\" that it was not measured at \"5 points, those under th...\", "
@@ -268,7 +265,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
                   [](const std::string& bytes) { read_surface(SourceFile("a.gwy", bytes)); });
 }
 
-// HDF5 of other programs: NaN, or the number that an attribute names, as netCDF writes it.
+// HDF5: NaN or a fill-value attribute, as in netCDF.
 TEST(HolesInFiles, FillValuesOfHdf5AreHoles) {
   ReadOptions options;
   options.size_x = options.size_y = 1e-3;
@@ -299,7 +296,7 @@ TEST(HolesInFiles, InfiniteHeightsOfHdf5AreRefused) {
             std::string::npos);
 }
 
-// Over ranks every point is needed, and the file is told rather than a node of no name.
+// Distributed surfaces need every point; the error names the file.
 TEST(HolesInFiles, SurfacesOverRanksRefuseThem) {
   const Scratch scratch;
   write_surface(holed(Holes::column), scratch.path("a.npy"));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// A measured rim around one square hole of `share` of each side.
+// A square hole, `share` of each side.
 template <class Height>
 Field with_hole(int n, double share, Height&& height) {
   Field field(n, n);
@@ -34,7 +34,7 @@ double worst(const Field& a, const Field& b) {
   return most;
 }
 
-// The greatest residual of the five-point Laplacian over nodes that were missing.
+// Five-point Laplacian over missing nodes.
 double worst_residual(const Field& before, const Field& after) {
   double most = 0;
   for (int j = 0; j < after.ny(); ++j)
@@ -59,7 +59,7 @@ TEST(Holes, IterationsDoNotGrowWithTheHole) {
   }
 }
 
-// i^2 - j^2, i j and i^3 - 3 i j^2 are harmonic for the five-point Laplacian too.
+// These polynomials are harmonic for the five-point Laplacian too.
 TEST(Holes, HarmonicFunctionsComeBack) {
   const int n = 301;
   const auto height = [](int i, int j) {
@@ -109,7 +109,7 @@ TEST(Holes, ScatteredPointsLinesAndRims) {
   }
 }
 
-// One measured height at each end: a straight line between them.
+// The solution is a straight line.
 TEST(Holes, OneRowAndOneColumn) {
   const int n = 4097;
   for (const bool upright : {false, true}) {
@@ -159,7 +159,6 @@ TEST(Holes, HeightsWhoseRangeIsBeyondAnyDoubleAreRefused) {
   EXPECT_TRUE(std::isfinite(field(2, 0)));
 }
 
-// Raises the stop flag at its first report and notes what was reported.
 class Stopper final : public Monitor {
  public:
   void progress(std::string_view what, double done) override {
@@ -190,7 +189,7 @@ TEST(Holes, StopFlagEndsTheWork) {
   EXPECT_EQ(stopper.what_, "filling missing points");
   EXPECT_GE(stopper.done_, 0);
   EXPECT_LT(stopper.done_, 1);
-  EXPECT_TRUE(std::isnan(large(600, 600)));  // nothing half done
+  EXPECT_TRUE(std::isnan(large(600, 600)));  // unchanged
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Instruments' files for tests, put together byte by byte from the published layouts, with none of the code
-// under test.
+// Instrument files built from published layouts, without the code under test.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +25,6 @@ class Bytes {
     text_ += text;
     return *this;
   }
-  // A text in a field of fixed width.
   Bytes& field(std::string_view text, std::size_t width, char pad = '\0') {
     text_ += text;
     text_.append(width - text.size(), pad);
@@ -43,7 +41,7 @@ class Bytes {
   std::string text_;
 };
 
-// SDF of ISO 25178-71, binary.
+// SDF, ISO 25178-71, binary.
 struct SdfExample {
   std::string version = "bISO-1.0";
   std::uint16_t points = 3, profiles = 2;
@@ -63,7 +61,6 @@ struct SdfExample {
   }
 };
 
-// SUR of Digital Surf.
 struct SurExample {
   std::string mark = "DIGITAL SURF";
   std::int16_t order = 0, objects = 1, type = 2, special = 0, bits = 16;
@@ -76,7 +73,7 @@ struct SurExample {
     b.text(mark).put(order).put(objects).put(std::int16_t{1}).put(type).field("object", 30, ' ');
     b.field("operator", 30, ' ').put(std::int16_t{0}).put(std::int16_t{0}).put(std::int16_t{0}).put(special);
     b.put(std::int16_t{0}).zeros(8).put(bits).put(least).put(most).put(nx).put(ny);
-    b.put(static_cast<std::int32_t>(std::int64_t{nx} * ny));  // as a head that lies has it: the low bits
+    b.put(static_cast<std::int32_t>(std::int64_t{nx} * ny));  // the low bits only
     b.put(dx).put(dy).put(dz).field("X", 16, ' ').field("Y", 16, ' ').field("Z", 16, ' ');
     for (int k = 0; k < 2; ++k) b.field(unit_xy, 16).field(unit_xy, 16).field(unit_z, 16);
     b.put(1.0F).put(1.0F).put(1.0F).zeros(3 * 2 + 12 + 7 * 2 + 4 + 10);
@@ -87,7 +84,6 @@ struct SurExample {
   }
 };
 
-// OPD of Wyko: blocks in the order given.
 struct OpdBlock {
   std::string name;
   std::int16_t type;
@@ -114,7 +110,6 @@ inline OpdBlock opd_number(const std::string& name, float value) {
   return {name, 7, Bytes().put(value).bytes()};
 }
 
-// GWY of Gwyddion.
 inline std::string gwy_text(std::string_view name, std::string_view value) {
   return Bytes().text(name).zeros(1).text("s").text(value).zeros(1).bytes();
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Materials: names, ranges, and the moduli made from them.
 #include "engine/surface/material.hpp"
 #include "engine/core/constants.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points that were not measured, through every operation on surfaces and profiles: who moves heights moves
-// holes, who combines heights joins them, who touches one makes one, and nothing fills them unless asked.
+// Operations move holes with heights, unite holes of combined surfaces, and spread holes over stencils.
 #include "engine/surface/operations/missing_points.hpp"
 
 #include <cmath>
@@ -42,8 +41,7 @@ Surface with_corners_missing(bool periodic = false) { return with_holes_at(12, 9
 
 bool missing(const Surface& s, int i, int j) { return std::isnan(s.measured_heights()(i, j)); }
 
-// Where an operation on a map with holes gives a height, that of the same on the complete map; and it
-// gives none where it gives another one when the holes hold other heights.
+// Heights equal those on the complete map, or are missing if they depend on a hole.
 template <class Operation>
 void expect_stencils_respected(const Surface& holed, const Operation& operation) {
   Field one = holed.measured_heights(), other = one;
@@ -101,7 +99,7 @@ TEST(MissingPoints, SpreadAsFarAsAnInterpolationTouches) {
   expect_stencils_respected(s, [](const Surface& z) { return resampled(z, 80, 32); });
 }
 
-// Twice the cells along x: old nodes are nodes of the new surface and touch no other.
+// Old nodes are nodes of the finer surface.
 TEST(MissingPoints, DoNotSpreadToNodesThatStay) {
   const Surface s = with_holes_at(8, 5, {{3, 2}});
   const Surface finer = resampled(s, 16, 5);
@@ -115,12 +113,11 @@ TEST(MissingPoints, PeriodicSurfacesAreShiftedBetweenNodesByInterpolation) {
   const Surface s = with_corners_missing(true);
   const Surface moved = shifted(s, 0.25, 0);
   EXPECT_TRUE(moved.traits().periodic);
-  // Holes of columns 0 and 11 reach two columns and more to both sides, in their rows alone.
+  // Holes of columns 0 and 11 spread two columns and more along their rows.
   EXPECT_EQ(moved.measured(), 12u * 9 - 2 * 5);
   for (int i = 0; i < 12; ++i) EXPECT_FALSE(missing(moved, i, 4));
-  // Whole cells and a fraction come to the same.
   EXPECT_EQ(shifted(shifted(s, 3, 2), 0.25, 0).measured(), moved.measured());
-  // Smooth heights are found again to what cubic interpolation makes of them.
+  // The remaining error is that of cubic interpolation.
   SineOptions wave;
   wave.grid = make_grid(64, 64, 1, 1);
   wave.amplitude = 1;
@@ -192,7 +189,7 @@ TEST(Arithmetic, OfCompleteSurfacesIsExact) {
   EXPECT_THROW(times(a, hole), Error);
   EXPECT_THROW(times(a, std::numeric_limits<double>::infinity()), Error);
   EXPECT_THROW(over(a, 0), Error);
-  EXPECT_THROW(times(times(a, 1e308), 1e10), Error);  // a height that is no number any more
+  EXPECT_THROW(times(times(a, 1e308), 1e10), Error);  // overflow
   EXPECT_EQ(
       message_of([&] { minus(a, complete(7, 5)); }),
       "surfaces of 7 x 6 and 7 x 5 cells cannot be subtracted; bring one to the cells of the other with "
@@ -222,7 +219,7 @@ TEST(Mask, MarksMorePoints) {
   EXPECT_EQ(masked(s, mask).digest(), s.digest());
   mask(4, 4) = 0;
   mask(5, 4) = hole;
-  mask(1, 1) = 0.25;  // any other number is a point that was measured
+  mask(1, 1) = 0.25;  // any number but NaN: measured
   const Surface more = masked(s, mask);
   EXPECT_EQ(more.measured(), 27u);
   EXPECT_TRUE(missing(more, 4, 4) && missing(more, 5, 4));
@@ -230,7 +227,7 @@ TEST(Mask, MarksMorePoints) {
   EXPECT_EQ(message_of([&] { masked(s, Field(5, 6, 1)); }),
             "the mask has 5 x 6 points, and the surface 6 x 5; give a mask of the same cells");
   EXPECT_NE(message_of([&] { masked(s, Field(6, 5)); }).find("leaves no point"), std::string::npos);
-  // Of complete surfaces it costs nothing and changes nothing.
+  // No copy.
   const Surface whole = complete(6, 5);
   EXPECT_EQ(&masked(whole, Field(6, 5, 1)).heights(), &whole.heights());
 }
@@ -249,18 +246,16 @@ TEST(Outliers, AreSpikesAndNoOthers) {
   EXPECT_EQ(found.mask(30, 20), 0);
   EXPECT_EQ(found.mask(0, 0), 0);
   EXPECT_EQ(found.mask(59, 49), 0);
-  EXPECT_EQ(found.mask(10, 10), 0);  // not measured, and not counted
+  EXPECT_EQ(found.mask(10, 10), 0);  // missing, not counted
   EXPECT_EQ(block_sum(found.mask.values()), 60 * 50 - 4);
   EXPECT_DOUBLE_EQ(found.limit, 6 * found.deviation);
   EXPECT_NEAR(found.deviation, 0.3, 0.1);
-  // Units do not matter.
   for (double& h : z.values()) h *= 1e-9;
   const Outliers small = find_outliers(Surface::with_holes(grid, z), rule(6));
   EXPECT_EQ(block_sum(small.mask.values()), 60 * 50 - 4);
 }
 
-// Of Gaussian residuals the scaled deviation is the standard deviation, and a factor marks as many as it
-// should.
+// For Gaussian residuals the scaled deviation is the standard deviation.
 TEST(Outliers, DeviationIsThatOfAGaussian) {
   const Stream stream(3, "noise");
   Field z(120, 120);
@@ -296,10 +291,8 @@ TEST(Filled, ByAHeightOrFromAround) {
   EXPECT_EQ(&filled(whole, {}).heights(), &whole.heights());
   EXPECT_EQ(&filled(whole, 3).heights(), &whole.heights());
   EXPECT_THROW(filled(s, hole), Error);
-  // What is filled at the rim does not continue across it.
   EXPECT_FALSE(filled(with_holes_at(12, 9, {{0, 4}}, true), {}).traits().periodic);
   EXPECT_TRUE(filled(with_holes_at(12, 9, {{4, 4}}, true), {}).traits().periodic);
-  // All but one point: its height everywhere.
   Field z(5, 4, hole);
   z(4, 0) = 7;
   EXPECT_EQ(filled(Surface::with_holes(make_grid(5, 4, 1, 1), z), {}).height_range().min, 7);
@@ -311,7 +304,7 @@ TEST(Filled, ProfilesByStraightLines) {
   const std::vector<double> expected{2, 2, 4, 6, 8, 8};
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(f.heights()[k], expected[k], 1e-11);
   EXPECT_EQ(filled(p, 1).heights()[0], 1);
-  // Once round a closed outline a gap at its first sample has two sides.
+  // A gap at the first sample of a closed outline has two neighbours.
   const Profile round = filled(Profile::with_holes(1, {hole, 2, 5, 8, hole, hole}, 10.0), {});
   EXPECT_NEAR(round.heights()[4], 6.5, 1e-11);
   EXPECT_NEAR(round.heights()[5], 5, 1e-11);
@@ -327,7 +320,7 @@ TEST(Sections, OfHoledSurfacesHaveHoles) {
             "`surface:filled{ by=\"interpolate\" }`");
   EXPECT_THROW(profiles(s, LineDirection::x), Error);
   EXPECT_EQ(profiles(s, LineDirection::y).size(), 6u);
-  // On a line through nodes neighbours of no share do not count; between nodes both do.
+  // On a line through nodes, nodes of zero weight do not count.
   const Profile along = profile_between(s, {0, 2}, {5, 2}, 11);
   for (std::size_t k = 0; k < 11; ++k)
     EXPECT_EQ(std::isnan(along.measured_heights()[k]), k >= 3 && k <= 5) << k;

@@ -71,7 +71,6 @@ TEST(Nanoscope, ChannelNamesTheImageAndSeveralOfHeightsAreAskedFor) {
   EXPECT_EQ(message_of([&] { read(bytes, "Phase"); }),
             "\"a.spm\" holds the map `Phase` in V, which is no unit of length; name a map of heights with "
             "`channel`");
-  // The only one of heights is taken, wherever it stands.
   EXPECT_NEAR(read(nanoscope({phase, retrace})).height(2, 1), 8 * 20e-12, 1e-22);
   EXPECT_NE(message_of([&] { read(nanoscope({phase})); }).find("holds no map of heights but `Phase`"),
             std::string::npos);

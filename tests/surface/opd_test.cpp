@@ -17,7 +17,7 @@ using testing::opd_map;
 using testing::opd_number;
 using testing::OpdBlock;
 
-// Columns first: (0, 0), (0, 1), (1, 0), ...
+// Order: (0, 0), (0, 1), (1, 0), ...
 const OpdBlock floats = opd_map<float>("RAW_DATA", 3, 2, {1, 2, 3, 4, 5, 6});
 const OpdBlock wavelength = opd_number("Wavelength", 500), pixel = opd_number("Pixel_size", 0.25F);
 

@@ -112,7 +112,7 @@ TEST(Rotated, QuarterTurnsAreExactAndSwapTheSides) {
   const Surface surface = numbered(4, 3);
   const Surface turned = rotated(surface, pi / 2);
   EXPECT_EQ(turned.grid(), (Grid{3, 4, surface.grid().size_y, surface.grid().size_x}));
-  // Counter-clockwise seen from above: the +x side goes to the +y side.
+  // Counter-clockwise from above.
   EXPECT_EQ(turned.height(2, 3), surface.height(3, 0));
   EXPECT_EQ(turned.height(0, 0), surface.height(0, 2));
   EXPECT_EQ(turned.height(2, 0), surface.height(0, 0));
@@ -124,7 +124,7 @@ TEST(Rotated, QuarterTurnsAreExactAndSwapTheSides) {
 }
 
 TEST(Rotated, OtherAnglesKeepParabolasExactly) {
-  // Cubic convolution is exact for parabolas, so the turned one is known everywhere.
+  // Cubic convolution is exact for parabolas.
   const auto bowl = [](double u, double v) { return 0.3 * u * u - 0.2 * u * v + 0.1 * v * v + 0.5 * u - v; };
   const Surface surface =
       surface_of(41, 31, 41, 31, [&](double x, double y) { return bowl(x - 20, y - 15); });
@@ -145,7 +145,7 @@ TEST(Rotated, OtherAnglesKeepParabolasExactly) {
 }
 
 TEST(Rotated, LargestPartInsideAndNothingLeft) {
-  const Surface surface = numbered(21, 21);  // cells 1 x 2 um, 20 x 40 um between the outer nodes
+  const Surface surface = numbered(21, 21);  // 1 x 2 um; 20 x 40 um between the outer nodes
   const Surface turned = rotated(surface, pi / 4);
   const double share = std::min(20 / (60 * std::sqrt(0.5)), 40 / (60 * std::sqrt(0.5)));
   EXPECT_EQ(turned.grid().nx, static_cast<int>(share * 20) + 1);
@@ -222,7 +222,7 @@ TEST(Resampled, PeriodicSurfacesAreExactOnFinerCells) {
 }
 
 TEST(Resampled, UpAndDownAgainIsTheIdentity) {
-  // Numbered heights hold every wave of the grid, Nyquist's too.
+  // All waves of the grid, including Nyquist.
   for (const auto& [nx, ny] : {std::pair{8, 6}, {7, 5}, {2, 4}, {1, 6}, {1, 1}}) {
     const Surface surface = numbered(nx, ny, true);
     for (const auto& [mx, my] : {std::pair{16, 12}, {9, 7}, {10, 6}, {8, 13}}) {
@@ -267,7 +267,7 @@ TEST(Resampled, CoarseningAveragesAndRefiningPassesThroughNodes) {
   const Surface fine = resampled(surface, 18, 1);
   for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(fine.height(3 * i, 0), surface.height(i, 0));
   const Surface saw = surface_of(8, 1, 8, 1, [](double x, double) { return std::fmod(x, 2.0); });
-  EXPECT_DOUBLE_EQ(resampled(saw, 4, 1).height(1, 0), 0.5);  // a sample alone would give 0
+  EXPECT_DOUBLE_EQ(resampled(saw, 4, 1).height(1, 0), 0.5);  // without averaging: 0
   for (const auto& [nx, ny] : {std::pair{1, 5}, {2, 2}, {3, 1}})
     EXPECT_EQ(resampled(numbered(nx, ny), 9, 7).grid().nx, 9);
   EXPECT_NE(message_of([&] { resampled(surface, 0, 4); }).find("`cells` is 0"), std::string::npos);
@@ -340,7 +340,6 @@ TEST(Sections, LinesAreBilinear) {
   const Profile line = profile_between(surface, {0.5, 0.25}, {9.5, 4.75}, 10);
   EXPECT_EQ(line.size(), 10);
   EXPECT_DOUBLE_EQ(line.spacing(), std::hypot(1, 0.5));
-  // Exact where the line meets the bilinear patches of a function that is bilinear itself.
   for (std::size_t k = 0; k < 10; ++k)
     EXPECT_NEAR(line.heights()[k], saddle(0.5 + static_cast<double>(k), 0.25 + 0.5 * static_cast<double>(k)),
                 1e-12);

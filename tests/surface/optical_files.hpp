@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of optical instruments for tests, put together byte by byte from the published layouts, with none of
-// the code under test; and what zlib packs.
+// Optical instruments' files from published layouts, without the code under test; zlib compression.
 #pragma once
 
 #include <zlib.h>
@@ -17,7 +16,7 @@
 
 namespace asperity::testing {
 
-// The bytes as gzip packs them (16 beside the window), or as zlib does.
+// window 16 + bits: gzip; otherwise zlib.
 inline std::string deflated_as(std::string_view plain, int window) {
   z_stream stream{};
   if (deflateInit2(&stream, 9, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
@@ -34,7 +33,7 @@ inline std::string deflated_as(std::string_view plain, int window) {
 inline std::string gzipped(std::string_view plain) { return deflated_as(plain, MAX_WBITS + 16); }
 inline std::string zlib_packed(std::string_view plain) { return deflated_as(plain, MAX_WBITS); }
 
-// The heights of a compressed object of Digital Surf: the lengths of the pieces, then the pieces.
+// Lengths of the pieces, then the pieces.
 inline std::string sur_pieces(const std::vector<std::string>& plain) {
   Bytes b;
   b.put(static_cast<std::uint32_t>(plain.size()));
@@ -52,7 +51,6 @@ std::string big(T value) {
   return bytes;
 }
 
-// MetroPro of Zygo.
 struct MetroProExample {
   std::string mark = "\x88\x1B\x03\x6F";
   std::uint16_t version = 1, nx = 3, ny = 2, picture_nx = 2, picture_ny = 1, pictures = 1;
@@ -79,7 +77,6 @@ struct MetroProExample {
   }
 };
 
-// PLU of Sensofar.
 struct PluExample {
   std::string date = "Fri Mar 10 16:35:59 2023";
   std::uint32_t nx = 3, ny = 2, type = 3, layer_nx = 3, layer_ny = 2;
@@ -94,7 +91,7 @@ struct PluExample {
   }
 };
 
-// AL3D of Alicona; each line of heights is padded with `pad` bytes.
+// `pad` bytes follow each line.
 struct Al3dExample {
   std::vector<std::pair<std::string, std::string>> tags{{"Cols", "4"},
                                                         {"Rows", "2"},
@@ -119,7 +116,6 @@ struct Al3dExample {
   }
 };
 
-// NMS of NanoFocus.
 struct NmsExample {
   std::uint32_t first = 0, last = 65535, header = 1500, width = 2, nx = 3, ny = 2;
   double low = -1, high = 1, dx = 100, dy = 200;
@@ -134,7 +130,6 @@ struct NmsExample {
   }
 };
 
-// FRT of MicroProf: blocks in the order given.
 struct FrtBlock {
   int kind;
   std::string content;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The orientation of maps: y upwards, whichever line a file stores first. Fixtures of every format say which
-// line becomes j = 0; every writer stores lines as its reader takes them; masks turn with the heights, traces
-// keep their order.
+// y points up, whichever line a file stores first; masks follow the heights.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +41,7 @@ std::string npy_example(const std::vector<double>& heights) {
   return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + head + "\n" + raw(heights);
 }
 
-// Three columns and two lines, 1 2 3 and 4 5 6 in the order of the file, in every format of maps.
+// 1 2 3 and 4 5 6 in file order.
 std::map<std::string, std::string> maps_of_two_lines() {
   using namespace testing;
   const std::vector<double> six{1, 2, 3, 4, 5, 6};
@@ -113,7 +111,7 @@ TEST(Orientation, EveryFormatNamesItsSource) {
   }
 }
 
-// Not square, with unlike cells, holes that tell all four corners apart, and its maximum on the top line.
+// Oblong cells, holes that distinguish all corners, maximum on the top line.
 Surface marked(int nx, int ny) {
   Field z(nx, ny);
   for (int j = 0; j < ny; ++j)
@@ -149,7 +147,7 @@ TEST(Orientation, WhatIsWrittenReadsBackAsItWas) {
     }
 }
 
-// Gwyddion shows the first line of a data field at the top, as our picture shows the last.
+// Gwyddion displays the first line at the top.
 TEST(Orientation, GwyddionIsGivenTheTopLineFirst) {
   const Scratch scratch;
   Field z(3, 2);
@@ -175,8 +173,6 @@ TEST(Orientation, TextUnderGwyddionsHeadBeginsAtTheTop) {
       9e-6);
 }
 
-// A trace has no top: its samples stay in their order, in one line or in one column under position and
-// height.
 TEST(Orientation, TracesKeepTheirOrder) {
   const Scratch scratch;
   const Profile pairs = read_profile(scratch.write("p.txt", "x [um],z [um]\n0,1\n1,2\n2,4\n"));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts under heads of words: what of a head is certain is taken, the rest passed over, and what may be no
-// map is refused with what would tell.
+// Reliable entries of text headers are used, others ignored; doubtful tables are refused.
 #include "engine/surface/io/own_head.hpp"
 
 #include "engine/surface/io/read.hpp"
@@ -44,7 +43,6 @@ TEST(OwnHead, ItsLengthsAndCountsAreTaken) {
   }
 }
 
-// A number alone is no length, whatever it may be meant as.
 TEST(OwnHead, ALengthWithoutAUnitIsPassedOver) {
   const std::string text = std::string("Profiler\ncolumns 3\nX Range: 30\nY Range: 60\n") + map;
   EXPECT_NE(message_of([&] { surface_of(text); }).find("does not say its size and unit"), std::string::npos);
@@ -84,7 +82,7 @@ TEST(OwnHead, CountsThatContradictTheTableAreRefused) {
 
 TEST(OwnHead, ASpacingIsThatOfNodesAndALengthThatContradictsItIsRefused) {
   const std::string rest = std::string("dy 20 um\ncolumns 3\nZ unit nm\n") + map;
-  for (const char* length : {"20 um", "30 um"})  // from node to node, or of all cells
+  for (const char* length : {"20 um", "30 um"})  // between outer nodes; of all cells
     EXPECT_NEAR(surface_of("Profiler\ndx 10 um\nX Range: " + std::string(length) + "\n" + rest).grid().size_x,
                 30e-6, 1e-18);
   EXPECT_NE(message_of([&] {

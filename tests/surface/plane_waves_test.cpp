@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums of plane waves against the direct sum over nodes and waves in long double.
 #include "engine/surface/generators/plane_waves.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +41,7 @@ Field sum(const std::vector<PlaneWave>& waves, int nx, int ny) {
   return sum_of_plane_waves(nx, ny, waves, Monitor::silent(), "waves");
 }
 
-// About twenty places along a side, the first and the last among them.
+// About twenty places, including both ends.
 std::vector<int> probes(int n) {
   std::vector<int> places;
   for (int k = 0; k < n; k += std::max(1, n / 19)) places.push_back(k);
@@ -83,7 +82,7 @@ TEST(PlaneWaves, AddMirrorImagesRightly) {
     if (k % 3 != 0) w.step_y = 0 - w.step_y;
     waves.push_back(w);
   }
-  waves.push_back(waves.front());  // and the very same wave twice
+  waves.push_back(waves.front());  // the same wave twice
   expect_direct_sum(waves, 40, 50, 2e-14);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Profile value.
 #include "engine/surface/profile.hpp"
 
 #include <gtest/gtest.h>

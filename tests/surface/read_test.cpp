@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading as a whole: which format a file is, what is missing, what becomes of holes, what is wrong
-// with a path. Each format has its own test beside this one.
+// Format recognition, missing information, holes and bad paths; each format has its own test.
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/format.hpp"
 
@@ -148,13 +147,13 @@ TEST(Read, HolesStayHolesUnlessFilled) {
   options.fill = HoleFill::interpolate();
   const Surface filled = read_surface(path, options);
   EXPECT_NEAR(filled.height(1, 1), 5e-6, 1e-16);  // the mean of 2, 4, 6 and 8
-  EXPECT_NEAR(filled.height(2, 2), 7e-6, 1e-16);  // the mean of 6 and 8: no slope across the rim
+  EXPECT_NEAR(filled.height(2, 2), 7e-6, 1e-16);  // the mean of 6 and 8: zero slope at the rim
   options.fill = HoleFill::with(NAN);
   EXPECT_NE(message_of([&] { read_surface(path, options); }).find("`fill` is nan"), std::string::npos);
 }
 
 TEST(Read, InterpolationContinuesPlanesThroughHoles) {
-  // A plane is harmonic, on cells that are not square too; every hole is inside.
+  // A plane is harmonic on cells of any shape; all holes are interior.
   const Scratch scratch;
   std::string text;
   for (int j = 0; j < 30; ++j) {
@@ -195,7 +194,6 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
   ReadProfileOptions only_unit;
   only_unit.unit = 1e-6;
-  // B2: the unit of heights is not that of positions.
   EXPECT_NE(message_of([&] {
               read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
             }).find("does not say the unit of its positions; give `unit_xy` in the call"),
@@ -229,7 +227,6 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
 }
 
-// B2, F7: two columns under a head are a trace, whether read as a profile or as a surface.
 TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
   for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
                            "Position [mm];Height [um]\n"}) {
@@ -253,7 +250,7 @@ TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
             std::string::npos);
 }
 
-// F13: a size that no instrument has comes from a head or a unit that is wrong.
+// An implausible size reveals a wrong header or unit.
 TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
   const auto warnings = [](const std::string& text, const ReadOptions& options) {
     testing::Warnings heard;
@@ -276,7 +273,7 @@ TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
   EXPECT_TRUE(said(four, narrow, "lie 500 mm apart along x and 5 nm along y"));
 }
 
-// F13: "152" cut to "15" looks like a number.
+// A truncated "152" reads as 15.
 TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
   for (const auto& [text, warned] :
        {std::pair{"1 2\n3 4\n", false}, std::pair{"1 2\n3 4", true}, std::pair{"1 2\r3 4\r", false},
@@ -290,7 +287,7 @@ TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
   }
 }
 
-// S9: a sparse file takes no time to be refused.
+// Refused without reading the sparse file.
 TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
   const std::string path = scratch.write("large.npy", "\x93NUMPY");
@@ -312,7 +309,7 @@ TEST(Read, LimitOfCells) {
             std::string::npos);
   ReadProfileOptions options;
   options.spacing = options.unit = 1;
-  EXPECT_EQ(read_profile(path, options).size(), 65537);  // a trace may be longer than a map
+  EXPECT_EQ(read_profile(path, options).size(), 65537);  // traces may exceed the limit
 }
 
 TEST(Read, MeasuredFilesThatAreNotWhatTheyClaim) {

@@ -38,7 +38,6 @@ WeierstrassMandelbrotOptions fractal() {
 
 using Make = std::function<Surface(Monitor&)>;
 
-// Taken up, it is the surface that was made, here and on other cells.
 void expect_the_same_again(const Make& make, int kept) {
   Shelf shelf;
   ShelfMonitor monitor(shelf);
@@ -60,7 +59,7 @@ void expect_the_same_again(const Make& make, int kept) {
 TEST(RecalledHeights, AreTheSurfaceThatWasMade) {
   expect_the_same_again([](Monitor& monitor) { return self_affine_surface(waves(), monitor); }, 1);
   expect_the_same_again([](Monitor& monitor) { return weierstrass_mandelbrot(fractal(), monitor); }, 1);
-  // Dents and texture apart.
+  // Dents and texture are separate.
   expect_the_same_again([](Monitor& monitor) { return bead_blasted_surface(blast(), monitor); }, 2);
 }
 

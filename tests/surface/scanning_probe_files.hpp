@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of scanning probes' and profilers' software for tests, of three columns and two lines, put together
-// byte by byte from the layouts that their readers state, with none of the code under test.
+// Files of three columns and two lines, built without the code under test.
 #pragma once
 
 #include "tests/surface/files.hpp"
@@ -8,7 +7,6 @@
 
 namespace asperity::testing {
 
-// Nanoscope: images one after another.
 struct NanoscopeImageExample {
   std::string title = "Height", line = "Trace", scan_size = "30 40 nm", sensitivity = "Sens. Zsens";
   std::string volts = "65.53600 V";
@@ -36,7 +34,6 @@ inline std::string nanoscope(const std::vector<NanoscopeImageExample>& images, i
   return Bytes().field(text, header).text(data).bytes();
 }
 
-// NID: images one after another.
 struct NidImageExample {
   std::string name = "Z-Axis", unit = "m", range = "2e-06", least = "-1e-06", lines = "2", bits = "32",
               frame = "Scan forward";
@@ -59,7 +56,7 @@ inline std::string nid_example(const std::vector<NidImageExample>& images) {
   return head + sections + "\r\n#!" + data;
 }
 
-// IBW of version 5: maps of single numbers.
+// IBW version 5, single precision.
 struct IbwExample {
   std::int32_t nx = 3, ny = 2, maps = 1;
   double step_x = 1e-8, step_y = 2e-8;
@@ -94,7 +91,6 @@ struct IbwExample {
   }
 };
 
-// MI: buffers one after another.
 struct MiBufferExample {
   std::string label = "Topography", unit = "um", range = "2.0000000000000000e+000", trace = "Trace";
 };
@@ -113,7 +109,6 @@ inline std::string mi_example(const std::vector<MiBufferExample>& buffers, const
   return text + line("data", kind) + data;
 }
 
-// STP and TOP of WSxM.
 struct WsxmExample {
   std::string type = "double", amplitude = "5 nm", size = "30 nm", columns = "3", kind = "SxM Image file";
   std::string operator()(const std::string& data) const {
@@ -127,7 +122,6 @@ struct WsxmExample {
   }
 };
 
-// TIFF of Park with nothing but its tags.
 struct ParkExample {
   std::uint32_t image_type = 0, nx = 3, ny = 2, swapped = 0, number_type = 2, version = 0x01000002;
   double size_x = 3, size_y = 4, gain = -2, scale = 0, offset = 0;
@@ -161,14 +155,13 @@ struct ParkExample {
   }
 };
 
-// OPDx: items, those of containers within them.
+// Containers hold items.
 inline std::string opdx_name(const std::string& name) {
   return Bytes().put(static_cast<std::uint32_t>(name.size())).text(name).bytes();
 }
 inline std::string opdx_item(const std::string& name, int type, const std::string& value) {
   return opdx_name(name) + static_cast<char>(type) + value;
 }
-// With its length before it, in four bytes.
 inline std::string opdx_sized(const std::string& value) {
   return Bytes().put(std::uint8_t{4}).put(static_cast<std::uint32_t>(value.size())).text(value).bytes();
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readers of scanning probes' and stylus profilers' files: units, orientation, missing points, the choice
-// among several maps, and each fault of a header. Nanoscope files have a test of their own.
+// Units, orientation, missing points, choice of the map, header faults.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +63,7 @@ TEST(Nid, ChannelNamesTheImage) {
       "\"a.nid\" holds several maps of heights: `Z-Axis, Scan forward` and `Z-Axis, Scan backward`; name "
       "one of them with `channel`");
   EXPECT_GT(read("a.nid", bytes, "Z-Axis, Scan backward").height(0, 0), 0);
-  // Amperes are no angstroms.
+  // Amperes are not angstroms.
   expect_refusal(refusal("a.nid", testing::nid_example({{.unit = "A"}}), "Z-Axis, Scan forward"),
                  "in \"A\", which is no unit of length");
   expect_refusal(refusal("a.nid", bytes, "Deflection, Scan forward"), "in \"N\", which is no unit of length");
@@ -178,7 +177,7 @@ TEST(Wsxm, HeightsSpanTheAmplitude) {
   const Surface s = read(
       "a.top", testing::WsxmExample{.type = "short"}(raw(std::vector<std::int16_t>{0, 2, 3, 4, 50, 100})));
   EXPECT_NEAR(s.height(0, 1) - s.height(2, 0), 5e-9, 1e-21);
-  // What six printed digits differ by is no scale.
+  // Rounding to six digits is no scale.
   const Surface digits = read(
       "a.stp", testing::WsxmExample{.amplitude = "5.00001 nm"}(raw(std::vector<double>{1, 2, 3, 4, 5, 6})));
   EXPECT_NEAR(digits.height(0, 1), 6e-9, 1e-21);
@@ -233,7 +232,6 @@ TEST(Park, EachFaultIsSaid) {
   expect_refusal(refusal("a.tiff", testing::ParkExample{.unit = "V"}(six)), "`Z Height` in \"V\"");
   const std::string whole = testing::ParkExample{}(six);
   expect_refusal(refusal("a.tiff", whole.substr(0, whole.size() - 1)), "has its header past its end");
-  // Any other TIFF is a picture.
   expect_refusal(refusal("a.tiff", std::string("II*\0\x08\0\0\0\0\0", 10)), "is a TIFF picture");
 }
 

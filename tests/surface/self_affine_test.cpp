@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Self-affine surfaces: requested numbers met exactly, the same surface on every grid, and the
-// spectrum of theory (case V10).
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/core/constants.hpp"
 
@@ -49,7 +47,7 @@ double rms(const Field& field) {
 struct Wave {
   int a, b;
   double length;  // m
-  double power;   // m², of this wave and of its conjugate where the spectrum holds it only once
+  double power;   // m², with the conjugate if stored only once
 };
 
 std::vector<Wave> waves_of(const Surface& surface) {
@@ -161,8 +159,8 @@ TEST(SelfAffine, SeedsDiffer) {
   EXPECT_NE(first.digest(), second.digest());
 }
 
-// Each band of wavelengths is compared with the discrete sum of the theoretical spectrum. With N
-// independent waves of exponential power, a band's mean scatters by 1/√N.
+// Bands against the discrete sum of the theoretical spectrum; the mean over N independent exponential
+// powers scatters by 1/√N.
 TEST(SelfAffine, SpectrumIsThatOfTheory) {
   constexpr int n = 128, seeds = 40;
   const double size = 1e-3, hurst = 0.7, roll_off = size / 12, short_wave = size / 60;
@@ -192,8 +190,7 @@ TEST(SelfAffine, SpectrumIsThatOfTheory) {
         << "band " << band;
 }
 
-// Case V10: h² = C_r q_r²/(4π) [1 + 1/H - (q_L/q_r)² - (1/H)(q_s/q_r)^(-2H)], with C_r measured as the
-// mean power of the flat part times the area.
+// h² = C_r q_r²/(4π) [1 + 1/H - (q_L/q_r)² - (1/H)(q_s/q_r)^(-2H)]; C_r: mean flat power times the area.
 TEST(SelfAffine, HeightOfTheory) {
   constexpr int n = 128, seeds = 30;
   const double size = 1e-3, hurst = 0.8, flat_waves = 20, most_waves = 60;
@@ -216,7 +213,7 @@ TEST(SelfAffine, HeightOfTheory) {
   const double h_squared =
       spectrum * q_r * q_r / (4 * pi) *
       (1 + 1 / hurst - std::pow(1 / flat_waves, 2) - std::pow(most_waves / flat_waves, -2 * hurst) / hurst);
-  // 30 x 600 exponential powers scatter by 0.8 %, and a circle on a lattice of 1250 points by 1 %.
+  // 30 x 600 exponential powers scatter by 0.8 %, a circle of 1250 lattice points by 1 %.
   EXPECT_NEAR(h_squared / 1e-12, 1, 0.04);
 }
 
@@ -231,7 +228,7 @@ TEST(SelfAffine, HeightsAreGaussian) {
     fourth += std::pow(z / 1e-6, 4);
   }
   const double nodes = 256 * 256;
-  EXPECT_NEAR(absolute / nodes, 0.79788, 0.01);  // case V9: Ra/Rq of a Gaussian field
+  EXPECT_NEAR(absolute / nodes, 0.79788, 0.01);  // Ra/Rq of a Gaussian field
   EXPECT_NEAR(fourth / nodes, 3, 0.15);
 }
 

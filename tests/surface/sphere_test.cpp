@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spherical caps and paraboloids.
 #include "engine/surface/generators/sphere.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +32,7 @@ TEST(Sphere, ApexStandsOnTheMiddleNodeAtHeightZero) {
 }
 
 TEST(Sphere, Heights) {
-  // A 3-4-5 triangle: 3 to the side of the apex, the surface is 4 above the centre.
+  // A scaled 3-4-5 triangle: 3 cells off the apex, 4 above the centre.
   const Grid grid{8, 8, 8, 8};
   const Surface cap = sphere_surface({grid, 5 * std::sqrt(2.0), SphereShape::sphere});
   EXPECT_NEAR(cap.height(0, 4), std::sqrt(50.0 - 16) - std::sqrt(50.0), 1e-14);
@@ -55,7 +54,7 @@ TEST(Sphere, CellsNeedNotBeSquare) {
 }
 
 TEST(Sphere, MustReachTheCorner) {
-  const Grid grid{8, 8, 8e-6, 8e-6};  // the corner lies 4√2 cells from the apex
+  const Grid grid{8, 8, 8e-6, 8e-6};  // 4√2 cells from the apex
   EXPECT_EQ(refusal({grid, 5e-6, SphereShape::sphere}),
             "`radius` is 5 um, but the corner of the grid is 5.657 um from the apex; give a larger radius, a "
             "smaller "

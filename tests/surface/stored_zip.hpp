@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Zip archives without compression, made byte by byte: what they claim need not be so.
+// Uncompressed zip archives with arbitrary headers.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ inline std::uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-// A zip archive of stored entries. `claimed` overrides the size that entry 1 says it has.
+// `claimed`: stated size of entry 1.
 inline std::string zip_of(const std::vector<std::pair<std::string, std::string>>& entries,
                           std::optional<std::uint64_t> claimed = {}, int method = 0) {
   std::string body, directory;

@@ -73,7 +73,7 @@ class Listener final : public Monitor {
   std::vector<std::string> warnings;
 };
 
-// 100 samples, 1 um apart, of a trace said to be 100 um long.
+// Samples 1 um apart; stated length 100 um.
 std::string trace_of(int samples, const std::string& header) {
   std::string text = header + "\nScan Data\nLateral um,Raw um,\n";
   for (int k = 0; k < samples; ++k) text += std::to_string(k) + ".0,0." + std::to_string(k % 7) + ",,\r\n";
@@ -97,7 +97,7 @@ TEST(StylusCsv, LessThanTheStatedLengthIsRefused) {
   EXPECT_NE(answer(60, "Length,0.1 mm").find("covers 60 um of the 100 um"), std::string::npos);
   EXPECT_NE(answer(60, "Length,100 \xB5m").find("covers 60 um of the 100 um"), std::string::npos);
   EXPECT_EQ(answer(50, "Length,unknown"), "no error");
-  EXPECT_EQ(answer(50, "Resolution,1.000 um/sample"), "no error");  // says nothing of the end
+  EXPECT_EQ(answer(50, "Resolution,1.000 um/sample"), "no error");  // no end stated
 }
 
 TEST(StylusCsv, MoreThanTheStatedLengthIsAWarning) {
@@ -109,7 +109,7 @@ TEST(StylusCsv, MoreThanTheStatedLengthIsAWarning) {
             std::string::npos);
 }
 
-// One byte less may make 1.25 of 1.258, which nothing else can tell.
+// A truncated 1.258 reads as 1.25.
 TEST(StylusCsv, LastLineWithoutEndIsAWarning) {
   const Scratch scratch;
   const std::string whole = testing::bytes_of(sample("trace.csv"));
@@ -149,7 +149,7 @@ TEST(StylusCsv, MeasuredFile) {
   Listener listener;
   const Profile profile = read_profile(measured("dektak-1.csv"), {}, listener);
   EXPECT_TRUE(listener.warnings.empty());
-  EXPECT_NEAR(profile.length(), 1500e-6, 1e-10);  // the length that the header states
+  EXPECT_NEAR(profile.length(), 1500e-6, 1e-10);  // as stated
   EXPECT_NEAR(profile.spacing(), 0.156e-6, 0.0005e-6);
   EXPECT_NEAR(profile.heights()[0], -0.00933e-6, 1e-18);
   EXPECT_NEAR(profile.heights()[1], -0.00760e-6, 1e-18);

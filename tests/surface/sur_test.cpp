@@ -79,7 +79,6 @@ TEST(Sur, UnknownUnitsAreAskedFor) {
             "one number, such as \"um\"");
 }
 
-// A header of an object of 16-bit integers, and its compressed pieces.
 std::string compressed(const SurExample& header, const std::vector<std::string>& pieces) {
   return header(std::vector<std::int16_t>{}) + testing::sur_pieces(pieces);
 }
@@ -125,7 +124,7 @@ TEST(Sur, CompressedPiecesThatLieAreRefused) {
   changed[515] = 127;
   found(changed, "compressed in 2130706432 pieces");
   changed = whole;
-  changed[516] = 11;  // bytes of the first piece
+  changed[516] = 11;  // in the first piece
   found(changed, "its heights should be 11 bytes out of");
   changed = whole;
   changed.back() = static_cast<char>(changed.back() + 1);  // its checksum
@@ -162,7 +161,7 @@ TEST(Sur, EachFaultIsSaid) {
   EXPECT_EQ(refusal(SurExample{.dz = 0}(six)), "\"a.sur\" gives 0 as the height of one step");
 }
 
-// The points that were not measured stand 2 steps below the least height, 89120 steps of 0.1 nm.
+// Missing: 2 steps below the least height, 89120 steps of 0.1 nm.
 TEST(Sur, MeasuredFile) {
   const std::string path = testing::measured("sur-2.sur");
   if (path.empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
@@ -174,7 +173,7 @@ TEST(Sur, MeasuredFile) {
   EXPECT_EQ(s.grid().ny, 484);
   EXPECT_NEAR(s.grid().hx(), 3.484e-6, 1e-12);
   const double step = static_cast<double>(1e-7F) * 1e-3;
-  EXPECT_NEAR(s.height(0, 483), 101477 * step, 1e-18);  // the first stored is at the top
+  EXPECT_NEAR(s.height(0, 483), 101477 * step, 1e-18);  // first stored line: top
   EXPECT_NEAR(s.height_range().min, 89120 * step, 1e-18);
   EXPECT_NEAR(s.height_range().max, 103880 * step, 1e-18);
 }

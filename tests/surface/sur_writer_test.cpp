@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces to SUR and back: heights within half a step, holes exactly, the first line first.
 
 #include <cmath>
 #include <cstdint>
@@ -38,7 +37,7 @@ T number_at(const std::string& bytes, std::size_t at) {
   return little_endian<T>(bytes.data() + at);
 }
 
-// The step in metres, as the header says it in millimetres.
+// m; stated in mm.
 double step_of(const std::string& bytes) { return static_cast<double>(number_at<float>(bytes, 128)) * 1e-3; }
 
 TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
@@ -48,7 +47,7 @@ TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
       for (const bool holes : {false, true}) {
         const Surface surface = rough(unit, share * unit, holes), found = back(scratch, surface);
         const double step = step_of(bytes_of(scratch.path("a.sur")));
-        // Fine beside the roughness itself, whatever its height above zero.
+        // The step is fine at any offset.
         EXPECT_LT(step, unit * 1e-6) << unit << ", " << share;
         EXPECT_EQ(found.measured(), surface.measured());
         EXPECT_EQ(found.grid().nx, surface.grid().nx);
@@ -64,7 +63,7 @@ TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
       }
 }
 
-// The file holds its spacing in four bytes: a size that differs by their rounding contradicts nothing.
+// The spacing is stored in single precision: its rounding is no contradiction.
 TEST(SurWriter, TheSizeThatWasWrittenIsNotWarnedOf) {
   const Scratch scratch;
   const Surface surface = rough(1e-6, 0, false);
@@ -88,7 +87,7 @@ TEST(SurWriter, FirstLineComesFirst) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found.height(i, j), 1e-6 * (i + 3 * j), 1e-14) << i << ", " << j;
 }
 
-// What the format says of itself, by the places of its description.
+// Offsets from the format's description.
 TEST(SurWriter, HeaderSaysWhatItHolds) {
   const Scratch scratch;
   const Surface holed = rough(1e-6, 0, true), whole = rough(1e-6, 0, false);
@@ -108,7 +107,7 @@ TEST(SurWriter, HeaderSaysWhatItHolds) {
     EXPECT_TRUE(bytes.substr(512, comment).starts_with("Heights are rounded to steps of "));
     EXPECT_EQ(bytes.substr(512, comment).find("points were not measured") != std::string::npos,
               !surface.complete());
-    // Least and greatest number, and that of the missing points two below the least.
+    // Missing points: two below the least number.
     std::int32_t least = std::numeric_limits<std::int32_t>::max(), most = -least;
     std::size_t missing = 0;
     for (std::size_t k = 0; k < 54; ++k) {

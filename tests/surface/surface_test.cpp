@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Surface value: what it refuses, what it shares, and what its digest sees.
 #include "engine/surface/surface.hpp"
 
 #include <gtest/gtest.h>
@@ -115,7 +114,7 @@ TEST(Surface, HolesAreKeptAndCounted) {
   EXPECT_TRUE(std::isnan(surface.height(2, 1)));
   EXPECT_EQ(surface.height(1, 1), ramp()(1, 1));
   EXPECT_EQ(surface.height_range().max, ramp()(1, 1));
-  // Another hole is another surface; the sign of a NaN is nothing measured.
+  // The digest ignores the sign of a NaN.
   Field other = field;
   other(2, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Surface::with_holes(grid, other).digest(), surface.digest());

@@ -30,7 +30,7 @@ std::vector<double> heights_of(const Surface& surface) {
 
 using Heights = std::vector<double>;
 
-// Two lines of three numbers may as well be two points, so the call says what they are.
+// Without a format, two lines of three numbers may be two points.
 TEST(TextMatrix, FirstLineIsRowZero) {
   const Surface surface = read_text("1 2 3\n4 5 6\n", "text");
   EXPECT_EQ(surface.grid().nx, 3);
@@ -86,7 +86,6 @@ TEST(TextMatrix, WhatIsNoTable) {
             std::string::npos);
 }
 
-// As Gwyddion writes where it speaks German.
 TEST(TextMatrix, HeadsOfAGermanGwyddion) {
   const Surface surface = read_surface(SourceFile(
       "map.txt", "# Breite: 12.34 \u00B5m\n# H\u00F6he: 5678.9 nm\n# Value units: um\n1 2\n3 4\n5 6\n"));
@@ -94,7 +93,7 @@ TEST(TextMatrix, HeadsOfAGermanGwyddion) {
   EXPECT_NEAR(surface.grid().size_y, 5678.9e-9, 1e-18);
 }
 
-// As spreadsheets save "Unicode text", and without the mark too; a head in it is one of any other text.
+// With and without a byte order mark.
 TEST(TextMatrix, F7TextInUtf16IsReadAsItsLetters) {
   const std::string text = "# Value units: um\n# Width: 3 \u00B5m\n# Height: 2 \u00B5m\n1\t2\t3\n4\t5\t6\n";
   const Surface wanted = read_surface(SourceFile("map.txt", text));
@@ -102,7 +101,6 @@ TEST(TextMatrix, F7TextInUtf16IsReadAsItsLetters) {
     for (const bool marked : {true, false}) {
       std::string bytes = !marked ? "" : little ? "\xFF\xFE" : "\xFE\xFF";
       for (std::size_t k = 0; k < text.size(); ++k) {
-        // The micro sign is the one letter beyond ASCII.
         const bool micro = text[k] == '\xC2';
         const char low = micro ? text[++k] : text[k];
         bytes += little ? std::string({low, '\0'}) : std::string({'\0', low});
@@ -167,7 +165,7 @@ TEST(TextMatrix, AKeyThatIsNoTextIsNotRepeated) {
             std::string::npos);
 }
 
-// Each was once looked for to the end of its run: hours for a file of a few megabytes.
+// A quadratic search took hours.
 TEST(TextMatrix, CarriageReturnsAloneTakeOnePass) {
   const Surface surface = read_text(std::string(std::size_t{4} << 20, '\r') + "1 2\r\r\n3 4\r\n");
   EXPECT_EQ(heights_of(surface), (Heights{1, 2, 3, 4}));

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a reader warned of.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weierstrass–Mandelbrot surfaces against heights computed to 20 digits, against statistics known
-// to 10, and against the definition summed directly where long doubles still hold the phases.
+// Heights of 20 digits, statistics of 10 digits, and the direct sum where long doubles resolve the phases.
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +68,7 @@ Statistics statistics(const Surface& surface) {
   return s;
 }
 
-// The defining double sum at one node, for orders low enough that long doubles hold the phases.
+// Long doubles resolve the phases of low orders only.
 double definition(const Options& o, int i, int j, const std::function<long double(int, int)>& phase) {
   constexpr long double pi = std::numbers::pi_v<long double>;
   long double sum = 0;
@@ -79,7 +78,7 @@ double definition(const Options& o, int i, int j, const std::function<long doubl
       const long double turns =
           power * o.span / o.nx * (i * std::cos(pi * m / o.M) + j * std::sin(pi * m / o.M));
       const long double amplitude = std::pow(static_cast<long double>(o.gamma), (o.D - 3) * n);
-      // The sum of the two angles is never formed: phases may be many turns.
+      // The angles are not added: phases may exceed many turns.
       sum += amplitude * (std::cos(phase(m, n)) * (1 - std::cos(2 * pi * turns)) +
                           std::sin(phase(m, n)) * std::sin(2 * pi * turns));
     }
@@ -107,9 +106,8 @@ TEST(WeierstrassMandelbrot, HeightsAreThoseOfTheReferenceTable) {
       options.phases = WavePhases::golden;
       found = surfaces.emplace(std::pair{D, span}, weierstrass_mandelbrot(options)).first;
     }
-    // The table's entry for this node, -35.00081053088909918, is misprinted: 140 digits give what
-    // stands here (and the other 56 entries to all their digits), and so does the sum in quadruple
-    // precision below.
+    // The table's -35.00081053088909918 is misprinted: 140 digits and quadruple precision give this value
+    // and confirm the other 56.
     if (D == 2.99 && span == 3 && i == 75 && j == 75) z = -35.0008105330888991814493;
     EXPECT_NEAR(found->second.height(i, j), z, 1e-10) << line;
     ++rows;
@@ -128,7 +126,7 @@ Options golden_ratio_function(double D) {
   return options;
 }
 
-TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {  // case V19
+TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {
   const Surface surface = weierstrass_mandelbrot(golden_ratio_function(2.5));
   const Statistics s = statistics(surface);
   EXPECT_NEAR(s.mean, -2.2579597274, 1e-8);
@@ -141,7 +139,7 @@ TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {  // case
   EXPECT_EQ(surface.height(0, 0), 0);
 }
 
-TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoPointTwo) {  // case V19
+TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoPointTwo) {
   const Surface surface = weierstrass_mandelbrot(golden_ratio_function(2.2));
   const Statistics s = statistics(surface);
   EXPECT_NEAR(s.mean, -4.2184139916, 1e-8);
@@ -182,7 +180,7 @@ Quad cosine_of_tenths(int m) {
   }
 }
 
-// All 101 orders: 113 bits leave 54 for the fraction of a turn at n = 100.
+// 113 bits leave 54 for the fraction at n = 100.
 TEST(WeierstrassMandelbrot, EqualsItsDefinitionInQuadruplePrecision) {
   Options o = square(150, 2.99, 3);
   o.phases = WavePhases::golden;
@@ -207,7 +205,7 @@ TEST(WeierstrassMandelbrot, EqualsItsDefinitionInQuadruplePrecision) {
   }
 }
 
-// The five values printed for seed 1 are φ/2π after φ was rounded to a double.
+// Printed for seed 1 from the rounded φ.
 TEST(WeierstrassMandelbrot, SeededPhasesAreThoseOfTheirKeys) {
   constexpr double full_turn = 2 * std::numbers::pi;
   const auto printed = [](int m, int n) { return full_turn * seeded_phase_turns(1, 10, m, n) / full_turn; };
@@ -224,7 +222,6 @@ TEST(WeierstrassMandelbrot, GoldenPhasesAreWholeNumbers) {
   EXPECT_EQ(golden_phase_turns(0, 1, 0), 0.6180339887498949);
 }
 
-// The seeded surface is the function surface of the same phases, so both take one road.
 TEST(WeierstrassMandelbrot, SeededAndFunctionPhasesMeet) {
   Options options = square(40, 2.4);
   options.seed = 12;
@@ -245,7 +242,7 @@ TEST(WeierstrassMandelbrot, LowOrdersKeepTheirPhasesWhenMoreAreAdded) {
   few.n_max = 60;
   more.n_max = 100;
   const Surface a = weierstrass_mandelbrot(few), b = weierstrass_mandelbrot(more);
-  // At D = 2 all orders above 60 together weigh 50·√(ln γ/10)·10·2·3·1.5⁻⁶¹ m at most.
+  // D = 2: orders above 60 add at most 50·√(ln γ/10)·10·2·3·1.5⁻⁶¹ m.
   for (std::size_t k = 0; k < a.heights().size(); ++k) ASSERT_NEAR(a.heights()[k], b.heights()[k], 1e-7);
 }
 
@@ -308,7 +305,6 @@ TEST(WeierstrassMandelbrot, CellsAreSquareAndTheSizeIsSpanTimesLength) {
   EXPECT_EQ(weierstrass_mandelbrot(o).grid(), (Grid{30, 30, 150, 150}));
   o.ny = 10;
   EXPECT_EQ(weierstrass_mandelbrot(o).grid(), (Grid{30, 10, 150, 50}));
-  // A narrow grid is a part of the square one, node for node.
   const Surface narrow = weierstrass_mandelbrot(o), whole = weierstrass_mandelbrot(square(30, 2.5, 3));
   for (int j = 0; j < 10; ++j)
     for (int i = 0; i < 30; ++i) ASSERT_NEAR(narrow.height(i, j), whole.height(i, j), 1e-12);
@@ -334,7 +330,7 @@ TEST(WeierstrassMandelbrot, TouchesZeroAtTheFirstNode) {
 TEST(WeierstrassMandelbrot, IsFiniteAtBothEndsOfTheDimension) {
   const Statistics two = statistics(weierstrass_mandelbrot(square(150, 2)));
   const Statistics three = statistics(weierstrass_mandelbrot(square(150, 3)));
-  // At D = 3 every order has the same weight: variance G²·(ln γ/M)·M(n_max+1)/2.
+  // D = 3: equal weights, variance G²·(ln γ/M)·M(n_max+1)/2.
   EXPECT_NEAR(three.Rq, 5 * std::sqrt(std::log(1.5) * 101 / 2), 0.15 * three.Rq);
   EXPECT_GT(two.Rq, 1);
   EXPECT_LT(two.Rq, 50);
@@ -344,12 +340,12 @@ TEST(WeierstrassMandelbrot, TwoThousandOrdersDoNotOverflow) {
   Options o = square(60, 2.99);
   o.n_max = 2000;
   const Statistics s = statistics(weierstrass_mandelbrot(o));
-  // Variance of the sum of all orders, most of which the grid sees as noise.
+  // The grid aliases most orders to noise.
   double variance = 0;
   for (int n = 0; n <= o.n_max; ++n) variance += std::exp(2 * (o.D - 3) * n * std::log(1.5));
   const double expected = 50 * std::pow(.1, .99) * std::sqrt(std::log(1.5) * variance / 2);
   EXPECT_NEAR(s.Rq, expected, 0.15 * expected);
-  o.D = 2;  // amplitudes underflow to zero on the way
+  o.D = 2;  // amplitudes underflow
   EXPECT_GT(statistics(weierstrass_mandelbrot(o)).Rq, 1);
 }
 
@@ -362,7 +358,7 @@ TEST(WeierstrassMandelbrot, ScalesExactlyWithItsLengths) {
     ASSERT_NEAR(a.heights()[k] * 0x1p-40, b.heights()[k], 1e-14 * b.peak_to_valley());
 }
 
-// Share of the variance past Nyquist, 150 cells, to the digits printed.
+// Variance beyond Nyquist, 150 cells, to the printed digits.
 TEST(WeierstrassMandelbrot, AliasedShareIsTheTabulatedOne) {
   struct Row {
     double D, at_span_1, digit_1, at_span_3, digit_3;

@@ -55,7 +55,7 @@ TEST(Write, SurfacesReadBackBitForBit) {
       }
     }
   }
-  EXPECT_EQ(scratch.entries(), 5U);  // nothing is left aside
+  EXPECT_EQ(scratch.entries(), 5U);  // no temporary file remains
 }
 
 TEST(Write, ThreeColumnsWithOwnHeaderStayAMatrix) {

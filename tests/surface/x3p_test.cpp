@@ -136,12 +136,10 @@ TEST(X3p, HolesByNanAndByMask) {
   EXPECT_EQ(by_mask.measured(), 5U);
   EXPECT_TRUE(std::isnan(by_mask.height(2, 0)));
   EXPECT_EQ(by_mask.height(1, 1), 4);
-  // Bits past the last point say nothing.
   EXPECT_EQ(with_mask("\xFB").digest(), by_mask.digest());
   EXPECT_TRUE(with_mask("\x3F").complete());
 }
 
-// A mask that is cut, too long, gone, or leaves nothing.
 TEST(X3p, MasksThatCannotBeAreRefused) {
   Recipe recipe;
   recipe.columns = "30";
@@ -169,7 +167,7 @@ TEST(X3p, MasksThatCannotBeAreRefused) {
       std::string::npos);
 }
 
-// Integers have no NaN: only the mask tells which of them are no heights.
+// Integers have no NaN.
 TEST(X3p, MaskOfIntegersAndNanOfAnyBits) {
   Recipe recipe;
   recipe.z = "<AxisType>A</AxisType><DataType>I</DataType><Increment>1e-9</Increment>";
@@ -214,7 +212,7 @@ std::string md5_of(const std::string& bytes) {
   return md5.hex();
 }
 
-// F5: one bit of the mask makes a point of a hole, and of it a height that was never measured.
+// One flipped bit turns a hole into a height that was never measured.
 TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
   const std::string mask("\x3B", 1);
   Recipe recipe;
@@ -251,14 +249,14 @@ TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
   }
 }
 
-// main.xml holds sizes and scales: with another one the heights stand, and their scale may not.
+// A wrong main.xml changes the scale.
 TEST(X3p, F5TheSumOfMainXmlIsCompared) {
   const std::string xml = Recipe{}.xml(), sum = md5_of(xml);
   const auto warnings = [](const std::vector<std::pair<std::string, std::string>>& entries) {
     Warnings heard;
     const Scratch scratch;
     expect_ramp(read_surface(scratch.write("map.x3p", zip_of(entries)), {}, heard));
-    // The ramp of metres over micrometres is warned of, too.
+    // Ignores the warning about proportions.
     std::erase_if(heard.all, [](const std::string& text) { return text.find("MD5") == std::string::npos; });
     return heard.all;
   };
@@ -277,11 +275,10 @@ TEST(X3p, F5TheSumOfMainXmlIsCompared) {
                          ", and the entry \"md5checksum.hex\" says " + sum + "; main.xml may "),
             std::string::npos)
       << told[0];
-  // What is no sum says nothing, and neither does a file that is not there.
   for (const std::string& none : {std::string(), std::string("main.xml"), sum.substr(1), sum + "0"})
     EXPECT_TRUE(with(altered, none).empty()) << none;
   EXPECT_TRUE(warnings({{"main.xml", altered}, {"bindata/data.bin", six}}).empty());
-  // Under the name that main.xml gives, in its folder.
+  // main.xml may name the checksum file.
   Recipe named;
   named.content += "</@Record3><@Record4><@ChecksumFile>sum.hex</@ChecksumFile></@Record4><@Record3>";
   EXPECT_EQ(warnings({{"a/main.xml", named.xml()}, {"a/bindata/data.bin", six}, {"a/sum.hex", sum}}).size(),

@@ -23,7 +23,6 @@ ReadOptions in_micrometres() {
   options.unit = options.unit_xy = 1e-6;
   return options;
 }
-// Of a matrix, which has no positions.
 ReadOptions heights_in_micrometres() {
   ReadOptions options;
   options.unit = 1e-6;
@@ -48,7 +47,7 @@ TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
   EXPECT_DOUBLE_EQ(surface.height(2, 1), 6e-6);
 }
 
-// B2: heights in um over positions in mm are common; nobody's unit is guessed.
+// No unit is guessed: um over mm is common.
 TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   const std::string file = "\"" + sample("points.xyz") + "\" does not say ";
   EXPECT_EQ(
@@ -67,7 +66,6 @@ TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).height(3, 2), 23e-6);
 }
 
-// The size of the call is enough, and then the file says nothing that could be overruled.
 TEST(Xyz, B2ASizeOfTheCallIsNoContradiction) {
   testing::Warnings warnings;
   ReadOptions options;
@@ -94,9 +92,9 @@ TEST(Xyz, MissingPointIsAHole) {
   EXPECT_NEAR(read_surface(path, options).height(3, 2), 3e-6, 1e-17);
 }
 
-// Points that end within a line are read, and warned of: nothing else tells a file that was cut short.
+// A truncated file may end within a line.
 TEST(Xyz, LinesThatEndTooSoonAreWarnedOf) {
-  // 4 x 4 points; a line along x or y, from either end.
+  // 4 x 4 points, lines along x or y, from either end.
   const auto told = [](bool along_x, bool turned, int first_missing, int last_missing) {
     std::string text;
     for (int k = 0; k < 16; ++k) {
@@ -127,7 +125,7 @@ struct NamedUnit {
 };
 constexpr NamedUnit units_of_heads[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}};
 
-// B2: own.csv of an experimenter, 3 x 2 points 0.1 apart, in every unit, spelling and separator.
+// 3 x 2 points 0.1 apart.
 TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
   const std::vector<double> x{0, 1e-4, 2e-4}, y{0, 1e-4};
   const std::vector<double> z{1.2e-6, 1.5e-6, 1.1e-6, 0.9e-6, 2.0e-6, 1.7e-6};
@@ -171,11 +169,10 @@ TEST(Xyz, B2HeadsOfOtherForms) {
     EXPECT_DOUBLE_EQ(surface.grid().size_x, 2e-4) << head;
     EXPECT_DOUBLE_EQ(surface.height(1, 1), 4e-6) << head;
   }
-  // x and y in units of their own.
   const Surface oblong = read_surface(SourceFile("own.txt", "x [mm];y [um];z [nm]\n" + points));
   EXPECT_DOUBLE_EQ(oblong.grid().size_x, 2e-4);
   EXPECT_DOUBLE_EQ(oblong.grid().size_y, 2e-7);
-  // A line that names the columns decides where the points alone would not.
+  // Column names resolve the ambiguity.
   EXPECT_EQ(
       read_surface(SourceFile("own.txt", "x [mm] y [mm] z [um]\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n2 0 1\n2 1 2\n"))
           .grid()
@@ -199,7 +196,6 @@ TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
               read_surface(SourceFile("own.csv", text), options);
             }).find("its positions are in units of 1 mm, and `unit_xy` is 1 um"),
             std::string::npos);
-  // Half a head asks for the other half.
   const std::string half = "x,y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n";
   EXPECT_NE(message_of([&] {
               read_surface(SourceFile("own.csv", half));
@@ -217,7 +213,6 @@ TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
   EXPECT_NE(warnings.all[0].find("gives its \"x\" in \"px\", which is no unit of length"), std::string::npos);
 }
 
-// `unit_xy` is of positions: a file without any does not pass it over.
 TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1;
@@ -226,7 +221,7 @@ TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
             "points and of profiles in two columns");
 }
 
-// B3: what is left of a lattice is the map with holes or an error, and never a map of its own coordinates.
+// Never a matrix of the coordinates.
 TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
   const Stream stream(11, "lattices");
   std::uint64_t draw = 0;
@@ -250,7 +245,7 @@ TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
         const auto error = testing::error_of([&] {
           const Surface found = read_surface(SourceFile("left.txt", text), options);
           ++maps;
-          // Every point lies where it was measured, seen from the first column and row that are left.
+          // Places are relative to the first remaining column and row.
           int first_i = nx, first_j = ny;
           for (const int place : places) {
             first_i = std::min(first_i, place % nx);
@@ -296,7 +291,7 @@ TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
   EXPECT_EQ(read_surface(SourceFile("hx3.txt", three), options).grid(), (Grid{2, 2, 2e-6, 2e-6}));
 }
 
-// What no lattice leaves: a place twice, places on no lattice, or a jumble of them.
+// Repeated, irregular or unordered places form no lattice.
 TEST(Xyz, B3MatricesOfThreeColumnsStayMatrices) {
   ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
@@ -350,7 +345,7 @@ TEST(Xyz, ScatteredPointsAreNoMapOfThreeColumns) {
   EXPECT_EQ(read_surface(scratch.write("map.txt", text), options).grid().nx, 3);
 }
 
-// A lattice of nx x ny points whose point k is given copies(k) times.
+// Point k of the nx x ny lattice appears copies(k) times.
 template <class Copies>
 std::string lattice(int nx, int ny, Copies&& copies) {
   std::string text;
@@ -391,12 +386,11 @@ TEST(Xyz, AlmostALatticeHasToBeNamed) {
   EXPECT_EQ(answer(few, "xyz"), "no error");
   EXPECT_NE(answer(twice, "xyz").find("gives the point x = 1, y = 0.5 twice"), std::string::npos);
   EXPECT_TRUE(ambiguous("# made by hand\n" + few));
-  // What says that it is a matrix is one.
   EXPECT_EQ(answer("# Channel: Height\n# Width: 3 um\n# Height: 8 um\n" + few, ""), "no error");
   EXPECT_EQ(answer("h=8 w=3\npixel size=1e-6\n" + few, ""), "no error");
 }
 
-// Heights of an instrument with few steps, drawn independently or along a smooth surface.
+// Few height steps, random or smooth.
 TEST(Xyz, MatricesOfFewDistinctHeightsStayMatrices) {
   const Scratch scratch;
   ReadOptions options = heights_in_micrometres();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command reaches a confined process as it was given, whatever bytes are in it.
 #include "bindings/web/confined/command_request.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S2: what a run leaves beyond its limit is removed, its record last, and no link is followed.
+// Removes files beyond a run's limit, the record last, without following links.
 #include "bindings/web/confined/disk_bound.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,6 @@ class DiskBound : public InFolder {
     fs::create_directories(folder / "run");
   }
 
-  // `age` seconds old.
   void put(const char* name, std::size_t bytes, int age) {
     const fs::path path = folder / "run" / name;
     fs::create_directories(path.parent_path());
@@ -50,7 +49,7 @@ TEST_F(DiskBound, S2NoMoreFilesAreLeftThanMayBe) {
   put(".lock", 1, 0);
   EXPECT_NE(keep_within(folder / "run", 1 << 30, 10), "");
   EXPECT_LE(disk_use(folder / "run", 100).files, 10U);
-  EXPECT_TRUE(there(".lock"));  // F1: it is held by who removes the others
+  EXPECT_TRUE(there(".lock"));  // the remover holds the lock
 }
 
 TEST_F(DiskBound, LinksAreRemovedAndNotFollowed) {

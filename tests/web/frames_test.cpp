@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames that arrive in pieces: taken when they are whole, and refused before they are where they are none.
 #include "bindings/web/sandbox/frames.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values that go between the server and the page: places in a text, fields made smaller, events.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -35,7 +34,7 @@ class Folder {
 };
 
 TEST(Positions, CountUnitsOfUtf16) {
-  const std::string text = "aµ€𝛼b";  // 1, 1, 1, 2 and 1 units; 1, 2, 3, 4 and 1 bytes
+  const std::string text = "aµ€𝛼b";  // 1, 1, 1, 2, 1 units; 1, 2, 3, 4, 1 bytes
   const std::size_t bytes[] = {0, 1, 3, 6, 6, 10, 11, 11};
   for (std::size_t unit = 0; unit < 8; ++unit) EXPECT_EQ(byte_of_unit(text, unit), bytes[unit]) << unit;
   const std::size_t units[] = {0, 1, 2, 2, 3, 3, 3, 5, 5, 5, 5, 6};
@@ -87,7 +86,6 @@ TEST(ReducedField, SaysSoWhereTheLastBlockIsSmaller) {
   for (const float value : small.values) ASSERT_EQ(value, 1.0F);
 }
 
-// What was not measured is missing on the page too, and it says how much that is.
 TEST(ReducedField, HolesOfASurfaceAreMissing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Field heights(3, 2, 1e-6);
@@ -102,7 +100,7 @@ TEST(ReducedField, HolesOfASurfaceAreMissing) {
             base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)}));
   const Json whole = to_json(view_of(Surface(grid, Field(3, 2)), "map", 1));
   EXPECT_EQ(whole.find("fields")->list()[0].find("not_measured"), nullptr);
-  // A block is the mean of what is known of it.
+  // The mean of the measured points.
   Field wide(4, 1, 2.0);
   wide(0, 0) = wide(2, 0) = wide(3, 0) = nan;
   const ReducedField small = reduced(wide, 2);
@@ -161,7 +159,7 @@ TEST(EventLog, GivesWhatComesAfterANumber) {
   EXPECT_FALSE(more);
 }
 
-// The list of runs once called one "running" whose end its reader had just been told.
+// Once its end is announced, a run is not listed as running.
 TEST(PageRun, HasEndedForWhomeverHearsOfItsEnd) {
   const Folder folder;
   for (int repeat = 0; repeat < 200; ++repeat) {

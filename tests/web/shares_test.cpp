@@ -55,7 +55,7 @@ TEST(Shares, S7AreGivenInTheOrderOfComing) {
       const std::lock_guard lock(mutex);
       order.push_back(k);
     });
-    // A thread may begin late on a busy machine: the next one comes when this one waits.
+    // A thread may start late: wait for each.
     while (shares.waiting() < static_cast<std::size_t>(k)) std::this_thread::sleep_for(milliseconds(1));
   }
   held.reset();

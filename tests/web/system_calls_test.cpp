@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filter of system calls by itself: what a computation needs goes on behind it, also where a sanitizer
-// watches, and ways out of the process are shut.
+// The filter alone: computations work, also under sanitizers; ways out are blocked.
 #include "bindings/web/sandbox/system_calls.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +22,7 @@ class SystemCalls : public testing::Test {
   void SetUp() override {
     if (const std::string missing = load_system_call_filter(); !missing.empty()) GTEST_SKIP() << missing;
   }
-  // What the work returns in a process of its own behind the filter; 100 where there is no filter, 101 where
-  // a signal ended it.
+  // The work's result behind the filter; 100: no filter, 101: killed by a signal.
   static int confined(const std::function<int()>& work) {
     const pid_t process = ::fork();
     if (process == 0) ::_exit(confine_system_calls(Confined::script).empty() ? work() : 100);
@@ -34,8 +32,7 @@ class SystemCalls : public testing::Test {
   }
 };
 
-// The undefined-behaviour sanitizer looks at the type of a thread's state when the thread begins, and ends
-// the process where it cannot.
+// The undefined-behaviour sanitizer inspects a type when a thread starts, or aborts.
 TEST_F(SystemCalls, WorkBesideTheMainOneBeginsBehindTheFilter) {
   EXPECT_EQ(confined([] {
               int sum = 0;
@@ -57,7 +54,7 @@ TEST_F(SystemCalls, ProgramsAndSocketsAreRefused) {
   EXPECT_EQ(confined([] { return ::socket(AF_INET, SOCK_STREAM, 0) < 0 && errno == EPERM ? 1 : 2; }), 1);
 }
 
-// A sanitizer needs one; a script does not.
+// Only sanitizers need a pipe.
 TEST_F(SystemCalls, APipeIsMadeForASanitizerAlone) {
   EXPECT_EQ(confined([] {
               int ends[2];

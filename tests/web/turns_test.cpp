@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S1: nobody holds every place of a room, and whoever used least is next.
+// The person with the least use is next.
 #include "bindings/web/runs/turns.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(Turns, S1WhoUsedLeastIsNext) {
   turns.end(8, start, 1, start + seconds(20));
   EXPECT_EQ(turns.next({7, 8}, start + seconds(20)), 8U);
   EXPECT_NEAR(turns.used(7, start + seconds(20)), 20, 1e-9);
-  // After some minutes it counts no longer, and what goes on counts at once.
+  // Past use fades within minutes; running use counts at once.
   EXPECT_LT(turns.used(7, start + seconds(3000)), 0.01);
   turns.begin(8, start + seconds(3000));
   EXPECT_EQ(turns.next({7, 8}, start + seconds(3005)), 7U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S2: what a script has open and has removed takes no more of the disk than the run may.
+// Removed but open files count against the disk limit.
 #include "bindings/cli/unlinked_files.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class UnlinkedFiles : public testing::Test {
 };
 
 TEST_F(UnlinkedFiles, AFileWithANameIsNoneOfThem) {
-  empty_unlinked_files();  // what this process may have been given
+  empty_unlinked_files();  // inherited files
   const std::int64_t before = unlinked_bytes();
   write(100'000);
   EXPECT_EQ(unlinked_bytes(), before);

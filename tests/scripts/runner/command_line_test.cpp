@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program as it is called: exit codes, options, run directories.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -194,7 +193,7 @@ TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
   EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
 }
 
-// The parser's list of commands, which a refusal names, is in another order than their lines of the overview.
+// A refusal lists commands in the parser's order.
 TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   std::istringstream overview(call({"help"}).output);
   std::string told;
@@ -204,7 +203,6 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
   EXPECT_EQ(told,
             "run run replay press-log check explain cases status accuracy repl serve lesson help materials "
             "version ");
-  // What each does begins in one column.
   std::istringstream lines(call({"help"}).output);
   std::set<std::size_t> columns;
   for (std::string line; std::getline(lines, line) && line.starts_with("asperity ");)
@@ -234,7 +232,7 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   const Outcome refused = call({"lesson", "fractal_dimension", "--copy"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.error.find("is there already"), std::string::npos) << refused.error;
-  EXPECT_EQ(call({"run", "02_fractal_dimension.lua"}).output, "mine\n");  // what was changed stays
+  EXPECT_EQ(call({"run", "02_fractal_dimension.lua"}).output, "mine\n");  // the edited copy
   const Outcome ran = call({"lesson", "fractal_dimension", "--run", "--out", "found"});
   EXPECT_EQ(ran.status, 0) << ran.error;
   EXPECT_NE(ran.output.find("Why: "), std::string::npos);
@@ -242,7 +240,7 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
 }
 
-// Three holds, a quarter turn after each, as a testing machine writes them.
+// Three holds, each with a quarter turn.
 std::string rows_of_a_log(const char* mark, bool turns) {
   std::ostringstream rows;
   const double loads[] = {20e3, 30e3, 40e3};
@@ -311,7 +309,7 @@ TEST_F(CommandLine, APressLogOfLabViewIsReadBelowItsHead) {
       << ran.error;
 }
 
-// B8: no option takes the word after its value, be that the script or the run.
+// No option consumes the script or run after its value.
 TEST_F(CommandLine, B8OptionsStandBeforeTheScriptOrAfterIt) {
   write("s.lua", "print 'ran'");
   ASSERT_EQ(call({"run", "s.lua", "--out", "kept"}).status, 0);

@@ -34,7 +34,6 @@ namespace {
   ::_exit(127);
 }
 
-// Appends what is there to read; false at the end.
 bool take(int file, std::string& text) {
   std::array<char, 4096> block;
   const ssize_t count = ::read(file, block.data(), block.size());
@@ -136,7 +135,7 @@ std::vector<std::string> faults_of_run(const fs::path& run) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() == ".csv") check_table(entry.path(), faults);
     if (name.find(".tmp") != std::string::npos || name.find(".part") != std::string::npos ||
-        (name[0] == '.' && name != ".lock"))  // the folder's lock stays, free, for the next who asks for it
+        (name[0] == '.' && name != ".lock"))  // the free lock remains
       faults.push_back(name + " was left behind");
   }
   return faults;

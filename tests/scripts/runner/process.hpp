@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Another program run to its end, with what it wrote and how it ended, for tests of the command line.
 #pragma once
 
 #include <chrono>
@@ -10,22 +9,21 @@
 namespace asperity::scripts {
 
 struct Outcome {
-  int status = -1;    // of exit; meaningless if it died of a signal
-  int signal = 0;     // that ended it, 0 if it exited
-  bool late = false;  // it was killed because it did not end in time
+  int status = -1;    // undefined after a signal
+  int signal = 0;     // 0 after exit
+  bool late = false;  // killed after `patience`
   std::string output, error;
 };
 
 struct Start {
-  std::vector<std::string> command;     // program and arguments
-  std::filesystem::path folder;         // to run in
-  std::string interrupt_at;             // SIGINT is sent once standard output holds this; empty: never
-  std::chrono::seconds patience{1200};  // then it is killed
+  std::vector<std::string> command;     // with arguments
+  std::filesystem::path folder;         // working folder
+  std::string interrupt_at;             // SIGINT once stdout contains this; empty: never
+  std::chrono::seconds patience{1200};  // before a kill
 };
 
 Outcome run_process(const Start& start);
 
-// A fresh folder, gone with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -40,9 +38,8 @@ class TemporaryFolder {
 
 std::string content_of(const std::filesystem::path& path);
 
-// What is wrong with the records of a run, a sentence each: manifest.json and every line of
-// journal.jsonl must be JSON, every row of every CSV as long as its header and ended, and nothing
-// half-written may lie about.
+// Faults: manifest.json or a line of journal.jsonl is no JSON, CSV rows differ in length or lack an end,
+// temporary files remain.
 std::vector<std::string> faults_of_run(const std::filesystem::path& run);
 
 }  // namespace asperity::scripts

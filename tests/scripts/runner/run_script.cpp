@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_script PROGRAM SCRIPT: runs a script by the real program and compares with what the head of the
-// script says it should do. Lines that begin with --! :
+// run_script PROGRAM SCRIPT: checks a run against the lines at the head of the script:
 //
 //   --! command: check              instead of run; or accuracy, explain
 //   --! flags: --limit-time 1s      options of the program (space between them)
@@ -15,8 +14,7 @@
 //   --! stop at: TEXT               Ctrl-C once standard output holds this
 //   --! again: --threads 2          a further run with these options must write the same output
 //
-// Whatever it says, no run may die of a signal, report an internal error, or leave records that
-// cannot be read.
+// No run may die of a signal, report an internal error, or leave unreadable records.
 #include <cstdio>
 #include <fstream>
 #include <sstream>

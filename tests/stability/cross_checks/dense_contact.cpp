@@ -68,10 +68,9 @@ class Pivoting {
   std::vector<At> at_;
   Eigen::VectorXd p_, gap_;
   double offset_ = 0;
-  double slack_ = 0;  // of gaps, m: what rounding leaves
+  double slack_ = 0;  // m: rounding error of the gaps
 };
 
-// The pressures of the nodes that move, and the offset: equal gaps and the load.
 void Pivoting::balance() {
   std::vector<Eigen::Index> moving;
   p_ = Eigen::VectorXd::Zero(nodes_);
@@ -82,7 +81,7 @@ void Pivoting::balance() {
   }
   const auto m = static_cast<Eigen::Index>(moving.size());
   const Eigen::VectorXd held = matrix_ * p_;
-  // The offset in units that make the last row and column as large as the others.
+  // The offset's row and column get the size of the others.
   const double unit = matrix_(0, 0);
   Eigen::MatrixXd a(m + 1, m + 1);
   Eigen::VectorXd b(m + 1);
@@ -122,16 +121,16 @@ At Pivoting::wanted(Eigen::Index k) {
   }
 }
 
-// All nodes at once to where they want to be: a few pivots mostly, but without a cap's proof.
+// All nodes at once: few pivots, but no proof for a cap.
 bool Pivoting::pivot(DenseAnswer& answer) {
   constexpr int together = 60;
-  const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding there is a surer way
+  const int most = std::isfinite(problem_.yield) ? 3000 : together;  // without yielding, descend() is safer
   for (int n = 0; n < most; ++n, ++answer.pivots) {
     balance();
     const std::vector<At> before = at_;
     for (Eigen::Index k = 0; k < nodes_; ++k) {
       at(k) = wanted(k);
-      // After a while only the first by number, which cannot go round in circles (Murty 1974).
+      // The first node by number cannot cycle (Murty 1974).
       if (n >= together && at_ != before) break;
     }
     if (at_ == before) return true;
@@ -142,7 +141,7 @@ bool Pivoting::pivot(DenseAnswer& answer) {
   return false;
 }
 
-// The nearest bounds, and what is then missing of the load from all that have room.
+// Nodes with room share the missing load.
 void Pivoting::make_feasible() {
   p_ = p_.cwiseMax(0).cwiseMin(problem_.cap);
   const double carried = p_.sum();
@@ -157,8 +156,7 @@ void Pivoting::make_feasible() {
     at(k) = p_[k] <= 0 ? At::zero : p_[k] >= problem_.cap ? At::cap : At::elastic;
 }
 
-// With every node at a bound nothing fixes the offset: it is between the gaps of the two kinds, unless two
-// nodes would rather exchange pressure.
+// Only the gaps of both sets bracket the offset, unless two nodes should exchange pressure.
 bool Pivoting::let_two_go() {
   gap_ = matrix_ * p_ - problem_.heights;
   Eigen::Index open = -1, full = -1;
@@ -173,8 +171,7 @@ bool Pivoting::let_two_go() {
   return true;
 }
 
-// The active-set method for a convex quadratic programme (Nocedal & Wright 2006, §16.5): feasible throughout,
-// one bound at a time.
+// Active-set method (Nocedal & Wright 2006, §16.5): feasible throughout, one bound at a time.
 bool Pivoting::descend(DenseAnswer& answer) {
   make_feasible();
   for (const int most = answer.pivots + 3000; answer.pivots < most; ++answer.pivots) {

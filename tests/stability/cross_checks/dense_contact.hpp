@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small half-space contact solved directly: a dense influence matrix, from Love's (1929) closed form or
-// from the plain sum over waves, and pivots over which bound each node is at, every one a dense linear solve:
-// all nodes at once (Kostreva 1978), and where that goes round in circles the active-set method of convex
-// quadratic programmes. It shares nothing with the engine's solver but the statement of the problem: minimise
-// ½ p·Kp − h·p + Σ max(0, p − Y)²/(2K_h) over 0 <= p <= H with a given mean. O(n³) a pivot: tiles up to 24
-// x 24.
+// A small half-space contact solved directly: minimise ½ p·Kp − h·p + Σ max(0, p − Y)²/(2K_h) over 0 <= p
+// <= H for a given mean. K is dense, from Love's (1929) closed form or the sum over waves; pivots move all
+// nodes (Kostreva 1978), or one at a time if this cycles. It shares no code with the engine's solver. O(n³) a
+// pivot: up to 24 x 24 cells.
 #pragma once
 
 #include <Eigen/Dense>
@@ -27,8 +25,8 @@ struct DenseProblem {
 
 struct DenseAnswer {
   Eigen::VectorXd pressure;  // Pa
-  double offset = 0;         // δ, m: Kp − h − δ is the gap
-  bool solved = false;       // every condition holds to rounding
+  double offset = 0;         // δ, m: the gap is Kp − h − δ
+  bool solved = false;       // all conditions hold to rounding
   int pivots = 0;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The half-space solver against the dense direct one, over random scenes of up to 24 x 24 cells: elastic,
-// capped and hardening, periodic and free, from few nodes in contact to all.
+// The half-space solver against the dense direct solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +21,7 @@ DenseProblem dense(const Trial& trial, const State& state) {
   problem.boundary = geometry.boundary();
   problem.modulus = contact_modulus(geometry, {}, {}, {});
   problem.heights.resize(static_cast<Eigen::Index>(h.size()));
-  // Counted from the highest node, so that light contacts keep their digits.
+  // Subtracting the highest node keeps the digits of light contacts.
   const double highest = geometry.combined_range().max;
   for (std::size_t k = 0; k < h.size(); ++k) problem.heights[static_cast<Eigen::Index>(k)] = h[k] - highest;
   problem.cap = trial.cap();
@@ -36,7 +35,7 @@ DenseProblem dense(const Trial& trial, const State& state) {
 class AgainstDense : public testing::TestWithParam<int> {};
 
 TEST_P(AgainstDense, PressuresAndApproachAgree) {
-  constexpr int scenes = 250;                             // of each seed
+  constexpr int scenes = 250;                             // per seed
   constexpr double pressures = 2e-9, approaches = 1e-10;  // measured 4.6e-10 of the peak and 1.1e-11
   const Wanted wanted{.model = Wanted::Model::half_space,
                       .tolerance = 1e-12,
@@ -51,7 +50,7 @@ TEST_P(AgainstDense, PressuresAndApproachAgree) {
     const State state = SpecimenPair(trial.scene).press({PressBy::pressure, trial.pressure, {}});
     const DenseProblem problem = dense(trial, state);
     const DenseAnswer answer = solve_densely(problem, trial.pressure);
-    if (!answer.solved && trial.hardens()) continue;  // round in circles: once in a thousand scenes
+    if (!answer.solved && trial.hardens()) continue;  // cycling: one scene in a thousand
     ASSERT_TRUE(answer.solved) << script(trial, "the dense solver goes round in circles", "");
     const Field& p = *state.field("pressure");
     const double peak = answer.pressure.maxCoeff();
@@ -60,7 +59,7 @@ TEST_P(AgainstDense, PressuresAndApproachAgree) {
       worst = std::max(worst, std::abs(p[k] - answer.pressure[static_cast<Eigen::Index>(k)]));
     EXPECT_LE(worst, pressures * peak)
         << script(trial, "seed " + std::to_string(seed) + ", scene " + std::to_string(n), "");
-    // On a flat of a periodic tile the approach is nothing; one cell's displacement is something.
+    // A periodic flat has no approach; one cell's displacement sets the scale.
     const double length =
         std::abs(answer.offset) + peak * std::sqrt(trial.scene.lower.grid().cell_area()) / problem.modulus;
     EXPECT_NEAR(state.approach(), answer.offset, approaches * length) << n;

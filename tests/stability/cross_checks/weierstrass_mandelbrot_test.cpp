@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weierstrass–Mandelbrot heights against their definition summed in many bits
-// (engine/study/exact/weierstrass_mandelbrot_height.hpp), at random nodes, for orders far past where any
-// hardware float holds a phase. (All 101 published orders on 57 nodes, and in quadruple precision, stand
-// beside the generator's own tests.)
+// Heights against the multiprecision sum of engine/study/exact/weierstrass_mandelbrot_height.hpp, for
+// orders whose phases no hardware float holds.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every way to solve a contact, refused in every way it can be: stopped, out of memory, asked for what cannot
-// be, held to a tolerance that no double meets. Each refusal says what was reached or what would work,
-// and leaves the pair as it was: the same specimens, the same load on them, no memory kept, and the next
-// press gives the bits it gives on a pair that was never refused.
+// Stops, too little memory, impossible values and tolerances below double precision leave the pair
+// unchanged; the next press returns the same bits as without a refusal.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -78,7 +76,7 @@ std::vector<Path> paths() {
            {PressBy::approach, 1e-6, {}, {2e-6}}}};
 }
 
-// Raises the flag of the process after some time, from another thread; lowered when it goes.
+// Raises the stop flag after a delay; the destructor lowers it.
 class Stopper {
  public:
   explicit Stopper(double seconds)
@@ -113,7 +111,6 @@ class Refusals : public testing::TestWithParam<Path> {
     EXPECT_GT(memory::held(), before);
   }
 
-  // The code of the refusal, or nothing if there was none; holds it to leaving no trace.
   std::optional<ErrorCode> refused(const PressRequest& request, Monitor& monitor) {
     const std::string lower = pair_.lower().digest(), upper = pair_.upper().digest();
     const bool under_load = pair_.under_load();
@@ -148,7 +145,7 @@ TEST_P(Refusals, AStopAskedForBefore) {
 }
 
 TEST_P(Refusals, AStopAskedForOnTheWay) {
-  // The stopping thread may wake after the press is done, above all on a busy machine: then try again.
+  // On a busy machine the press may end before the stop: retry.
   constexpr std::array shares = {0.05, 0.2, 0.4, 0.6, 0.8};
   constexpr std::size_t tries = 20 * shares.size();
   int times = 0;
@@ -166,7 +163,7 @@ TEST_P(Refusals, AStopAskedForOnTheWay) {
     expect_unharmed();
     ++times;
   }
-  // A box contact this small is done before a thread has started.
+  // A small box contact ends before a thread starts.
   const bool boxes = GetParam().scene.elasticity.is<BoxOptions>();
   EXPECT_GE(times, boxes ? 0 : 1);
 }
@@ -193,7 +190,7 @@ TEST_P(Refusals, TooLittleMemory) {
 TEST_P(Refusals, WhatCannotBeAskedFor) {
   const PressBy by = GetParam().request.by;
   for (const double value : {-1.0, std::nan(""), infinity, -infinity}) {
-    if (value == -1 && GetParam().scene.effects.find<AdhesionOptions>()) continue;  // a pull
+    if (value == -1 && GetParam().scene.effects.find<AdhesionOptions>()) continue;  // tension
     EXPECT_TRUE(refused({by, value, {}}, Monitor::silent())) << value;
   }
   if (GetParam().scene.effects.find<PlasticityOptions>() &&
@@ -215,7 +212,6 @@ TEST_P(Refusals, AToleranceThatNoDoubleMeets) {
   pair_ = SpecimenPair(scene);
   if (const auto code = refused(GetParam().request, Monitor::silent())) {
     EXPECT_EQ(code, ErrorCode::not_converged);
-    // The best there is, for whoever asks for it, and it does not call itself converged.
     scene.accuracy.on_failure = Accuracy::OnFailure::best;
     const State best = SpecimenPair(scene).press(GetParam().request);
     EXPECT_FALSE(best.converged());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact conditions as the state hands them out: the certificate, 0 <= p <= H, gap >= 0, the load, no
-// negative energy or plastic volume, no number anywhere that is not one, and bounds on the algebraic error
-// that hold. Sums are in long double and share nothing with the solver's.
+// Contact conditions: certificate, 0 <= p <= H, gap >= 0, load, no negative energy or plastic volume, no
+// NaN, valid algebraic bounds. Sums in long double.
 #include <cmath>
 #include <limits>
 
@@ -14,7 +13,6 @@ namespace {
 
 std::string text(double value) { return exact(value); }
 
-// Every scalar of a state by the name a script reads it under.
 struct Scalar {
   const char* name;
   double (*value)(const State&);
@@ -66,7 +64,7 @@ std::optional<Broken> field_is_wrong(const Trial& trial, const State& state) {
         return Broken{"no pressure passes the hardness", where + " over " + text(trial.cap())};
     }
   }
-  // A surface of numbers, or the state would throw.
+  // Throws for NaN.
   state.deformed("lower");
   state.deformed("upper");
   return {};
@@ -118,7 +116,7 @@ std::optional<Broken> plasticity_is_wrong(const State& state) {
   return {};
 }
 
-// Against a solve to the last digits, which is exact within its own bounds.
+// A solve at tolerance 1e-13 is exact within its own bounds.
 std::optional<Broken> bounds_are_wrong(const Trial& trial, const State& state) {
   Trial tight = trial;
   tight.scene.accuracy.tolerance = 1e-13;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same state by its pressure and by what it then reports: pressed again by that approach, indentation or
-// flattening, fresh bodies come to the load within the bounds, for about as many transforms. What no load
-// reaches (past full contact of a periodic tile, on a flat) is refused by name. Cells up to a thousand times
-// longer than wide or wider than long. Of 4200 scenes, seeds 1 to 10 and 9201 to 9204, all were solved; more
-// than ten times and sixty transforms took none of 7833 presses by approach or indentation and 2 of 3924 by
-// flattening, on cells 93 and 560 times longer than wide; no more than one of a seed. Of 1200 more, seeds
-// 9301 to 9304, on which nothing was tried, none of 2236 and 1 of 1123, on cells 110 times longer than wide;
-// none was lost. Known to be lost by flattening: scene 2 of seed 11 (cells 948 times longer than wide).
+// The approach, indentation or flattening of a press, requested from fresh bodies, must return its load
+// within the bounds, for about as many transforms. Unreachable values (beyond full contact of a periodic
+// tile, on a flat) are refused by name. Cell aspects up to 1000.
+// Measured: 4200 scenes (seeds 1 to 10, 9201 to 9204) converged. More than 10 times + 60 transforms: none
+// of 7833 presses by approach or indentation, 2 of 3924 by flattening. Known failure, by flattening: scene
+// 2 of seed 11 (aspect 948).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,19 +19,19 @@ namespace asperity::stability {
 
 namespace {
 
-// Transforms of a press, beside those by pressure: of one that is dear, and in the middle of all.
+// Transforms relative to the press by pressure: expensive above 10 times + 60; median at most 3.
 constexpr double most_times = 10, most_beside = 60, most_times_in_the_middle = 3;
-// Of the presses by approach or indentation, and of those by flattening: the dear.
+// Share of expensive presses: by approach or indentation; by flattening.
 constexpr double most_dear[] = {0.001, 0.002};
-// Among so many presses one more or less means nothing; of a scene run by itself none may be dear or lost.
+// From this many presses on, one more is allowed.
 constexpr int many_presses = 100;
-// Cells so much longer than wide that a press may not be solved, and of the presses on them how many.
+// Above this cell aspect, this share of presses may fail.
 constexpr double longest_solved = 300, most_lost = 0.02;
-// What `explain` says of memory may be exceeded by so much, bytes.
+// Bytes above the memory that `explain` predicts.
 constexpr double most_beyond = 1 << 20;
 
 struct Counts {
-  std::vector<double> times;  // by each control, of those by pressure
+  std::vector<double> times;  // relative to the press by pressure
   int presses[2] = {}, dear[2] = {}, lost[2] = {}, on_long_cells = 0, lost_there = 0;
 };
 Counts& counts() {
@@ -46,14 +44,13 @@ bool has_long_cells(const Trial& trial) {
   return std::max(grid.hx(), grid.hy()) > longest_solved * std::min(grid.hx(), grid.hy());
 }
 
-// Whether a press by another control misses the tolerance because doubles hold no more.
+// Whether rounding prevents the tolerance.
 bool beyond_doubles(const Trial& trial, PressBy by, double value) {
   Trial best = trial;
   best.scene.accuracy.on_failure = Accuracy::OnFailure::best;
   return doubles_hold_no_more(best, SpecimenPair(best.scene).press({by, value, {}}));
 }
 
-// Whether any more load would bring the bodies no nearer, or no flatter.
 bool full(const State& state) {
   const Grid& grid = state.grid();
   return state.contacts() == static_cast<std::int64_t>(grid.nodes());
@@ -102,7 +99,7 @@ Verdict compare(const Trial& trial, const State& by_pressure, PressBy by, double
   const auto bytes = static_cast<double>(again.cost().total.bytes);
   if (bytes > bytes_said + most_beyond)
     return Broken{"memory said beforehand", exact(bytes_said) + " of " + exact(bytes) + " bytes", line};
-  // The loads, within what both solves leave open: that of the approach turned into load by the stiffness.
+  // The stiffness converts the error bound of an approach to load.
   if (by == PressBy::flatten || full(by_pressure)) return {};
   const double stiffness = std::max(again.stiffness(), by_pressure.stiffness());
   const double open = again.algebraic_error().pressure.value_or(infinity) +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a contact remembers: the same event again, or a lighter one, takes less than ten times the tolerance
-// of what the first took, a load and then a greater one end where the greater alone ends, and turns without
-// load change nothing. Gaps are right to the tolerance times the rms height, and what yields is a gap:
-// volumes are compared with that of an rms over the ground that yielded where that is more than what yielded.
+// A repeated or lighter event changes less than ten times the tolerance of the first. A load and a greater
+// load end like the greater load alone. Turns without load change nothing. Gaps are accurate to the
+// tolerance times the rms height; volumes are compared with the larger of the plastic volume and the rms
+// height over the yielded area.
 #include <cmath>
 #include <limits>
 
@@ -33,7 +33,7 @@ Verdict turns_change_nothing(const Trial& trial, const Stream& stream) {
         pair.rotate(stream.uniform(n, -3, 3));
         pair.press(under(0));
       }
-    } catch (const Error& error) {  // a strip may be turned so that it meets nothing, or nothing rough
+    } catch (const Error& error) {  // a turned strip may meet nothing, or nothing rough
       const auto says = [&](const char* part) { return error.sentence().find(part) != std::string::npos; };
       if (error.code() != ErrorCode::bad_value || !(says("turned") || says("heights are equal"))) throw;
     }
@@ -43,7 +43,7 @@ Verdict turns_change_nothing(const Trial& trial, const Stream& stream) {
 }
 
 constexpr double allowed = 10;  // tolerances
-// An rms so small beside the approach is a flat's, by rounding.
+// Rounding of a flat, relative to the approach.
 constexpr double flat = 1e-3;
 
 double greatest(const Surface& surface) {
@@ -51,8 +51,7 @@ double greatest(const Surface& surface) {
   return std::max(std::abs(heights.min), std::abs(heights.max));
 }
 
-// The volume within which a solve cannot tell yielding from none: of a gap of its tolerance, and of what
-// rounding leaves of heights, over the ground at its limit.
+// Smallest detectable plastic volume: gap tolerance and height rounding over the yielded area.
 double unseen(const Trial& trial, const State& state) {
   const double rms = rms_height(state), length = rms > flat * state.approach() ? rms : state.approach();
   const double ground = state.plastic_fraction() * state.geometry().grid().area();
@@ -68,12 +67,11 @@ Trial taking_the_best(const Trial& trial) {
   return result;
 }
 
-// Ground once flattened may be too even for its tolerance of the rms to mean anything in doubles: then there
-// is nothing to compare.
+// Flattened heights may be too even for the tolerance.
 std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double pressure,
                             std::optional<State>& state) {
   Trial pressed = trial;
-  pressed.scene = pair.scene();  // the heights as they are now
+  pressed.scene = pair.scene();  // current heights
   state = pair.press(under(pressure));
   if (state->converged()) return {};
   if (doubles_hold_no_more(pressed, *state)) {
@@ -83,8 +81,7 @@ std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double press
   return Broken{"the certificate is met", exact(state->residual()) + " by " + std::string(state->solver())};
 }
 
-// Under a load greater by its last digit nothing is known beforehand: what the ground takes then is the error
-// of both solves.
+// One ulp more load: the change is the error of both solves.
 Verdict the_ground_fits(const Trial& trial, SpecimenPair pair, const State& first) {
   std::optional<State> again;
   const double more = std::nextafter(trial.pressure, std::numeric_limits<double>::infinity());

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `explain` says of a press before it, beside what the press took: by pressure, approach and flattening,
-// on tiles of up to 256 cells a side, cells up to a thousand times longer than wide or wider than long,
-// elastic, capped and hardening; and of elastic bodies that attract each other. Nothing counts what was
-// tried, and the pair stays as it was. A press that was tried on all cells takes what it says, to the
-// transform. Of 1800 scenes (150 each of seeds 1, 5 to 8, 41, 42, 51 and 53 to 56), in percent,
+// Predictions of `explain` against presses on tiles of up to 256 cells a side, cell aspects up to 1000.
+// Trials are not counted as cost and leave the pair unchanged; a trial on all cells predicts the exact
+// number of transforms. Of 1800 scenes (150 each of seeds 1, 5 to 8, 41, 42, 51 and 53 to 56), in percent,
 //
 //                                             within a factor of two   under a quarter
 //     by pressure, 1798 presses               100                      0
@@ -11,23 +9,13 @@
 //     by flattening, 1674                     99.8                     0
 //     of bodies that attract, 744             99.9                     0
 //
-// Of 749 presses on tiles of up to 1000 cells a side (120 scenes each of seeds 61 and 62, cells=1000), where
-// some must be told by fewer cells, 98.3, 96.2, 93.7 and 100 were within a factor of two, 0.4, 1.3, 1.3 and 0
-// under a quarter: there the bar does not hold. And of all tiles that are tried on no more than 96² cells, to
-// see what those tell of many, 150 scenes each of seeds 41 and 42, all and larger tiles,
-//
-//     by pressure, 300 and 115 presses        98.0, 94.8               0, 0
-//     by approach, 288 and 117                97.6, 94.0               0.3, 0.9
-//     by flattening, 277 and 105              96.0, 89.5               0.4, 1.0
-//     of bodies that attract, 107 and 23      98.1, 95.7               0, 0
-//
-// Those under a quarter stall on all cells and not on the fewer of the trial; `explain` says how seldom.
-// White noise, spikes and few peaks err most.
+// The bar does not hold on tiles of up to 1000 cells a side (seeds 61 and 62, cells=1000), some predicted
+// from coarser grids: 93.7 to 100 and 0 to 1.3. Coarse trials alone, at most 96² cells (seeds 41 and 42):
+// 96.0 to 98.1 and 0 to 0.4; larger tiles 89.5 to 95.7 and 0 to 1.0.
 //
 //   ASPERITY_FIT=1 test_properties family=explain scenes=300 seed=31
 //
-// prints the shares and the constants a, b of engine/accuracy/expected_transforms.cpp that fit these scenes
-// best.
+// prints the shares and the best constants a, b of engine/accuracy/expected_transforms.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,12 +41,12 @@ namespace {
 struct Pressed {
   ExpectedTransforms expected, by_few_cells;
   double taken = 0;
-  bool fewer = false;  // few cells are fewer than it has
+  bool fewer = false;  // the tile exceeds the coarse trial
 };
 double octaves(const ExpectedTransforms& expected, double taken) {
   return std::log2(std::max(expected.transforms, 1.0) / std::max(taken, 1.0));
 }
-// What was said of the presses by one control, and the shares that hold of larger tiles by few cells.
+// For one control, and required shares for larger tiles by coarse trials.
 struct Controls {
   const char* name;
   double within_two, under_a_quarter;
@@ -72,12 +60,11 @@ std::array<Controls, 4>& by_control() {
                                             {"pressure or approach of bodies that attract", 0.9, 0.02}}};
   return of_run;
 }
-// Of all tiles by few cells; and the bar, of what `explain` says: under a quarter never.
+// Required of coarse trials on all tiles; `explain` must reach `bar`, never under a quarter.
 constexpr double within_two_of_all = 0.9, under_a_quarter_of_all = 0.015, bar = 0.9;
-// By so many standard deviations may a run's count be off.
+// In standard deviations.
 constexpr double deviations = 3;
 
-// `known` where this press was made already.
 Verdict foretell(const Scene& scene, PressBy by, double value, const State* known,
                  std::vector<Pressed>& presses) {
   const PressRequest request{by, value, {}};
@@ -96,7 +83,7 @@ Verdict foretell(const Scene& scene, PressBy by, double value, const State* know
   try {
     now.taken =
         known != nullptr ? known->cost().total.transforms : pair.press(request).cost().total.transforms;
-  } catch (const Error&) {  // `controls` is about what is refused
+  } catch (const Error&) {  // `controls` tests refusals
     return {};
   }
   presses.push_back(now);
@@ -106,7 +93,6 @@ Verdict foretell(const Scene& scene, PressBy by, double value, const State* know
                 exact(now.taken) + " transforms, and " + exact(now.expected.transforms) + " were said", line};
 }
 
-// None where a press misses its tolerance: that is what other families are about.
 std::optional<State> pressed_if_solved(const Trial& trial) {
   try {
     return pressed(trial);
@@ -116,8 +102,8 @@ std::optional<State> pressed_if_solved(const Trial& trial) {
   }
 }
 
-// The same bodies, attracting each other across gaps of the order of the roughness. On cells nearly square,
-// and few of them: such presses take thousands of transforms.
+// Adhesion with a range of the order of the roughness. Such presses take thousands of transforms: few,
+// nearly square cells.
 Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_t salt) {
   constexpr double most_nodes = 150 * 150, tolerance = 1e-6;
   const Grid& grid = trial.scene.lower.grid();
@@ -138,7 +124,7 @@ Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_
     if (Verdict verdict = foretell(scene, PressBy::pressure, trial.pressure, nullptr, presses))
       return verdict;
     return foretell(scene, PressBy::approach, state.approach(), nullptr, presses);
-  } catch (const Error& error) {  // so strong a pull that it is refused
+  } catch (const Error& error) {  // adhesion too strong
     if (error.code() != ErrorCode::bad_value) throw;
     return {};
   }
@@ -171,7 +157,7 @@ struct Shares {
   }
 };
 
-// The a and b of the least mean |log2| of said over taken.
+// Minimises the mean |log2(predicted / actual)| over a and b.
 void fit(const Controls& control) {
   double best = 1e300, best_a = 0, best_b = 0;
   for (int i = -20; i <= 60; ++i)
@@ -211,7 +197,6 @@ Verdict judged_by_few_cells(const Controls& control, bool fewer) {
   const double n = found.presses;
   if (found.within_two < n * share - deviations * std::sqrt(n * share * (1 - share)))
     return off(control, found, "within a factor of two by few cells", found.within_two);
-  // One more or less means nothing.
   if (found.under_a_quarter > 1 + n * rare + deviations * std::sqrt(n * rare))
     return off(control, found, "under a quarter by few cells", found.under_a_quarter);
   return {};

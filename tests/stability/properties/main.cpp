@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties of contacts over random scenes. A scene that breaks one is made smaller as long as it goes on
-// breaking it, and printed as a script to run.
+// Properties of contacts over random scenes. A failing scene is reduced and printed.
 //
 //   test_properties                              every family, as many scenes each as in CI
 //   test_properties family=events scenes=100000  one family for a night
 //   test_properties family=events seed=7 first=42 scenes=1   one scene again
 //   test_properties family=explain cells=1000 scenes=120     tiles of up to so many cells a side
 //
-// ASPERITY_SCENES and ASPERITY_SEED stand for scenes= and seed= where those are not given;
-// ASPERITY_SHARE=0.05 takes a twentieth of what each family takes in CI, =2.5 two and a half times as many.
+// Defaults: ASPERITY_SCENES, ASPERITY_SEED. ASPERITY_SHARE=0.05 runs a twentieth of CI's scenes.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -35,9 +33,9 @@ const Family* const families[] = {&conditions,         &monotony, &rescaling, &s
 struct Settings {
   std::string family;
   std::uint64_t seed = 1, first = 0;
-  int scenes = 0;    // as the family says
-  int cells = 0;     // the same
-  double share = 1;  // of those
+  int scenes = 0;    // the family's own
+  int cells = 0;     // the family's own
+  double share = 1;  // of the family's scenes
 };
 
 [[noreturn]] void usage(const std::string& word) {
@@ -71,7 +69,6 @@ Settings read(int count, char** words) {
   return settings;
 }
 
-// `beyond`: counts the scenes of which doubles hold no more.
 Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt, int& beyond) {
   try {
     return family.check(trial, salt);
@@ -92,7 +89,6 @@ struct Failure {
   Broken broken;
 };
 
-// The smallest scene found that breaks the same property.
 Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   const double begin = seconds();
   int beyond = 0;
@@ -110,7 +106,6 @@ Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   return failure;
 }
 
-// Returns how many scenes broke a property.
 int run(const Family& family, const Settings& settings) {
   constexpr int shown_of_each = 1;
   const double begin = seconds();
@@ -161,7 +156,7 @@ int run(const Family& family, const Settings& settings) {
 int main(int count, char** words) {
   using namespace asperity::stability;
   const Settings settings = read(count, words);
-  asperity::set_thread_count(1);  // the scenes are small; several families run side by side instead
+  asperity::set_thread_count(1);  // families run in parallel
   int broken = 0;
   bool known = settings.family.empty();
   for (const Family* family : families)

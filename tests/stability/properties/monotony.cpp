@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// More load, more of everything: area and approach always; elastic energy where nothing yields (ground at
-// its hardness gives energy back as the rest of the tile comes up to it). Where they hardly grow, a solve may
-// bring a little less: so much as its tolerance leaves.
+// Area and approach grow with load, and elastic energy without yielding (nodes at their hardness return
+// energy). Near saturation a solve may return less, within its tolerance.
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -12,8 +11,8 @@ namespace asperity::stability {
 
 namespace {
 
-// In tolerances: of the energy (measured 0.02 over 30 000 scenes), and of the rms height, in the approach
-// (measured 4.5, close to the hardness, where one node alone fixes it).
+// In tolerances: of the energy (measured 0.02), and of the rms height in the approach (measured 4.5, near
+// the hardness, where one node decides).
 constexpr double energy_slack = 0.2, approach_slack = 10;
 constexpr double rounding = 1e-15;
 

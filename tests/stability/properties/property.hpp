@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A family of properties: what every contact must do, checked on one random scene at a time. A check says
-// which property broke first, and how; an Error thrown out of it counts as broken too.
+// A check returns the first broken property of a scene; a thrown Error is a failure.
 #pragma once
 
 #include <algorithm>
@@ -20,39 +19,36 @@
 namespace asperity::stability {
 
 struct Broken {
-  std::string property;  // shrinking keeps to it
-  std::string how;       // with its numbers
-  std::string lines{};   // Lua that shows it, after `c` and `st` of the script
+  std::string property;  // unchanged while a scene is reduced
+  std::string how;       // with numbers
+  std::string lines{};   // Lua after `c` and `st` of the script
 };
 using Verdict = std::optional<Broken>;  // none: all hold
 
 struct Family {
   const char* name;
   Wanted wanted;
-  // `salt` is the source of what a check draws for itself: the same for a scene and its smaller ones.
+  // `salt` seeds a check's own draws, equal for a scene and its reductions.
   Verdict (*check)(const Trial& trial, std::uint64_t salt);
-  int scenes;  // a run
-  // What must hold of all of a run's scenes together; may print what it found.
+  int scenes;  // per run
+  // Property of a whole run; may print statistics.
   Verdict (*after)() = nullptr;
 };
 
-// Whether what `after` is told of counts: not while a scene is made smaller.
+// False while a scene is reduced.
 extern bool counts_scenes;
-// The scene that is checked, for what is printed of it.
 extern std::uint64_t scene_in_turn;
 
 extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
     explain;
 
-// The contact of a trial, fresh, under its pressure. Throws BeyondDoubles where that misses its tolerance
-// because doubles hold no more.
+// Throws BeyondDoubles if rounding prevents the tolerance.
 inline State pressed_by(const Scene& scene, double pressure) {
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 inline State pressed(const Scene& scene, double pressure);
 inline State pressed(const Trial& trial) { return pressed(trial.scene, trial.pressure); }
 
-// Of a scene of which a family says nothing.
 struct BeyondDoubles {};
 
 inline double rms_height(const State& state) {
@@ -63,11 +59,11 @@ inline double rms_height(const State& state) {
   return std::sqrt(sum / static_cast<double>(h.size()));
 }
 
-// Whether a solve ended where rounding hides the rest: gaps are differences of displacements, heights and
-// what yielded, which is a difference of pressures over the hardening, and the certificate weighs them by H/p̄
-// under a hardness far away.
+// Whether a solve ended at rounding level. Gaps are differences of displacements, heights and plastic
+// displacements (pressure differences over the hardening); the certificate weights gaps by H/p̄ for a
+// distant hardness.
 inline bool doubles_hold_no_more(const Trial& trial, const State& state) {
-  constexpr double ends_within = 100;  // of it; measured 63
+  constexpr double ends_within = 100;  // times rounding; measured 63
   const auto greatest = [](std::span<const double> values) {
     const Range found = range(values);
     return std::max(std::abs(found.min), std::abs(found.max));
@@ -94,8 +90,7 @@ inline State pressed(const Scene& scene, double pressure) {
   }
 }
 
-// The heights of the upper body as the lower one's nodes see them without turn or shift, and back: the same
-// exchange of columns. Empty under a flat.
+// Exchanges columns: to the other body's frame, and back. Empty under a flat.
 inline Field turned_over(const Field& heights) {
   Field result(heights.nx(), heights.ny());
   for (int j = 0; j < heights.ny(); ++j)

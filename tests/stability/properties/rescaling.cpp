@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lengths, moduli and loads rescaled together by powers of two: every number of the state is the same but
-// for its exponent.
+// Powers of two in lengths, moduli and loads change only exponents.
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"
@@ -47,7 +46,7 @@ Scene rescaled(const Scene& scene, double length, double stress) {
 struct Scalar {
   const char* name;
   double (*value)(const State&);
-  int lengths, stresses;  // the powers it scales with
+  int lengths, stresses;  // exponents of the scaling
 };
 const Scalar scalars[] = {
     {"load", [](const State& s) { return s.load(); }, 2, 1},

@@ -20,7 +20,7 @@ namespace asperity::stability {
 
 namespace {
 
-// Draws in sequence, one scene a stream.
+// One stream per scene.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint64_t index) : stream_(splitmix64(seed, index), "stability scene") {}
@@ -47,7 +47,7 @@ Grid draw_grid(Draws& draw, int most, double longest) {
   if (shape < 4) ny = nx;
   if (shape == 4) nx = draw.between(1, 3);
   if (shape == 5) ny = draw.between(1, 3);
-  if (shape > 14) {  // two's powers, whose transforms and nested grids are others
+  if (shape > 14) {  // powers of two: other transforms and nested grids
     constexpr std::array sides = {8, 16, 32, 48};
     nx = std::min(most, sides[static_cast<std::size_t>(draw.below(4))]);
     ny = std::min(most, sides[static_cast<std::size_t>(draw.below(4))]);
@@ -80,7 +80,7 @@ Field self_affine(Draws& draw, const Grid& grid) {
   options.seed = draw.bits();
   try {
     return self_affine_surface(options).heights();
-  } catch (const std::exception&) {  // no wave lies in the band on this grid
+  } catch (const std::exception&) {  // no wave in the band
     return filled(grid, [&](int, int) { return draw.normal(); });
   }
 }
@@ -89,7 +89,6 @@ Field white_noise(Draws& draw, const Grid& grid) {
   return filled(grid, [&](int, int) { return draw.normal(); });
 }
 
-// Rough ground with a few nodes far above or below it, as outliers of a measurement are.
 Field spikes(Draws& draw, const Grid& grid) {
   Field z = self_affine(draw, grid);
   const double height = draw.decades(0, 5) * (draw.chance(0.3) ? -1 : 1);
@@ -103,7 +102,6 @@ Field step(Draws& draw, const Grid& grid) {
   return filled(grid, [&](int i, int) { return (i < edge ? high : 0.0) + roughness * draw.normal(); });
 }
 
-// Few levels: many nodes are exactly as high as each other.
 Field terraces(Draws& draw, const Grid& grid) {
   Field z = self_affine(draw, grid);
   const double rise = draw.decades(-1, 0.3);
@@ -111,7 +109,6 @@ Field terraces(Draws& draw, const Grid& grid) {
   return z;
 }
 
-// A floor with a few peaks, some of them equal.
 Field few_peaks(Draws& draw, const Grid& grid) {
   Field z(grid.nx, grid.ny);
   const bool equal = draw.chance(0.5);
@@ -179,7 +176,7 @@ Material draw_material(Draws& draw) {
 Surface surface(const Grid& grid, Field heights, const std::optional<Material>& material) {
   SurfaceTraits traits;
   traits.material = material;
-  traits.periodic = true;  // or a step at the rim would be warned of
+  traits.periodic = true;  // no warning about a step at the rim
   return Surface(grid, std::move(heights), std::move(traits));
 }
 
@@ -268,7 +265,6 @@ Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) 
 
   const ContactGeometry geometry = geometry_of(scene);
   const double modulus = contact_modulus(geometry, {}, {}, {});
-  // Most loads where contacts grow from a few nodes to all; some far outside.
   const double share = draw.chance(0.75)
                            ? draw.decades(-3.5, 0.7)
                            : draw.decades(std::log10(wanted.lightest), std::log10(wanted.heaviest));
@@ -285,7 +281,7 @@ Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) 
     trial.pressure = box.stiffness.value_or(modulus / span) * (span > 0 ? span : amplitude) * share;
     if (wanted.yields || draw.chance(0.45)) {
       draw_yield(draw, trial, modulus);
-      // Elements are pressed up to a thousand times their heights: further, no double holds their gaps.
+      // Doubles cannot hold gaps beyond a thousand times the elements' heights.
       scene.effects.find<PlasticityOptions>()->hardening *=
           trial.pressure / (span > 0 ? span : amplitude) / (modulus / grid.hx());
       if (draw.chance(0.4)) scene.elasticity = RigidOptions{};

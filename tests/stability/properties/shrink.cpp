@@ -25,7 +25,7 @@ Field window(const Field& field, int x, int y, int nx, int ny) {
   return result;
 }
 
-// The cells from (x, y) on, each as large as before. The upper body keeps what lay over them.
+// Both bodies, with the same cell size.
 Trial cropped(const Trial& trial, int x, int y, int nx, int ny) {
   const Grid& old = trial.scene.lower.grid();
   const Grid grid = make_grid(nx, ny, nx * old.hx(), ny * old.hy());
@@ -78,7 +78,7 @@ void fewer_bodies_and_effects(const Trial& trial, std::vector<Trial>& found) {
   }
 }
 
-// As multiples of a power of two, of at most so many bits.
+// Rounds to at most `bits` bits of `greatest`.
 double rounded(double value, double greatest, int bits) {
   const double unit = std::ldexp(1.0, std::ilogb(greatest) - bits + 1);
   return unit * std::round(value / unit);
@@ -94,12 +94,11 @@ void plainer_heights(const Trial& trial, std::vector<Trial>& found) {
   found.push_back(with_each_height(trial, [](double) { return 0.0; }));
   for (const int bits : {1, 3, 6, 12, 24})
     found.push_back(with_each_height(trial, [=](double z) { return rounded(z, greatest, bits); }));
-  // Low ground all at one level.
   const double middle = 0.5 * (lower.min + lower.max);
   found.push_back(with_each_height(trial, [=](double z) { return z < middle ? lower.min : z; }));
 }
 
-// Lengths, moduli and pressures in new units, and then as few digits as will do.
+// Changes units, then reduces digits.
 void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
   const Grid& grid = trial.scene.lower.grid();
   const auto rescaled = [&](double length, double stress) {

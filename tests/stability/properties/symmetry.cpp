@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same bodies seen otherwise: mirrored, transposed, shifted round by whole cells (where the boundary lets
-// them, and for boxes, which do not know where they are), or exchanged. The pressures are those of before,
-// seen otherwise: to the last bit for boxes, to 1e-8 of the greatest for half-spaces, whose sums run in
-// another order, solved to 1e-12. Loads far past full contact are left to other families: on a free tile they
-// sink it by so many times its roughness that no double holds 1e-12 of that.
+// Mirrored, transposed, shifted (where the boundary permits, and boxes) or exchanged bodies have the same
+// mapped pressures: bit for bit for boxes; within 1e-8 of the greatest for half-spaces solved to 1e-12,
+// whose sums run in another order. At extreme loads a free tile sinks too deep for 1e-12.
 #include <cmath>
 #include <functional>
 
@@ -17,7 +15,7 @@ namespace {
 
 constexpr double allowed = 1e-8;  // of the greatest pressure
 
-// Where node (i, j) of the view lies in the original.
+// Maps node (i, j) of the view to the original.
 struct View {
   const char* name;
   int nx, ny;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The number of threads changes no bit. Tiles are larger than elsewhere, so that loops have several blocks.
+// Large tiles, whose loops have several blocks.
 #include "engine/core/parallel.hpp"
 #include "tests/stability/properties/property.hpp"
 
