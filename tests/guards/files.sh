@@ -4,7 +4,7 @@
 #
 #   files.sh PROGRAM FOLDER [--write]    the program; an empty place for its run; record the values anew
 set -eu
-program=$1 place=$2
+program=$(realpath "$1") place=$(realpath -m "$2")
 cd "$(dirname -- "$0")/../.."
 rm -rf "$place"
 find examples/data tests/data tests/fuzz/corpus -type f ! -name '*.lua' | LC_ALL=C sort |

@@ -4,7 +4,7 @@
 #
 #   numbers.sh PROGRAM FOLDER [--write]    the program; an empty place for its run; record the numbers anew
 set -eu
-program=$1 place=$2
+program=$(realpath "$1") place=$(realpath -m "$2")
 cd "$(dirname -- "$0")"
 rm -rf "$place"
 if [ "${3:-}" = --write ]; then

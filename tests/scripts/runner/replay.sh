@@ -107,7 +107,8 @@ of_version 0.1.0 run numbers
 sed -i '4s/"chance":[0-9.e-]*/"chance":1.5/' numbers/journal.jsonl
 ends 3 "numbers: one difference" "$program" replay numbers --out numbers-again
 says "events, row 1, chance" output
-ends 0 "one difference" "$program" replay numbers --out numbers-varied --set press.tolerance=1e-6
+ends 0 "numbers with" "$program" replay numbers --out numbers-varied --set "press.pressure=0.02"
+says "results compared to 1e-05 of their values" output
 
 # Two versions never write one record.
 of_version 0.1.0 run begun

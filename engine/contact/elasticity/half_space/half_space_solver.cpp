@@ -305,8 +305,9 @@ HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem&
   return answer;
 }
 
-// Hardening on long cells converges within some 150 transforms or hardly at all (docs/stability.md).
-constexpr double most_on_long_cells = 400;
+// Hardening on long cells converges within some 150 transforms or hardly at all (docs/stability.md). Controls
+// other than the load take some three solves.
+constexpr double most_under_load = 400, most_of_other_controls = 2000;
 
 bool hardens_on_long_cells(const HalfSpaceProblem& problem) {
   return problem.yield.hardens() && !problem.best_effort &&
@@ -380,7 +381,8 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
                              : solve_from(start, problem, value, monitor);
   };
   Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, start, monitor, [&] {
-    return hardens_on_long_cells(problem) ? solve_within(most_on_long_cells, problem.grid, solve) : solve();
+    const double most = by == "pressure" ? most_under_load : most_of_other_controls;
+    return hardens_on_long_cells(problem) ? solve_within(most, problem.grid, solve) : solve();
   });
   // The energy sums pressures times lengths.
   const HalfSpaceAnswer& answer = solved.result;
