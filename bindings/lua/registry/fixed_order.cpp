@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <utility>
 
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/guard.hpp"
@@ -28,10 +30,10 @@ struct Key {
   const char* text = nullptr;  // valid as long as the list
 };
 
-// Sorted keys of a loop, a userdata whose user value is their list.
-struct alignas(Key) Walk {
+// The places of the keys of a loop in their order. A userdata whose user value is the list of keys.
+struct Walk {
   std::uint32_t count, next;
-  Key* keys() { return reinterpret_cast<Key*>(this + 1); }
+  std::uint32_t* places() { return reinterpret_cast<std::uint32_t*>(this + 1); }
 };
 
 bool before(const Key& a, const Key& b) {
@@ -76,37 +78,60 @@ void note_other_keys(lua_State* L) noexcept {
                           "in another order in every run; use numbers or strings as keys");
 }
 
+// Room for the keys of one walk, reused by the next. Null without memory.
+Key* room_for(std::uint32_t count) {
+  thread_local std::uint32_t size = 0;
+  thread_local std::unique_ptr<Key[]> room;
+  if (count <= size) return room.get();
+  const std::uint32_t larger = std::max<std::uint32_t>(128, 2 * size);
+  std::unique_ptr<Key[]> grown(new (std::nothrow) Key[larger]);
+  if (!grown) return nullptr;
+  std::copy(room.get(), room.get() + size, grown.get());
+  room = std::move(grown);
+  size = larger;
+  return room.get();
+}
+
 // Pushes the walk over a table and the list of its keys. Raises.
 Walk* push_walk(lua_State* L, int table) {
+  thread_local std::uint32_t expected = 0;  // keys: loops often have as many as the last one
   luaL_checkstack(L, 8, nullptr);
-  std::size_t count = 0;
-  for (lua_pushnil(L); lua_next(L, table) != 0; lua_pop(L, 1)) ++count;
-  auto* walk = new (lua_newuserdatauv(L, sizeof(Walk) + count * sizeof(Key), 1)) Walk{0, 0};
-  const int at = lua_gettop(L), list = at + 1;
-  lua_createtable(L, static_cast<int>(count), 0);
-  // A collection may have changed a weak table. Nothing is allocated from here on.
-  std::uint32_t found = 0, others = 0;
-  for (lua_pushnil(L); found < count && lua_next(L, table) != 0;) {
+  lua_createtable(L, static_cast<int>(expected), 0);
+  const int list = lua_gettop(L);
+  std::uint32_t count = 0, others = 0;
+  Key* keys = room_for(0);
+  for (lua_pushnil(L); lua_next(L, table) != 0;) {
     lua_pop(L, 1);
-    const Key& key = *new (walk->keys() + found) Key(key_at(L, -1, found + 1));
-    if (key.kind == Kind::other && !Argument(L, -1).is_unknown()) ++others;
+    keys = room_for(count + 1);
+    if (keys == nullptr) luaL_error(L, "not enough memory");
+    keys[count] = key_at(L, -1, count + 1);
+    if (keys[count].kind == Kind::other && !Argument(L, -1).is_unknown()) ++others;
     lua_pushvalue(L, -1);
-    lua_rawseti(L, list, ++found);
+    lua_rawseti(L, list, ++count);
   }
-  lua_settop(L, list);
+  expected = std::min<std::uint32_t>(count, 1024);
+  if (!std::is_sorted(keys, keys + count, before)) std::sort(keys, keys + count, before);
+  auto* walk = new (lua_newuserdatauv(L, sizeof(Walk) + count * sizeof(std::uint32_t), 1)) Walk{count, 0};
+  for (std::uint32_t k = 0; k < count; ++k) walk->places()[k] = keys[k].place;
   lua_pushvalue(L, list);
-  lua_setiuservalue(L, at, 1);
-  walk->count = found;
-  Key* const end = walk->keys() + found;
-  if (!std::is_sorted(walk->keys(), end, before)) std::sort(walk->keys(), end, before);
+  lua_setiuservalue(L, -2, 1);
+  lua_rotate(L, list, 1);
   if (others > 1) note_other_keys(L);
   return walk;
+}
+
+// Key k of a walk.
+Key key_of(lua_State* L, Walk& walk, int list, std::uint32_t k) {
+  lua_rawgeti(L, list, walk.places()[k]);
+  const Key key = key_at(L, -1, 0);
+  lua_pop(L, 1);
+  return key;
 }
 
 // The next key still in the table and its value; nil at the end.
 int push_next(lua_State* L, int table, Walk& walk, int list) {
   for (; walk.next < walk.count; lua_pop(L, 2)) {
-    lua_rawgeti(L, list, walk.keys()[walk.next++].place);
+    lua_rawgeti(L, list, walk.places()[walk.next++]);
     lua_pushvalue(L, -1);
     if (lua_rawget(L, table) != LUA_TNIL) return 2;
   }
@@ -177,13 +202,19 @@ int ordered_next(lua_State* L) {
   auto* walk = static_cast<Walk*>(lua_touserdata(L, 4));
   const Key key = key_at(L, 2, 0);
   const auto is_at = [&](const Key& last) { return !before(last, key) && !before(key, last); };
-  if (walk != nullptr && walk->next > 0 && is_at(walk->keys()[walk->next - 1])) {
-    lua_getiuservalue(L, 4, 1);
-  } else {
+  if (walk != nullptr) lua_getiuservalue(L, 4, 1);
+  if (walk == nullptr || walk->next == 0 || !is_at(key_of(L, *walk, 5, walk->next - 1))) {
     lua_settop(L, 3);
     walk = push_walk(L, 1);
-    Key* const keys = walk->keys();
-    walk->next = static_cast<std::uint32_t>(std::upper_bound(keys, keys + walk->count, key, before) - keys);
+    std::uint32_t below = 0, above = walk->count;  // of the first key after `key`
+    while (below < above) {
+      const std::uint32_t middle = (below + above) / 2;
+      if (before(key, key_of(L, *walk, 5, middle)))
+        above = middle;
+      else
+        below = middle + 1;
+    }
+    walk->next = below;
   }
   const int results = push_next(L, 1, *walk, 5);
   lua_pushvalue(L, 1);
