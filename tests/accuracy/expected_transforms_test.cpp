@@ -200,7 +200,7 @@ TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
   EXPECT_GT(said, 0.5 * taken);
 }
 
-// N9: by flattening it holds what seeking the load takes, too.
+// By flattening it holds what seeking the load takes, too.
 TEST(PlanOfAPress, NamesTheControl) {
   const Contact contact(rough(128, 128));
   EXPECT_NE(contact.plan.text().find("  transforms    40 expected of a press by `pressure`, a rough guess; "),

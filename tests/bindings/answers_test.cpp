@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the language answers to mistakes that are easily made: bare numbers that mean another unit (B7),
-// values of another kind (B13), and errors that must name the script's line and what would work.
+// What the language answers to mistakes that are easily made: bare numbers that mean another unit,
+// values of another kind, and errors that must name the script's line and what would work.
 #include <vector>
 
 #include "tests/bindings/lua_test.hpp"
@@ -174,7 +174,7 @@ TEST_F(Answers, NamesStandAlongXAndNotUp) {
   refuses("book:chart{ x='Ra', y='grit' }", "`grit` holds names, such as \"P80\"; names stand along x");
 }
 
-// M2: the height at the last node continues in the first.
+// The height at the last node continues in the first.
 TEST_F(Answers, M2APeriodicFunctionHasNoStepAtTheRim) {
   const std::string surface =
       "lab.surface.from_function{ cells=32, size=1e-3, material=al, height=function(x, y) return ";
@@ -187,7 +187,7 @@ TEST_F(Answers, M2APeriodicFunctionHasNoStepAtTheRim) {
         "continue across the rim");
 }
 
-// M1: digits belong to the names of arguments.
+// Digits belong to the names of arguments.
 TEST_F(Answers, M1ArgumentsMayHaveDigitsInTheirNames) {
   EXPECT_EQ(value("require 'asperity.arguments'({ H1=1, x_2=3 }, 'H1=2', 'x_2=4').H1"), "2");
   EXPECT_NE(run("require 'asperity.arguments'({ H1=1 }, '1H=2')").find("is no argument of this script"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// K2, B12: the dry run is held against the run. Each scene that a run refuses before its first solve is
+// The dry run is held against the run. Each scene that a run refuses before its first solve is
 // refused by the dry run with the same words, and each that a run takes is taken, although the dry run
 // makes no surface.
 #include "tests/bindings/lua_test.hpp"

@@ -118,7 +118,7 @@ TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
       "lists what there is");
 }
 
-// B11: a part of a name, and a word of a sentence, find what they belong to.
+// A part of a name, and a word of a sentence, find what they belong to.
 TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
   const std::pair<const char*, const char*> wanted[] = {
       {"weierstras", "lab.surface.weierstrass_mandelbrot: "},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// B1, as a script sees it: off the overlap of two turned bodies the gap is missing in values, in what sums
+// As a script sees it: off the overlap of two turned bodies the gap is missing in values, in what sums
 // them up and in pictures, as a measured map with holes is; every other number stays one.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: a host that rounds upward gets the same results from the module, and its mode back after each call.
+// A host that rounds upward gets the same results from the module, and its mode back after each call.
 #include <cfenv>
 
 #include "tests/bindings/lua_test.hpp"

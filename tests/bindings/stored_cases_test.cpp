@@ -232,7 +232,7 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
   }
 }
 
-// F12: shards met only where the script's path was typed in the same way.
+// Shards met only where the script's path was typed in the same way.
 TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
   struct Typed {
     ScriptSpelling script;

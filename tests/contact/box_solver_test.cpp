@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Box elements under a plane: known answers (case V14), the ways of prescribing a load, rescaling, and
+// Box elements under a plane: known answers, the ways of prescribing a load, rescaling, and
 // the hard cases: few nodes, equal heights, zero load, loads and heights of any magnitude.
 #include "engine/contact/elasticity/box/box_solver.hpp"
 
@@ -20,7 +20,7 @@ using test::random_surface;
 using test::ready;
 using test::row_of;
 
-// Case V14: heights {0, 1, 3, 6}/6 with E/A = 1.
+// Heights {0, 1, 3, 6}/6 with E/A = 1.
 TEST(BoxSolver, FourBoxesByHand) {
   const auto solver = ready(boxes(row_of({0, 1.0 / 6, 3.0 / 6, 1}), 1));
   auto at = [&](double pressure) { return solver->press({PressBy::pressure, pressure, {}}); };
@@ -39,7 +39,7 @@ TEST(BoxSolver, FourBoxesByHand) {
   EXPECT_NEAR(st.mean_gap(), (0.35 + (5.0 / 6 - 0.65)) / 4, 1e-15);
 }
 
-// Case V14: F = π k R δ², A = 2 π R δ.
+// F = π k R δ², A = 2 π R δ.
 TEST(BoxSolver, Paraboloid) {
   const int n = 1024;
   const double size = 0.5;
@@ -54,7 +54,7 @@ TEST(BoxSolver, Paraboloid) {
   EXPECT_EQ(st.spots(), 1);
 }
 
-// Case V14: Gaussian heights, A/A0 = Q(t), p/(kσ) = φ(t) − t Q(t), plane t σ above the mean.
+// Gaussian heights, A/A0 = Q(t), p/(kσ) = φ(t) − t Q(t), plane t σ above the mean.
 TEST(BoxSolver, GaussianHeights) {
   const int n = 250;
   auto above = [](double t) { return 0.5 * std::erfc(t / std::numbers::sqrt2); };
@@ -201,7 +201,7 @@ TEST(BoxSolver, OneUlpEitherSideOfTheSecondTouch) {
   EXPECT_EQ(solver->press({PressBy::load, 1 + 0x1p-51, {}}).contacts(), 2);
 }
 
-// Case V7: lengths and moduli rescaled together by powers of two, bit for bit.
+// Lengths and moduli rescaled together by powers of two, bit for bit.
 TEST(BoxSolver, RescalingByPowersOfTwoKeepsEveryBit) {
   const Surface rough = random_surface(33, 20, 8);
   const State base = press(boxes(rough, 3), PressBy::pressure, 0.4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// B1: on a free boundary a turned upper body does not cover all of the lower one. Where nothing faces the
+// On a free boundary a turned upper body does not cover all of the lower one. Where nothing faces the
 // ground there is no pressure and no gap, whatever is prescribed and however bodies give way.
 #include <cmath>
 #include <numbers>

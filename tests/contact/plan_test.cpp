@@ -119,7 +119,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
   EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
 }
 
-// N9: a half-space takes no more than the plan says, and no less than half of it, a mebibyte apart. What has
+// A half-space takes no more than the plan says, and no less than half of it, a mebibyte apart. What has
 // no period of the lanes' transforms, or hardly any nodes, took up to eight times as much.
 TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
@@ -145,7 +145,7 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
       }
 }
 
-// N9: nor does a press by flattening, by its approach or by its load, take more than is said beside that.
+// Nor does a press by flattening, by its approach or by its load, take more than is said beside that.
 TEST(Plan, N9MemoryOfAFlatteningIsNotExceeded) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const bool hardens : {false, true})

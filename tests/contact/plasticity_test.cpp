@@ -52,7 +52,7 @@ TEST(Plasticity, TheSofterBodyLimitsThePressureAndTakesTheGreaterShare) {
   EXPECT_FALSE(yield.hardens());
 }
 
-// P7: shares of the approach that J2 plasticity below the surface gives, by the ratio of the hardnesses.
+// Shares of the approach that J2 plasticity below the surface gives, by the ratio of the hardnesses.
 TEST(Plasticity, TheShareOfTheHarderBodyFallsSmoothlyToNothing) {
   const auto of_harder = [](double ratio) { return lower_plastic_share(ratio * 1e9, 1e9); };
   EXPECT_EQ(of_harder(1), 0.5);
@@ -73,7 +73,7 @@ TEST(Plasticity, TheShareOfTheHarderBodyFallsSmoothlyToNothing) {
       EXPECT_EQ(lower_plastic_share(hard, soft), hard > soft ? 0 : hard < soft ? 1 : 0.5);
 }
 
-// P7: of one hardness and one Poisson's ratio, the strain below the faces goes as 1/E.
+// Of one hardness and one Poisson's ratio, the strain below the faces goes as 1/E.
 TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   Material stiff = metal(1e9), soft = metal(1e9);
   stiff.young = 210e9;
@@ -99,7 +99,7 @@ TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
   EXPECT_EQ(share(boxes), 0.5);
 }
 
-// P8: the plan says by what the bodies share.
+// The plan says by what the bodies share.
 TEST(Plasticity, ThePlanSaysWhoTakesWhatAndByWhat) {
   const auto sentence = [](const Scene& scene) {
     std::string text;
@@ -253,7 +253,7 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   EXPECT_EQ(both, 0);
 }
 
-// P8: where events have hardened one body, the other takes what yields there.
+// Where events have hardened one body, the other takes what yields there.
 TEST(Plasticity, SharesGoByWhatEachNodeHasHardenedTo) {
   const Surface body = rough.with_material(metal(1e9));
   const Scene scene = scene_of(body, body, {{}, 5e13});

@@ -186,7 +186,7 @@ TEST(State, TextTellsValuesWithTheirErrorsCostAndResidual) {
   EXPECT_EQ(st.effects_run(), std::vector<std::string>{"elasticity"});
 }
 
-// N12: a flat on all of a periodic tile carries any load and comes no nearer.
+// A flat on all of a periodic tile carries any load and comes no nearer.
 TEST(State, AFlatUnderLoadHasNoFiniteSecantStiffness) {
   const Surface flat = surface_of(Grid{8, 8, 1, 1}, [](int, int) { return 0.0; }).with_material(elastic(1e9));
   Scene scene = scene_of(flat, rigid_material(), {}, Boundary::periodic);

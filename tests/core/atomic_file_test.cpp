@@ -131,7 +131,7 @@ class PartFile : public InFolder {
   }
 };
 
-// F11: processes of two containers had one number and wrote one file.
+// Processes of two containers had one number and wrote one file.
 TEST_F(PartFile, F11NoTwoNamesAreOne) {
   std::set<fs::path> names;
   for (int k = 0; k < 1000; ++k) names.insert(part_beside(folder / "a.h5"));

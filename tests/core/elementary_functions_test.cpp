@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: elementary functions are correctly rounded, held bit for bit against MPFR over wide ranges, at special
+// Elementary functions are correctly rounded, held bit for bit against MPFR over wide ranges, at special
 // values, beside exact results and ties, and under other rounding modes.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// N10: transforms of any length in lanes, against the sum of the definition: smooth lengths, primes and their
+// Transforms of any length in lanes, against the sum of the definition: smooth lengths, primes and their
 // products, batches that are not full, and the same bits whatever else is in the batch.
 #include "engine/core/fourier/fourier_batch.hpp"
 

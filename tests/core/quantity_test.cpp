@@ -91,7 +91,7 @@ TEST(Quantity, OtherUnits) {
   EXPECT_EQ(parse_quantity_as("36 km/h", dimension::speed), 10.0);
 }
 
-// F8: by their definitions: lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
+// By their definitions: lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
 TEST(Quantity, F8UnitsOfScalesAndGaugesOfPresses) {
   const double pound = 0.45359237 * 9.80665, square_inch = 0.0254 * 0.0254;
   const auto force = [](const char* text) { return parse_quantity_as(text, dimension::force); };

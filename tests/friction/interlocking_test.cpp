@@ -263,7 +263,7 @@ TEST(Interlocking, AStateThatDoesNotNameItHasNoFieldMade) {
   EXPECT_EQ(memory::held(), before);
 }
 
-// B1: at the rim of the overlap slopes are taken to its inside, as at the rim of the tile.
+// At the rim of the overlap slopes are taken to its inside, as at the rim of the tile.
 TEST(Interlocking, JunctionsBesideGroundThatNothingFacesHaveTheirSlopes) {
   const Grid bar{8, 16, 0.8, 1.6};
   const Scene scene = scene_of(surface_of(bar, [](int i, int j) { return 0.01 * i + 0.02 * j; }),

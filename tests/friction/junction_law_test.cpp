@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Friction as a sum over junctions: case V15 for boxes, the sum node by node, caps, and what is refused.
+// Friction as a sum over junctions: known answers of boxes, the sum node by node, caps, and what is refused.
 #include "engine/friction/junction_law.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ double sum_over_nodes(const JunctionLaw& law, const State& st) {
   return static_cast<double>(sum) * st.geometry().grid().cell_area();
 }
 
-// Case V15, Hertz: R = E* = 1, F = 1e-3, τ0 = .01, α = .2; the contact radius is about .091.
+// Hertz: R = E* = 1, F = 1e-3, τ0 = .01, α = .2; the contact radius is about .091.
 TEST(JunctionLaw, HertzContactWithAndWithoutACap) {
   Scene scene{paraboloid(512, 0.3).with_material(test::elastic(1)), rigid_material(), Boundary::free,
               HalfSpaceOptions{}, Accuracy{}};
@@ -48,7 +48,7 @@ TEST(JunctionLaw, HertzContactWithAndWithoutACap) {
   EXPECT_NEAR(capped.on(st).force / sum_over_nodes(capped, st), 1, 1e-12);
 }
 
-// Case V15, boxes: R = k = 1, F = 1e-3, τ0 = .001, α = .2.
+// Boxes: R = k = 1, F = 1e-3, τ0 = .001, α = .2.
 TEST(JunctionLaw, ParaboloidWithAndWithoutACap) {
   const State st = press(boxes(paraboloid(2048, 0.5), 1), PressBy::load, 1e-3);
   const FrictionResult open = JunctionLaw({.tau0 = 0.001, .alpha = 0.2}).on(st);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere (case V18), boxes in closed
+// Partial slip as the difference of two contacts: Cattaneo and Mindlin's sphere, boxes in closed
 // form, what the tractions must meet, and what is refused.
 #include "engine/friction/partial_slip.hpp"
 
@@ -48,7 +48,6 @@ struct Pulled {
   }
 };
 
-// Case V18.
 TEST(PartialSlip, TheStickRadiusOfASphereIsCattaneoAndMindlins) {
   for (const int n : {128, 256}) {
     const Pulled pulled(sphere(n));

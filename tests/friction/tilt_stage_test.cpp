@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slip angle: case V16 for T = T0 + αN, the steps of the stage, jumps of friction, the right angle.
+// The slip angle: known answers for T = T0 + αN, the steps of the stage, jumps of friction, the right angle.
 #include "engine/friction/tilt_stage.hpp"
 
 #include <cmath>
@@ -19,7 +19,6 @@ FrictionForce line(double constant, double alpha) {
   return [=](double normal) { return constant + alpha * normal; };
 }
 
-// Case V16.
 TEST(SlipAngle, ConstantPlusProportionalFriction) {
   for (const auto& [constant, alpha, expected] : {std::tuple{0.3, 0.2, 28.417958}, {0.9, 0.1, 69.287628}}) {
     const double exact = std::asin(constant / std::sqrt(1 + alpha * alpha)) + std::atan(alpha);
@@ -31,7 +30,7 @@ TEST(SlipAngle, ConstantPlusProportionalFriction) {
   }
 }
 
-// Case V16: T0 > W never slips.
+// T0 > W never slips.
 TEST(SlipAngle, TooMuchFrictionNeverSlips) {
   const SlipAngle slip = slip_angle(line(1.1, 0.1), 1, 0.1 * degree, right);
   EXPECT_FALSE(slip.slipped);
@@ -55,7 +54,7 @@ TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
   }
 }
 
-// B7: one radian for one degree holds no step, which is no coefficient of 0.
+// One radian for one degree holds no step, which is no coefficient of 0.
 TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
   for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
     EXPECT_NE(error_of([&] {

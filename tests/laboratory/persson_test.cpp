@@ -39,7 +39,7 @@ State pressed(std::uint64_t seed, double pressure, std::optional<double> hardnes
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 
-// Case V11: the theory's own numbers.
+// The theory's own numbers.
 TEST(Persson, ElasticAreaIsAnErrorFunction) {
   for (const auto& [share, area] : {std::pair{.01, .0159566}, {.05, .0796557}, {.1, .158519}})
     EXPECT_NEAR(std::erf(std::numbers::sqrt2 * share), area, 1e-6);
@@ -48,7 +48,6 @@ TEST(Persson, ElasticAreaIsAnErrorFunction) {
 // The few highest hills of a tile carry a light load, so single tiles scatter: means are compared.
 constexpr std::uint64_t seeds = 4;
 
-// Case V11.
 TEST(Persson, SimulatedAreaOverLoadIsInTheKnownRange) {
   for (const double share : {0.01, 0.02, 0.03}) {
     double kappa = 0;
@@ -79,7 +78,7 @@ CappedTheory capped_theory(double pressure, double hardness) {
   return {elastic, (pressure - carried) / hardness};
 }
 
-// Case V13: the theory's own numbers.
+// The theory's own numbers.
 TEST(Persson, CappedAreasOfTheTheory) {
   for (const auto& [pressure, elastic, capped] :
        {std::tuple{.01, .114584, .044054}, {.02, .217947, .093204}}) {
@@ -89,7 +88,7 @@ TEST(Persson, CappedAreasOfTheTheory) {
   }
 }
 
-// Case V13. The cap changes the area little, so theory and simulation differ in all the area that touches
+// The cap changes the area little, so theory and simulation differ in all the area that touches
 // as they do without a cap, by a quarter. How it divides they disagree on: pressures of a real contact
 // spread over less than the (E* h')²/4 of the theory, so fewer nodes reach the hardness and more stay below.
 TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {

@@ -78,7 +78,7 @@ TEST(LengthMethod, WithPeriodicLagsKnowsNoBeginning) {
               1e-13);
 }
 
-// Case V20, on increments of rms slope s: three standard errors of √(1 + s²g²) over n of them.
+// On increments of rms slope s: three standard errors of √(1 + s²g²) over n of them.
 TEST(LengthMethod, FindsTheExpectedLengthOfAGaussianProfile) {
   const int n = 100000;
   for (const double s : {0.05, 0.3, 1.0, 3.0, 10.0}) {
@@ -95,7 +95,7 @@ TEST(LengthMethod, FindsTheExpectedLengthOfAGaussianProfile) {
   }
 }
 
-// Case V20: the D that the formula predicts for H = 1/2 over steps 1 … 1024 (true D 1.5); averaged
+// The D that the formula predicts for H = 1/2 over steps 1 … 1024 (true D 1.5); averaged
 // over many profiles, within three standard errors.
 TEST(LengthMethod, FindsThePredictedDimensionOfFlatAndSteepProfiles) {
   const double known[][2] = {{0.05, 1.00013}, {0.3, 1.00444}, {1, 1.0351}, {5, 1.2008}, {100, 1.4867}};

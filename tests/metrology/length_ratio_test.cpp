@@ -14,7 +14,6 @@
 namespace asperity::length_ratio_test {
 namespace {
 
-// Case V20.
 TEST(LengthRatio, HasItsKnownValues) {
   const double known[][2] = {
       {0.05, 1.00124767}, {0.3, 1.04246791}, {1, 1.35453081}, {3, 2.71005671}, {10, 8.12078261}};
@@ -22,7 +21,7 @@ TEST(LengthRatio, HasItsKnownValues) {
     EXPECT_NEAR(expected_length_ratio(slope), ratio, 0.5e-8 * (1 + 1e-6)) << slope;
 }
 
-// Case V20: slope s·d^(-1/2) at the spacings 1, 2, 4 … 1024; the profile's D is 1.5.
+// Slope s·d^(-1/2) at the spacings 1, 2, 4 … 1024; the profile's D is 1.5.
 TEST(LengthRatio, ExplainsWhatTheLengthMethodFinds) {
   const double known[][3] = {
       {0.05, 1.00013, 5e-6}, {0.3, 1.00444, 5e-6}, {1, 1.0351, 5e-5}, {5, 1.2008, 5e-5}, {100, 1.4867, 5e-5}};

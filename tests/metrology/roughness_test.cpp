@@ -11,7 +11,6 @@ namespace {
 using testing::make_profile;
 using testing::make_surface;
 
-// Case V9.
 TEST(Roughness, OfACosineProfile) {
   const int n = 256;
   const double A = 2.5e-6;
@@ -27,7 +26,7 @@ TEST(Roughness, OfACosineProfile) {
   EXPECT_DOUBLE_EQ(r.valley, -A);
 }
 
-// Case V9. The slope of forward differences is that of the wave times sinc(π/n).
+// The slope of forward differences is that of the wave times sinc(π/n).
 TEST(Roughness, OfASineProductSurface) {
   const int n = 256;
   const double h = 3e-6, L = 2e-3;
@@ -38,7 +37,7 @@ TEST(Roughness, OfASineProductSurface) {
   EXPECT_NEAR(r.rms_slope / (pi * h * std::sqrt(2.0) / L), 1, 1e-4);
 }
 
-// Case V9: Ra/Rq = √(2/π), skewness 0, kurtosis 3, each within three standard errors of n samples.
+// Ra/Rq = √(2/π), skewness 0, kurtosis 3, each within three standard errors of n samples.
 TEST(Roughness, OfGaussianHeights) {
   const int n = 512;
   const Roughness r = roughness(testing::white_noise(n, n, 1, 1, 7));
@@ -48,7 +47,7 @@ TEST(Roughness, OfGaussianHeights) {
   EXPECT_NEAR(r.kurtosis, 3, 3 * std::sqrt(24.0) / n);
 }
 
-// Case V19: phases 2π frac(0.6180339887498949 (10 n + m)), n_max = 7, span 3.
+// Phases 2π frac(0.6180339887498949 (10 n + m)), n_max = 7, span 3.
 TEST(Roughness, OfAWeierstrassMandelbrotSurface) {
   WeierstrassMandelbrotOptions options;
   options.nx = options.ny = 150;

@@ -156,7 +156,7 @@ TEST(SpectralDimension, OfContinuousSpectraIsResolved) {
     }
 }
 
-// Case V10. Means over four surfaces; the shortest wave is two cells, and next to it a cut through an
+// Means over four surfaces; the shortest wave is two cells, and next to it a cut through an
 // isotropic spectrum has lost some of its waves.
 TEST(SpectralDimension, OfSelfAffineSurfaces) {
   for (const double hurst : {0.3, 0.5, 0.8}) {

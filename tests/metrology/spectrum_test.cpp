@@ -89,7 +89,7 @@ TEST(Spectrum, OfWhiteNoiseIsFlatAtItsLevel) {
   }
 }
 
-// Case V10: the slope -2 - 2H between roll-off and cut-off, and the requested rms slope exactly.
+// The slope -2 - 2H between roll-off and cut-off, and the requested rms slope exactly.
 TEST(Spectrum, OfASelfAffineSurface) {
   SelfAffineOptions options;
   options.grid = make_grid(512, 512, 1e-3, 1e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dilation by a sphere: known answers on planes, grooves and cosines (case V17), the brute-force
+// Dilation by a sphere: known answers on planes, grooves and cosines, the brute-force
 // maximum, and the laws of mathematical morphology.
 #include "engine/metrology/spherical_tip.hpp"
 
@@ -84,7 +84,7 @@ TEST(SphericalTip, RestsOnAPlaneBesideItsAxis) {
 }
 
 TEST(SphericalTip, BottomsInAGrooveWhereBothWallsMeetIt) {
-  // case V17: R (1/cos b - 1), whatever the cells: they may be smaller or longer than the tip.
+  // R (1/cos b - 1), whatever the cells: they may be smaller or longer than the tip.
   for (const double h : {0.05e-6, 0.25e-6, 0.7e-6, 5e-6})
     for (const double half_slope : {0.05, 0.2, 0.7, 1.3}) {
       const Surface groove = make_surface(
@@ -106,7 +106,7 @@ double kept(double radius, double wavelength, double amplitude, int cells) {
 }
 
 TEST(SphericalTip, LosesAmplitudeWhereTheCosineCurvesMoreThanTheTip) {
-  // case V17: R = 2 µm, λ = 2 µm, A = 0.1 µm; A q² R = 1.97.
+  // R = 2 µm, λ = 2 µm, A = 0.1 µm; A q² R = 1.97.
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 4096), 0.80538, 5e-6);
   EXPECT_NEAR(kept(2e-6, 2e-6, 0.1e-6, 64), 0.80538, 2e-3);
   // A q² R < 1 keeps all of it, > 1 does not.

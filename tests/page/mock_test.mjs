@@ -736,7 +736,6 @@ for (const scheme of ['light', 'dark']) {
     }));
 }
 
-// T11
 for (const [width, height] of [
   [1280, 577],
   [1024, 600],
@@ -783,7 +782,6 @@ for (const [width, height] of [
     }
   });
 
-// T9
 test('Script, OfTwoTabsBothAreKept', () =>
   visit({}, async (page) => {
     await on.write(page, 'print "one"\n');
@@ -825,7 +823,6 @@ test('Run, AskedForWhileAnotherGoesOnSaysSo', () =>
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
   }));
 
-// S1
 test('Run, SaysHowManyAreBeforeIt', () =>
   visit({}, async (page) => {
     mock.full = true;

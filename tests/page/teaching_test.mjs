@@ -54,7 +54,6 @@ const ticks = (page, axis) =>
     }),
   );
 
-// T2
 test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
   visit({}, async (page) => {
     await charted(page, book(9, 'x="v", y={ "level", "i" }'), 18);
@@ -191,7 +190,6 @@ test('Chart, OfColumnsThatAVariableNames', () =>
     );
   }));
 
-// T10
 for (const [width, height] of [
   [1280, 720],
   [960, 540],
@@ -282,7 +280,6 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran(`${made}\n`), 'tab-table');
   }));
 
-// T10
 test('Axis, LabelsOfTicksStandApart', () =>
   visit({}, async (page) => {
     for (const [width, height] of [
@@ -342,7 +339,6 @@ test('Axis, LogarithmicEndsWhereItsDataEndAndWritesAllTicksInOneWay', () =>
     }
   }));
 
-// T3
 test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
   visit({}, async (page) => {
     assert.equal(await on.text(page, '#results-of'), 'No run yet');
@@ -371,7 +367,6 @@ test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
     assert.equal(await grey(), 'none');
   }));
 
-// T4
 for (const [width, height, columns] of [
   [1280, 720, 5],
   [1151, 700, 5],
@@ -477,7 +472,6 @@ test('Results, FillTheWindowByKeysAndGoBack', () =>
     assert.equal(await on.focused(page), 'run');
   }));
 
-// T8
 test('Colours, AreThoseOfPictures', () => {
   const page = readFileSync(new URL('bindings/web/page/src/palettes.ts', root), 'utf8');
   const engine = readFileSync(new URL('engine/plot/palette.cpp', root), 'utf8');

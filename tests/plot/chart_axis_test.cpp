@@ -49,7 +49,7 @@ TEST(ChartAxis, ConvertsUnitsThatAreNotSi) {
   EXPECT_DOUBLE_EQ(layout.factor, 1000);
 }
 
-// B9: a share in per cent stays one, with its unit.
+// A share in per cent stays one, with its unit.
 TEST(ChartAxis, B9SharesKeepTheirPerCent) {
   const AxisLayout layout = lay(axis("share", "%"), {10, 30});
   EXPECT_EQ(layout.label, "share (%)");

@@ -83,7 +83,7 @@ TEST(Chart, SaysWhatIsNotDrawn) {
                 "1 of 6 values are not drawn: `mu` is not above zero, and its axis is logarithmic"}));
 }
 
-// B13: a number that is too large for the plot is no missing one.
+// A number that is too large for the plot is no missing one.
 TEST(Chart, B13SaysThatANumberIsTooLarge) {
   LineChart chart = simple();
   chart.series[0].y[0] = 2e300;

@@ -82,7 +82,7 @@ TEST_F(Gnuplot, RunsNothingThatStandsInText) {
   EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
-// F9: with few handles gnuplot drew without its fonts, complained, and nobody heard.
+// With few handles gnuplot drew without its fonts, complained, and nobody heard.
 TEST_F(Gnuplot, F9WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
   const GnuplotResult odd = run_gnuplot(script(PictureFormat::png, "print \"no\\nfont\"\nplot x\n"));
   EXPECT_TRUE(odd.picture.starts_with("\x89PNG"));

@@ -41,7 +41,6 @@ double luminance(unsigned rgb) {
   return 0.2126 * linear(16) + 0.7152 * linear(8) + 0.0722 * linear(0);
 }
 
-// T8
 TEST(Palette, NothingStandsOutFromEachPressureByThreeToOne) {
   const Palette& heat = palette(palette_of_field("pressure"));
   const double nothing = luminance(heat.colour(0));

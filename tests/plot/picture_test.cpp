@@ -76,7 +76,7 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
   EXPECT_EQ(picture.cells.size(), 64U * 64U * sizeof(float));
 }
 
-// F9: the title of a relief's colour bar lay over its numbers.
+// The title of a relief's colour bar lay over its numbers.
 TEST(Picture, F9AReliefNamesItsBarAboveIt) {
   PictureOptions options;
   options.view = PictureOptions::View::relief;

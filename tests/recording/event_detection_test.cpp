@@ -208,7 +208,7 @@ SyntheticPress four_presses() {
   return press;
 }
 
-// F8: noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
+// Noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
 TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   for (const double share : {0.003, 0.01, 0.02}) {
     int exact = 0;
@@ -242,7 +242,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
   }
 }
 
-// F8: a sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
+// A sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
 TEST(EventDetection, F8AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
@@ -259,7 +259,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
   }
 }
 
-// F8: compression recorded as negative is not told as a turn under load.
+// Compression recorded as negative is not told as a turn under load.
 TEST(EventDetection, F8NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;

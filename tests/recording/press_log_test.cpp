@@ -122,7 +122,7 @@ TEST_F(PressLog, NoPressureTakesTheLoadOff) {
   EXPECT_EQ(events("pressure [MPa]; dwell [s]\n1;\n0;\n;\n;0\n"), "press 1 MPa\nrelease\nrelease\n");
 }
 
-// F8: a forgotten number and a release look the same.
+// A forgotten number and a release look the same.
 TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n,45\n"),
             "press 1 MPa\nrelease\nrotate 90 deg\npress 1 MPa\nrelease\nrotate 45 deg\n");
@@ -136,7 +136,7 @@ TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: twenty minutes do not fit between two presses ten minutes apart.
+// Twenty minutes do not fit between two presses ten minutes apart.
 TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -149,7 +149,7 @@ TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: in half of all laboratories 1,250 is twelve hundred and fifty.
+// In half of all laboratories 1,250 is twelve hundred and fifty.
 TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
             "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
@@ -172,7 +172,7 @@ TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
   EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
 }
 
-// F8: the forms in which loggers and spreadsheets write a log.
+// The forms in which loggers and spreadsheets write a log.
 TEST_F(PressLog, F8FormsOfLoggersAreRead) {
   const std::string first = "press 1 MPa (at 0 s, ", second = "press 2 MPa (at 900 s, ";
   const std::string utf8 = "time [s],pressure [MPa]\n0,1\n900,2\n";
@@ -201,7 +201,7 @@ TEST_F(PressLog, F8FormsOfLoggersAreRead) {
             std::string::npos);
 }
 
-// F8: what a log does not say may be said beforehand.
+// What a log does not say may be said beforehand.
 TEST_F(PressLog, F8FormsThatAreSaid) {
   const auto said = [this](const std::string& log, const TableForm& form) {
     std::string lines;
@@ -238,7 +238,7 @@ TEST_F(PressLog, F8FormsThatAreSaid) {
       "`load`");
 }
 
-// F8: what can be read in two ways, or not at all, is refused with what to write.
+// What can be read in two ways, or not at all, is refused with what to write.
 TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
@@ -275,7 +275,7 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// F8: an angle is a reading of a stage; in a table of events the turn is called otherwise.
+// An angle is a reading of a stage; in a table of events the turn is called otherwise.
 TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
   ASSERT_EQ(listener.warnings.size(), 1U);

@@ -65,7 +65,7 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
   EXPECT_TRUE(refusal("time [s],load [N]\n").find("names columns but holds no row") != std::string::npos);
 }
 
-// F8: a recording with a unit that is not read is none the less a recording.
+// A recording with a unit that is not read is none the less a recording.
 TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   std::string text = "time [s],load [kN],angle [gon]\n";
   for (int k = 0; k < 120; ++k)
@@ -88,7 +88,7 @@ TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
   EXPECT_DOUBLE_EQ(r.angle[1], 0.5 * std::numbers::pi);
 }
 
-// F8: a logger that is faster than its clock.
+// A logger that is faster than its clock.
 TEST(PressRecording, F8EqualTimesAreSpreadWhereThatIsSaid) {
   const SourceFile file("press.csv", "time [s],load [N]\n0,1\n0,2\n1,3\n1,4\n2,5\n2,6\n2,7\n");
   Listener listener;

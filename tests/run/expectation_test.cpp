@@ -234,7 +234,7 @@ TEST(Expectation, RefusesToSayNothing) {
             "bad_value: `increasing_in` and `decreasing_in` both name `D`; keep one of them");
 }
 
-// B6: a bound written with a unit is counted in the unit of its column.
+// A bound written with a unit is counted in the unit of its column.
 struct UnitCase {
   const char* column;    // its unit
   const char* quantity;  // of the bound

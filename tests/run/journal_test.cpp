@@ -135,7 +135,7 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
   EXPECT_EQ(content_of(folder / "j.jsonl"), before);
 }
 
-// F14: a power cut leaves holes, which read as zeros; from there on the run writes its lines again.
+// A power cut leaves holes, which read as zeros; from there on the run writes its lines again.
 TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
   const auto lines = [](Journal& journal) {
     for (int k = 1; k <= 4; ++k) journal.write("row", Json::object({{"row", Json::object({{"k", k}})}}));

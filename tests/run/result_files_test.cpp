@@ -166,7 +166,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
   EXPECT_EQ(count(tiny.folder), 0U);
 }
 
-// S2: a script of somebody else's does not fill a folder that others share.
+// A script of somebody else's does not fill a folder that others share.
 TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
   const Field field = ramp(64, 64);
   ResultFilesSetup shared = setup();

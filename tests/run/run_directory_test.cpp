@@ -161,7 +161,7 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  // S10: also what the page draws of it.
+  // Also what the page draws of it.
   for (const std::string file :
        {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock", ".views/x", "./.views/a/b"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
@@ -354,7 +354,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
   EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far"), nullptr);
 }
 
-// F1: who makes and locks a directory for another process holds it, and leaves nothing where nothing was
+// Who makes and locks a directory for another process holds it, and leaves nothing where nothing was
 // begun.
 TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
   RunSetup s = setup();
@@ -403,7 +403,7 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
   EXPECT_EQ(files_in(folder / "mine"), 1U);
 }
 
-// F4: a run that died before its first manifest was "not empty" for ever.
+// A run that died before its first manifest was "not empty" for ever.
 TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -546,7 +546,7 @@ TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
   EXPECT_EQ(read_run(*s.out).journal.size(), 2U);
 }
 
-// S3: each of a run's own files and folders, replaced by a link to somebody else's.
+// Each of a run's own files and folders, replaced by a link to somebody else's.
 TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   RunSetup s = setup();
   s.out = folder / "r";
@@ -580,7 +580,7 @@ TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   EXPECT_EQ(error_of([&] { RunDirectory run(again); }), "");
 }
 
-// S3: a table that is a link is written anew in its place.
+// A table that is a link is written anew in its place.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
@@ -593,7 +593,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 
-// S3: a copy of the directory by hard links (cp -al), of which either is taken up while the other stays as it
+// A copy of the directory by hard links (cp -al), of which either is taken up while the other stays as it
 // is.
 TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   RunSetup s = setup();
@@ -629,7 +629,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
   }
 }
 
-// S3: a table with another name is written anew, too.
+// A table with another name is written anew, too.
 TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};

@@ -22,7 +22,7 @@ TEST(RunFacts, MachineHasProcessors) {
   EXPECT_NE(machine_facts().find("system"), nullptr);
 }
 
-TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
+TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {
   const Json here = machine_facts();
   for (const char* name : {"c_library_functions", "build"}) EXPECT_NE(here.find(name), nullptr) << name;
   EXPECT_TRUE(differing_machines(here, here).empty());

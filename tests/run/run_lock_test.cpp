@@ -163,7 +163,7 @@ TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
 }
 
-// F1: a child that works for this process holds the folder as long as either of them.
+// A child that works for this process holds the folder as long as either of them.
 TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   const std::string held = "bad_state: " + held_by(::getpid());
   std::shared_ptr<RunLock> parent = RunLock::take(folder);
@@ -178,7 +178,7 @@ TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-// F1: the child of a holder that was killed dies with it, a moment later.
+// The child of a holder that was killed dies with it, a moment later.
 TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);

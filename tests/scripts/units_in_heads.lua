@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Tables of points: the units of their heads (B2), points missing (B3), and profiles of two columns (F7).
+-- Tables of points: the units of their heads, points missing, and profiles of two columns.
 --! output: as they were measured
 local lab = require "asperity"
 local function file_of(name, text)

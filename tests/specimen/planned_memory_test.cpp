@@ -19,7 +19,7 @@ using test::elastic;
 using test::random_surface;
 using test::scene_of;
 
-// N9: on many cells two thirds more was taken than said.
+// On many cells two thirds more was taken than said.
 TEST(PlannedMemory, N9OfElementsIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 37}, {64, 64}, {251, 127}, {512, 512}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})

@@ -123,7 +123,6 @@ TEST(PlasticEvents, WithoutPlasticityNothingStays) {
       std::string::npos);
 }
 
-// Hard case 11.
 TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
   SpecimenPair pair(scene_of());
   const double first = pair.press(pressure(100)).plastic_volume();
@@ -179,7 +178,6 @@ TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
     }
 }
 
-// Hard case 11.
 TEST(PlasticEvents, ALoadAndThenAGreaterOneEqualTheGreaterAlone) {
   SpecimenPair in_steps(scene_of()), at_once(scene_of());
   const Surface virgin = in_steps.lower();
@@ -239,7 +237,7 @@ TEST(PlasticEvents, TheSofterBodyLosesMore) {
   SpecimenPair pair(scene);
   const Surface lower = pair.lower(), upper = pair.upper();
   pair.press(pressure(100));
-  // P7: three times as hard.
+  // Three times as hard.
   const double odds = std::exp(1.5 * (9 - 1.0 / 9));
   EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), odds, 1e-6 * odds);
 }
@@ -316,11 +314,10 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
   EXPECT_NEAR(volume_lost(before, pair.upper()) / state.plastic_volume(), 0.5, 1e-6);
 }
 
-// Hard case 7.
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  Field tilted = body.heights();  // M2: no warning for a body that continues across the rim
+  Field tilted = body.heights();  // no warning for a body that continues across the rim
   const double height = range(tilted.values()).span();
   for (int i = 0; i < body.grid().nx; ++i)
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;

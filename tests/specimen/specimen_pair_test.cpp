@@ -179,7 +179,7 @@ TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
     }
 }
 
-// B1: said once for a pair, and not before one body overhangs the other.
+// Said once for a pair, and not before one body overhangs the other.
 TEST(SpecimenPair, AnOverhangIsWarnedOf) {
   class Warned final : public Monitor {
    public:

@@ -99,7 +99,7 @@ TEST(TiltHalfSpace, PressuresAboveTheHardnessAreReported) {
   EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(hard), std::string::npos);
 }
 
-// B5: a weight that presses harder than a probe is not extrapolated to.
+// A weight that presses harder than a probe is not extrapolated to.
 TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
   const SpecimenPair pair = on_quartz();
   const double area = pair.lower().grid().area();
@@ -129,7 +129,7 @@ TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
   }
 }
 
-// B5: no weight above the hardness.
+// No weight above the hardness.
 TEST(TiltHalfSpace, AWeightThatTheHardnessCannotCarryIsRefused) {
   Scene scene = on_quartz().scene();
   scene.effects.set(PlasticityOptions{});

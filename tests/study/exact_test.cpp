@@ -30,7 +30,6 @@ double work(double approach, Load load) {
   return sum * end / steps / 3;
 }
 
-// Case V2.
 TEST(Exact, HertzOfTheTables) {
   const Hertz pressed = hertz_at_approach(20, 102, 0.1);
   EXPECT_NEAR(pressed.load, 19.233304448, 5e-10);
@@ -63,7 +62,6 @@ TEST(Exact, WorkDoneIsEnergyStored) {
   EXPECT_NEAR(stored / half.energy_per_area, 1, 1e-6);
 }
 
-// Case V15.
 TEST(Exact, FrictionOfHertz) {
   const Hertz contact = hertz_under_load(1, 1, 1e-3);
   EXPECT_NEAR(friction(contact, .01, .2, .018), 4.337256e-4, 5e-11);
@@ -75,7 +73,6 @@ TEST(Exact, FrictionOfHertz) {
   EXPECT_EQ(friction(contact, .01, 0, .018), .01 * contact.area);
 }
 
-// Case V4.
 TEST(Exact, OneWaveOfTheTables) {
   const double full = std::numbers::pi * 0.01;
   const double table[][4] = {{.05, .143566, 8.944272, .400107},
@@ -97,7 +94,6 @@ TEST(Exact, OneWaveOfTheTables) {
   EXPECT_NEAR(nearly.peak_pressure / all.peak_pressure, 1, 1e-11);
 }
 
-// Case V5.
 TEST(Exact, CrossedWavesTouchEverywhereOrAreRefused) {
   const double full = std::numbers::sqrt2 * std::numbers::pi * 0.01;
   const WavyContact contact = crossed_waves(0.01, 1, 1, full);
@@ -114,7 +110,6 @@ TEST(Exact, CrossedWavesTouchEverywhereOrAreRefused) {
   }
 }
 
-// Cases V11 and V13.
 TEST(Exact, PerssonOfTheTables) {
   for (const auto& [share, area] : {std::pair{.01, .0159566}, {.05, .0796557}, {.1, .158519}}) {
     EXPECT_NEAR(persson_area(1, 1, share, infinity).elastic, area, 6e-7);
@@ -131,7 +126,6 @@ TEST(Exact, PerssonOfTheTables) {
   EXPECT_THROW(persson_area(1, .1, .1, .1), Error);
 }
 
-// Case V14.
 TEST(Exact, BoxParaboloidOfTheTables) {
   const BoxParaboloid contact = box_paraboloid_under_load(1, 1, 1e-3);
   EXPECT_NEAR(contact.approach, .0178412, 6e-8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// F13: a head and a length that contradict each other are refused, for every binary kind: with a column more
+// A head and a length that contradict each other are refused, for every binary kind: with a column more
 // or less than there is, the lines of a map are shifted against each other and nothing else tells.
 #include <gtest/gtest.h>
 

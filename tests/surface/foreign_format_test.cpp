@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// F7: what is not read is named, with a way to something that is.
+// What is not read is named, with a way to something that is.
 #include "engine/surface/io/foreign_format.hpp"
 
 #include <gtest/gtest.h>

@@ -195,7 +195,7 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
   ReadProfileOptions only_unit;
   only_unit.unit = 1e-6;
-  // B2: the unit of heights is not that of positions.
+  // The unit of heights is not that of positions.
   EXPECT_NE(message_of([&] {
               read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
             }).find("does not say the unit of its positions; give `unit_xy` in the call"),
@@ -229,7 +229,7 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
 }
 
-// B2, F7: two columns under a head are a trace, whether read as a profile or as a surface.
+// Two columns under a head are a trace, whether read as a profile or as a surface.
 TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
   for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
                            "Position [mm];Height [um]\n"}) {
@@ -253,7 +253,7 @@ TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
             std::string::npos);
 }
 
-// F13: a size that no instrument has comes from a head or a unit that is wrong.
+// A size that no instrument has comes from a head or a unit that is wrong.
 TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
   const auto warnings = [](const std::string& text, const ReadOptions& options) {
     testing::Warnings heard;
@@ -276,7 +276,7 @@ TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
   EXPECT_TRUE(said(four, narrow, "lie 500 mm apart along x and 5 nm along y"));
 }
 
-// F13: "152" cut to "15" looks like a number.
+// "152" cut to "15" looks like a number.
 TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
   for (const auto& [text, warned] :
        {std::pair{"1 2\n3 4\n", false}, std::pair{"1 2\n3 4", true}, std::pair{"1 2\r3 4\r", false},
@@ -290,7 +290,7 @@ TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
   }
 }
 
-// S9: a sparse file takes no time to be refused.
+// A sparse file takes no time to be refused.
 TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
   const std::string path = scratch.write("large.npy", "\x93NUMPY");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Self-affine surfaces: requested numbers met exactly, the same surface on every grid, and the
-// spectrum of theory (case V10).
+// spectrum of theory.
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/core/constants.hpp"
 
@@ -192,7 +192,7 @@ TEST(SelfAffine, SpectrumIsThatOfTheory) {
         << "band " << band;
 }
 
-// Case V10: h² = C_r q_r²/(4π) [1 + 1/H - (q_L/q_r)² - (1/H)(q_s/q_r)^(-2H)], with C_r measured as the
+// h² = C_r q_r²/(4π) [1 + 1/H - (q_L/q_r)² - (1/H)(q_s/q_r)^(-2H)], with C_r measured as the
 // mean power of the flat part times the area.
 TEST(SelfAffine, HeightOfTheory) {
   constexpr int n = 128, seeds = 30;
@@ -231,7 +231,7 @@ TEST(SelfAffine, HeightsAreGaussian) {
     fourth += std::pow(z / 1e-6, 4);
   }
   const double nodes = 256 * 256;
-  EXPECT_NEAR(absolute / nodes, 0.79788, 0.01);  // case V9: Ra/Rq of a Gaussian field
+  EXPECT_NEAR(absolute / nodes, 0.79788, 0.01);  // Ra/Rq of a Gaussian field
   EXPECT_NEAR(fourth / nodes, 3, 0.15);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cosine surfaces and their known statistics (case V9: amplitude A has Rq = A/√2, Ra = 2A/π,
+// Cosine surfaces and their known statistics (amplitude A has Rq = A/√2, Ra = 2A/π,
 // kurtosis 1.5; a product of height h has Sq = h/2 and rms gradient πh√2/L).
 #include "engine/surface/generators/sine.hpp"
 #include "engine/core/constants.hpp"

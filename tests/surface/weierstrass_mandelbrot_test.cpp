@@ -128,7 +128,7 @@ Options golden_ratio_function(double D) {
   return options;
 }
 
-TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {  // case V19
+TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {
   const Surface surface = weierstrass_mandelbrot(golden_ratio_function(2.5));
   const Statistics s = statistics(surface);
   EXPECT_NEAR(s.mean, -2.2579597274, 1e-8);
@@ -141,7 +141,7 @@ TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoAndAHalf) {  // case
   EXPECT_EQ(surface.height(0, 0), 0);
 }
 
-TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoPointTwo) {  // case V19
+TEST(WeierstrassMandelbrot, StatisticsAreKnownAtDimensionTwoPointTwo) {
   const Surface surface = weierstrass_mandelbrot(golden_ratio_function(2.2));
   const Statistics s = statistics(surface);
   EXPECT_NEAR(s.mean, -4.2184139916, 1e-8);

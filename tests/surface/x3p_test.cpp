@@ -214,7 +214,7 @@ std::string md5_of(const std::string& bytes) {
   return md5.hex();
 }
 
-// F5: one bit of the mask makes a point of a hole, and of it a height that was never measured.
+// One bit of the mask makes a point of a hole, and of it a height that was never measured.
 TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
   const std::string mask("\x3B", 1);
   Recipe recipe;

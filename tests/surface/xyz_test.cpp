@@ -48,7 +48,7 @@ TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
   EXPECT_DOUBLE_EQ(surface.height(2, 1), 6e-6);
 }
 
-// B2: heights in um over positions in mm are common; nobody's unit is guessed.
+// Heights in um over positions in mm are common; nobody's unit is guessed.
 TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   const std::string file = "\"" + sample("points.xyz") + "\" does not say ";
   EXPECT_EQ(
@@ -127,7 +127,7 @@ struct NamedUnit {
 };
 constexpr NamedUnit units_of_heads[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}};
 
-// B2: own.csv of an experimenter, 3 x 2 points 0.1 apart, in every unit, spelling and separator.
+// own.csv of an experimenter, 3 x 2 points 0.1 apart, in every unit, spelling and separator.
 TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
   const std::vector<double> x{0, 1e-4, 2e-4}, y{0, 1e-4};
   const std::vector<double> z{1.2e-6, 1.5e-6, 1.1e-6, 0.9e-6, 2.0e-6, 1.7e-6};
@@ -226,7 +226,7 @@ TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
             "points and of profiles in two columns");
 }
 
-// B3: what is left of a lattice is the map with holes or an error, and never a map of its own coordinates.
+// What is left of a lattice is the map with holes or an error, and never a map of its own coordinates.
 TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
   const Stream stream(11, "lattices");
   std::uint64_t draw = 0;

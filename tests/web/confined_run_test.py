@@ -191,7 +191,7 @@ def test_links_in_the_run_directory_lead_nowhere():
         os.symlink(top + "/other/secret", top + "/home/work/R/table.csv")
         os.symlink(top + "/other", top + "/home/work/R/folder")
         asperity(top, "run", "--resume", "R")
-        # S3: nor in the place of its own files.
+        # Nor in the place of its own files.
         for own in (".lock", "journal.jsonl", "manifest.json", "store"):
             shutil.rmtree(top + "/home/work/R2", ignore_errors=True)
             shutil.copytree(top + "/home/work/R", top + "/home/work/R2", symlinks=True)
@@ -295,7 +295,6 @@ def test_time_and_memory_meet_their_limits():
         assert "time limit of 300 ms" in bounded(top, pattern, "--limit-time", "0.3s")
 
 
-# S2
 def test_no_run_leaves_more_on_the_disk_than_it_may():
     with workshop() as top:
         flood = """local s = ("x"):rep(2^20) for k = 1, 1000 do
@@ -308,7 +307,6 @@ def test_no_run_leaves_more_on_the_disk_than_it_may():
         assert os.path.exists(top + "/home/work/R/manifest.json")
 
 
-# S2
 def test_removed_files_are_no_hiding_place():
     with workshop() as top:
         put(top, """local s, open = ("x"):rep(2^18), {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S2: what a run leaves beyond its limit is removed, its record last, and no link is followed.
+// What a run leaves beyond its limit is removed, its record last, and no link is followed.
 #include "bindings/web/confined/disk_bound.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST_F(DiskBound, S2NoMoreFilesAreLeftThanMayBe) {
   put(".lock", 1, 0);
   EXPECT_NE(keep_within(folder / "run", 1 << 30, 10), "");
   EXPECT_LE(disk_use(folder / "run", 100).files, 10U);
-  EXPECT_TRUE(there(".lock"));  // F1: it is held by who removes the others
+  EXPECT_TRUE(there(".lock"));  // it is held by who removes the others
 }
 
 TEST_F(DiskBound, LinksAreRemovedAndNotFollowed) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# S6: what files and scripts hold is shown and never obeyed, in any output of any command.
+# What files and scripts hold is shown and never obeyed, in any output of any command.
 import json
 import os
 import pty

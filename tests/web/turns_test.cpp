@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S1: nobody holds every place of a room, and whoever used least is next.
+// Nobody holds every place of a room, and whoever used least is next.
 #include "bindings/web/runs/turns.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// S2: what a script has open and has removed takes no more of the disk than the run may.
+// What a script has open and has removed takes no more of the disk than the run may.
 #include "bindings/cli/unlinked_files.hpp"
 
 #include <gtest/gtest.h>

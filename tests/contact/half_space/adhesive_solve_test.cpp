@@ -72,7 +72,6 @@ double pull_off(const AdhesiveProblem& problem) {
 
 class Paraboloid : public testing::TestWithParam<GapLaw> {};
 
-// case V8
 TEST_P(Paraboloid, OfShortRangePullsOffAsJohnsonKendallAndRobertsSay) {
   ASSERT_GT(tabor(short_range), 5);
   const AdhesiveProblem problem = paraboloid(144, 0.9, GetParam(), short_range, 1e-3);

@@ -24,7 +24,6 @@ HalfSpaceAnswer by_approach(const HalfSpaceProblem& problem, double approach) {
   return solve_at_approach(problem, approach, Monitor::silent());
 }
 
-// Case V2.
 TEST(ApproachSolve, HertzForceFollowsTheApproach) {
   for (const int nx : {256, 255}) {
     const HalfSpaceProblem problem = problem_from(
@@ -103,7 +102,7 @@ TEST(ApproachSolve, SaysThatACapCannotGoOn) {
   }
 }
 
-// Entry V1: ground so soft once it yields that next to no load lies between one approach and another, and
+// Ground so soft once it yields that next to no load lies between one approach and another, and
 // the few heights of a wave come into contact one after the other.
 TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
   for (const int n : {8, 16, 96}) {
@@ -122,7 +121,7 @@ TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
   }
 }
 
-// Entry V1: by pressure, and then by what that brought.
+// By pressure, and then by what that brought.
 TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double over : {0.0, 1.2, 5.0})
@@ -147,7 +146,7 @@ TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
         }
 }
 
-// Entry V1: what only a pressure beyond all heights would bring.
+// What only a pressure beyond all heights would bring.
 TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
   HalfSpaceProblem problem = problem_from(
       make_grid(8, 8, 1e-3, 1e-3), Boundary::periodic, [](double, double) { return 0.0; }, 1e11);
@@ -166,7 +165,7 @@ TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
   EXPECT_NEAR(answer.mean_pressure, 2e7 + 1e8, 1e-6 * 1.2e8);
 }
 
-// Entry V1: the one random scene that a pressure had lost.
+// The one random scene that a pressure had lost.
 TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
   HalfSpaceProblem problem = problem_from(
@@ -182,7 +181,7 @@ TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   EXPECT_LE(answer.certificate.worst(), 1e-6);
 }
 
-// Entries V1 and B1: the bodies face each other on three quarters of the tile.
+// The bodies face each other on three quarters of the tile.
 TEST(ApproachSolve, V1_GroundThatNothingFacesCarriesNothing) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::free, 3, 1e-6);
   Field heights = *problem.heights;
@@ -247,7 +246,7 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
   EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
 }
 
-// Entry V1: where the deepest gap hardly follows from the approach. Its load is found back to what the share
+// Where the deepest gap hardly follows from the approach. Its load is found back to what the share
 // tells of it.
 TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
   for (const double tolerance : {1e-4, 1e-8})
@@ -274,7 +273,7 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
   EXPECT_NEAR(solve(problem, full).approach, approach_of_full_contact(problem), 1e-8 * problem.rms);
 }
 
-// Entry V1: between the least load of full contact and one that makes everything yield all is flat, and the
+// Between the least load of full contact and one that makes everything yield all is flat, and the
 // contact is a linear one.
 TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
@@ -299,7 +298,7 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
       }
 }
 
-// Entry V1: deep pits, whose depth the rms height is many times of what is pressed away. Solves as exact as
+// Deep pits, whose depth the rms height is many times of what is pressed away. Solves as exact as
 // what is asked for leave that too rough.
 TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
   HalfSpaceProblem problem = rough_problem(48, Boundary::free, 6, 1e-10);
@@ -339,7 +338,7 @@ TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   }
 }
 
-// Entry V1: long cells just below full contact.
+// Long cells just below full contact.
 TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   const HalfSpaceProblem problem = problem_from(
       make_grid(40, 30, 40, 30 * 400.0), Boundary::periodic,
@@ -360,7 +359,7 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   }
 }
 
-// Entry V1: a hardness far above the least load of full contact weighs what rounding leaves of the gaps by
+// A hardness far above the least load of full contact weighs what rounding leaves of the gaps by
 // how far. More load is taken then, no more than twice one that does not do, and the answer says so.
 TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);

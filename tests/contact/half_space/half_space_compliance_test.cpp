@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The operator against dense sums (cases V1 and V7), on sizes no fast algorithm likes.
+// The operator against dense sums, on sizes no fast algorithm likes.
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 
 #include <gtest/gtest.h>
@@ -194,7 +194,7 @@ TEST(PeriodicCompliance, AConstantMovesNothing) {
   for (const double value : u.values()) EXPECT_NEAR(value, 0, 1e-14);
 }
 
-TEST(PeriodicCompliance, PressureToDisplacementToPressure) {  // case V7
+TEST(PeriodicCompliance, PressureToDisplacementToPressure) {
   for (const auto& [nx, ny] : {std::pair(64, 64), std::pair(37, 50)}) {
     HalfSpaceCompliance compliance(nx, ny, 0.7, Boundary::periodic);
     Field p = noise(nx, ny, 1);
@@ -220,7 +220,7 @@ TEST(PeriodicCompliance, AnInverseWithSpringsIsThatOfTheSum) {
   }
 }
 
-// Case V7: ½ p·u against ½ Σ |p̂|² · 2/|q| / n by the sum that defines p̂.
+// ½ p·u against ½ Σ |p̂|² · 2/|q| / n by the sum that defines p̂.
 TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
   const int n = 16;
   const Field p = noise(n, n, 1);

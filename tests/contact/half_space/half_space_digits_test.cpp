@@ -413,7 +413,7 @@ TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
 
 // --- heights of any size
 
-// V3: the contact of a wave is the same at any scale of its height, or refused by name.
+// The contact of a wave is the same at any scale of its height, or refused by name.
 TEST(HeightsOfAnySize, AreRightOrRefusedByName) {
   const auto pressed = [](double amplitude, Boundary boundary, bool box) {
     const Surface wave = test::surface_of(Grid{8, 8, 1, 1}, [&](int i, int j) {

@@ -81,7 +81,6 @@ TEST(HalfSpaceSolve, MeetsEveryConditionUnderHardeningByDenseSums) {
       }
 }
 
-// Case V2.
 struct Hertz {
   int nx, ny;
 };
@@ -111,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Grids, HertzContact, testing::Values(Hertz{512, 512}, H
                            return std::to_string(grid.param.nx) + "x" + std::to_string(grid.param.ny);
                          });
 
-// Case V3: a rigid flat punch is heights at one level inside a circle and far below it outside.
+// A rigid flat punch is heights at one level inside a circle and far below it outside.
 TEST(HalfSpaceSolve, FlatPunchHasTheStiffnessOfItsRadius) {
   const int n = 256;
   const double radius = .2;
@@ -140,7 +139,6 @@ TEST(HalfSpaceSolve, FlatHeightsAreUniformOnAPeriodicTileAndAPunchOnAFreeOne) {
   EXPECT_NEAR(5e5 / (2 * 1e9 * square.approach * std::sqrt(1 / pi)), 1.02, .03);
 }
 
-// Case V4.
 struct Westergaard {
   double f, contact, peak, gap;
 };
@@ -165,7 +163,6 @@ TEST(HalfSpaceSolve, SinusoidFollowsWestergaard) {
   }
 }
 
-// Case V5.
 struct BiSinusoid {
   double f, area, peak, gap, energy;
 };
@@ -192,7 +189,6 @@ TEST(HalfSpaceSolve, BiSinusoidMatchesReference) {
   }
 }
 
-// Case V6.
 TEST(HalfSpaceSolve, FullContactIsTheExactFilter) {
   const HalfSpaceProblem problem = bi_sinusoid(64, 1e-12);
   const double full = std::sqrt(2) * pi * .01;
@@ -223,7 +219,7 @@ TEST(HalfSpaceSolve, FullContactKeepsItsGapsUnderAnyMeanPressure) {
   }
 }
 
-// Hard case 1: the last open nodes close one by one.
+// The last open nodes close one by one.
 TEST(HalfSpaceSolve, NearFullContactDoesNotChatter) {
   const HalfSpaceProblem problem = bi_sinusoid(128);
   const double full = std::sqrt(2) * pi * .01;
@@ -238,7 +234,6 @@ TEST(HalfSpaceSolve, NearFullContactDoesNotChatter) {
   EXPECT_GT(before, .999);
 }
 
-// Case V12.
 TEST(HalfSpaceSolve, CappedBiSinusoidMatchesReference) {
   struct Known {
     double over, area, capped, gap, energy;
@@ -337,7 +332,6 @@ TEST(HalfSpaceSolve, TakesFewTransformsUnderHardening) {
   EXPECT_LE(scope.so_far().transforms / 2, 45);
 }
 
-// Hard case 3.
 TEST(HalfSpaceSolve, OneNodeCarriesTheLeastLoads) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     HalfSpaceProblem problem = problem_from(make_grid(64, 64, 1, 1), boundary, [](double x, double y) {
@@ -376,7 +370,6 @@ TEST(HalfSpaceSolve, ZeroLoadIsFirstTouch) {
   EXPECT_TRUE(answer.converged);
 }
 
-// Hard case 2.
 TEST(HalfSpaceSolve, RefusesALoadTheHardnessCannotCarry) {
   HalfSpaceProblem problem = bi_sinusoid(16);
   problem.yield.cap = 2;
@@ -406,7 +399,6 @@ TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   EXPECT_NEAR(open, -capped, 1e-12 * open);
 }
 
-// Hard case 4, and case V7.
 TEST(HalfSpaceSolve, PowersOfTwoChangeNoBit) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 3);
   problem.yield.cap = .09;
@@ -446,7 +438,7 @@ TEST(HalfSpaceSolve, RefusesLoadsTooSmallToMeanAnything) {
     EXPECT_THROW(solve(problem, bad), Error);
 }
 
-// Hard case 8: the certificate is that of the fields handed out.
+// The certificate is that of the fields handed out.
 TEST(HalfSpaceSolve, CertificateIsThatOfTheFieldsHandedOut) {
   const HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 4, 1e-4);
   const HalfSpaceAnswer answer = solve(problem, .03);
@@ -478,7 +470,6 @@ TEST(HalfSpaceSolve, SaysWhatItReachedWhenToleranceIsBelowRoundOff) {
   EXPECT_LT(best.certificate.worst(), 1e-12);
 }
 
-// Hard case 12.
 TEST(HalfSpaceSolve, OddPrimeAndOblongGrids) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const Tile& tile :

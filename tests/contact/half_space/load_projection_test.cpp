@@ -128,7 +128,7 @@ TEST(LineLoads, ALineThatPullsCarriesNothingAndOneWithinItsBoundsStays) {
   EXPECT_EQ(settled[5], 0.5);
 }
 
-// Entry V2: lengthwise on a free tile it took 619 transforms.
+// Lengthwise on a free tile it took 619 transforms.
 TEST(LineLoads, V2_NoiseOnAFreeTileTakesFewPasses) {
   for (const double aspect : {1e-3, 1e3}) {
     const Stream draws(1, "noise");

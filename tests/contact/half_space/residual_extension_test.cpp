@@ -66,7 +66,6 @@ TEST(LineExtension, GatheringIsTheTranspose) {
       }
 }
 
-// Entry V2.
 TEST(LineExtension, V2_NoiseAndWavesOnLongCells) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double aspect : {1e-3, 1e-2, .1, 10.0, 100.0, 1000.0})

@@ -311,7 +311,7 @@ TEST_F(CommandLine, APressLogOfLabViewIsReadBelowItsHead) {
       << ran.error;
 }
 
-// B8: no option takes the word after its value, be that the script or the run.
+// No option takes the word after its value, be that the script or the run.
 TEST_F(CommandLine, B8OptionsStandBeforeTheScriptOrAfterIt) {
   write("s.lua", "print 'ran'");
   ASSERT_EQ(call({"run", "s.lua", "--out", "kept"}).status, 0);

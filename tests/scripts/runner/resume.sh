@@ -199,5 +199,5 @@ head -n 4 whole/events.csv > early && head -n 4 varied/events.csv | cmp - early 
 cmp varied/events.csv whole/events.csv > /dev/null && fail "--set changed nothing"
 ends 1 'did you mean `pressure`' "$program" replay whole --set presure=1
 ends 2 "give a key and its value" "$program" replay whole --set presure
-# F8: a value of another kind is told as that, and not as so many differences.
+# A value of another kind is told as that, and not as so many differences.
 ends 1 'gives `contact:press` the value "3 um": `pressure`: ' "$program" replay whole --set "press.pressure=3 um"
