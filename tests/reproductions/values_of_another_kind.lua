@@ -2,11 +2,7 @@
 -- Values of another kind are refused, converted or named, never ignored.
 --! error: too large to draw
 local lab = require "asperity"
-local function refused(words, call)
-  local ok, message = pcall(call)
-  assert(not ok, words)
-  assert(message:find(words, 1, true), message)
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
 refused("given nothing", function() lab.material(nil) end)
 refused("rows of numbers", function() lab.surface.from_table{ size=1, heights={ 1, 2, 3 } } end)
 local b = lab.notebook "z"
