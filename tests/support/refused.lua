@@ -11,7 +11,7 @@ local function anywhere(call, ...)
 end
 local function at_its_line(call, ...)
   local here = debug.getinfo(call, "S")
-  local message = anywhere(call, here.source:match "[^/]*$" .. ":", ...)
+  local message = anywhere(call, here.source:match "[^/@]*$" .. ":", ...)
   local line = tonumber(message:match "%.lua:(%d+): ")
   assert(line and line >= here.linedefined and line <= here.lastlinedefined, "no line " .. here.linedefined .. " in: " .. message)
 end
