@@ -238,7 +238,7 @@ TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
 }
 
 // 64 cells were 1.5 % off: a contact 13 cells wide. The truth is of 2048 cells.
-TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
+TEST(AccuracyChoice, ABallAFewCellsWideIsMet) {
   const Surface ball =
       sphere_surface({Grid{1024, 1024, 1e-3, 1e-3}, 0.03, SphereShape::sphere}).with_material([] {
         Material material;

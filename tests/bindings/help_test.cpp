@@ -119,7 +119,7 @@ TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
 }
 
 // A part of a name, and a word of a sentence, find what they belong to.
-TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
+TEST_F(Help, FindsPartsOfNamesAndWordsOfSentences) {
   const std::pair<const char*, const char*> wanted[] = {
       {"weierstras", "lab.surface.weierstrass_mandelbrot: "},
       {"tilt", "lab.tilt_stage: "},

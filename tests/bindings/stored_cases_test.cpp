@@ -233,7 +233,7 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
 }
 
 // Shards met only where the script's path was typed in the same way.
-TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
+TEST(ParcelContent, IsTheSameHoweverTheScriptIsNamed) {
   struct Typed {
     ScriptSpelling script;
     std::string file;  // as Lua names it

@@ -121,7 +121,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
 
 // A half-space takes no more than the plan says, and no less than half of it, a mebibyte apart. What has
 // no period of the lanes' transforms, or hardly any nodes, took up to eight times as much.
-TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
+TEST(Plan, MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
                                                {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
@@ -146,7 +146,7 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
 }
 
 // Nor does a press by flattening, by its approach or by its load, take more than is said beside that.
-TEST(Plan, N9MemoryOfAFlatteningIsNotExceeded) {
+TEST(Plan, MemoryOfAFlatteningIsNotExceeded) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const bool hardens : {false, true})
       for (const double share : {.3, .9}) {

@@ -55,7 +55,7 @@ TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
 }
 
 // One radian for one degree holds no step, which is no coefficient of 0.
-TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
+TEST(SlipAngle, AStepAboveTheAngleOfSlipIsAnError) {
   for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
     EXPECT_NE(error_of([&] {
                 slip_angle(line(0, 0.5), 1, step, right);

@@ -50,7 +50,7 @@ TEST(ChartAxis, ConvertsUnitsThatAreNotSi) {
 }
 
 // A share in per cent stays one, with its unit.
-TEST(ChartAxis, B9SharesKeepTheirPerCent) {
+TEST(ChartAxis, SharesKeepTheirPerCent) {
   const AxisLayout layout = lay(axis("share", "%"), {10, 30});
   EXPECT_EQ(layout.label, "share (%)");
   EXPECT_EQ(layout.factor, 1);

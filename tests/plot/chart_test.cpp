@@ -84,7 +84,7 @@ TEST(Chart, SaysWhatIsNotDrawn) {
 }
 
 // A number that is too large for the plot is no missing one.
-TEST(Chart, B13SaysThatANumberIsTooLarge) {
+TEST(Chart, SaysThatANumberIsTooLarge) {
   LineChart chart = simple();
   chart.series[0].y[0] = 2e300;
   std::vector<std::string> warnings;

@@ -77,7 +77,7 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
 }
 
 // The title of a relief's colour bar lay over its numbers.
-TEST(Picture, F9AReliefNamesItsBarAboveIt) {
+TEST(Picture, AReliefNamesItsBarAboveIt) {
   PictureOptions options;
   options.view = PictureOptions::View::relief;
   const std::string script = picture_script(make_grid(8, 8, 1e-4, 1e-4), ramp(8, 8), options).script;

@@ -209,7 +209,7 @@ SyntheticPress four_presses() {
 }
 
 // Noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
-TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
+TEST(EventDetection, FilteredNoiseMakesNoGhosts) {
   for (const double share : {0.003, 0.01, 0.02}) {
     int exact = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -243,7 +243,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
 }
 
 // A sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
-TEST(EventDetection, F8AClippedSensorIsNamed) {
+TEST(EventDetection, AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
     press.noise = 0.5;
@@ -260,7 +260,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
 }
 
 // Compression recorded as negative is not told as a turn under load.
-TEST(EventDetection, F8NegativeCompressionIsSaid) {
+TEST(EventDetection, NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;
   SyntheticTruth truth;
@@ -274,7 +274,7 @@ TEST(EventDetection, F8NegativeCompressionIsSaid) {
 
 // After a filter neighbouring readings are alike, and what is no press must not become one unsaid. The error
 // of a load may then be told too small, so loads are looked at in the count alone.
-TEST(EventDetection, F8FilteredNoiseIsNoPress) {
+TEST(EventDetection, FilteredNoiseIsNoPress) {
   for (const double noise : {0.003, 0.01, 0.02}) {
     int exact = 0;
     for (unsigned seed = 0; seed < 100; ++seed) {

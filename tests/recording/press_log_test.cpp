@@ -123,7 +123,7 @@ TEST_F(PressLog, NoPressureTakesTheLoadOff) {
 }
 
 // A forgotten number and a release look the same.
-TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
+TEST_F(PressLog, AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n,45\n"),
             "press 1 MPa\nrelease\nrotate 90 deg\npress 1 MPa\nrelease\nrotate 45 deg\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -137,7 +137,7 @@ TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
 }
 
 // Twenty minutes do not fit between two presses ten minutes apart.
-TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
+TEST_F(PressLog, ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
   EXPECT_EQ(listener.warnings[0],
@@ -150,7 +150,7 @@ TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
 }
 
 // In half of all laboratories 1,250 is twelve hundred and fifty.
-TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
+TEST_F(PressLog, ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
             "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
@@ -166,14 +166,14 @@ TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
+TEST_F(PressLog, UnitsOfGaugesAndScalesAreRead) {
   EXPECT_EQ(events("pressure [ksi]\n1\n"), "press 6.89476 MPa\n");
   EXPECT_EQ(events("load [lbf]\n1\n"), "press 4.44822 N\n");
   EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
 }
 
 // The forms in which loggers and spreadsheets write a log.
-TEST_F(PressLog, F8FormsOfLoggersAreRead) {
+TEST_F(PressLog, FormsOfLoggersAreRead) {
   const std::string first = "press 1 MPa (at 0 s, ", second = "press 2 MPa (at 900 s, ";
   const std::string utf8 = "time [s],pressure [MPa]\n0,1\n900,2\n";
   std::string utf16 = "\xFF\xFE";
@@ -202,7 +202,7 @@ TEST_F(PressLog, F8FormsOfLoggersAreRead) {
 }
 
 // What a log does not say may be said beforehand.
-TEST_F(PressLog, F8FormsThatAreSaid) {
+TEST_F(PressLog, FormsThatAreSaid) {
   const auto said = [this](const std::string& log, const TableForm& form) {
     std::string lines;
     const Protocol protocol = read_press_log(SourceFile("log.csv", log), listener, form);
@@ -239,7 +239,7 @@ TEST_F(PressLog, F8FormsThatAreSaid) {
 }
 
 // What can be read in two ways, or not at all, is refused with what to write.
-TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
+TEST_F(PressLog, FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
        "column 1 (time): holds dates such as \"03/04/2026 10:00\", in which day and month may be either; "
@@ -276,7 +276,7 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
 }
 
 // An angle is a reading of a stage; in a table of events the turn is called otherwise.
-TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
+TEST_F(PressLog, AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
   EXPECT_NE(listener.warnings[0].find("\"angle [deg]\" (did you mean `rotation [deg]`?)"), std::string::npos);

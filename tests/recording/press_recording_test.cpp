@@ -66,7 +66,7 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
 }
 
 // A recording with a unit that is not read is none the less a recording.
-TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
+TEST(PressRecording, AUnitThatIsNotReadIsToldAndNotTheRows) {
   std::string text = "time [s],load [kN],angle [gon]\n";
   for (int k = 0; k < 120; ++k)
     text += std::to_string(k) + "," + std::to_string(k % 2 == 0 ? -0.1 : 0.1) + ",0\n";
@@ -78,7 +78,7 @@ TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   EXPECT_DOUBLE_EQ(read("time [s],load [N],angle [rev]\n0,1,0.25\n").angle[0], 0.5 * std::numbers::pi);
 }
 
-TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
+TEST(PressRecording, OtherNamesAndStampsAreRead) {
   const PressRecording r =
       read("Zeit;Kraft [kN];Winkel [deg]\n23.11.2026 10:00:00,5;1,5;0\n23.11.2026 10:01:00;2;90\n");
   ASSERT_EQ(r.time.size(), 2U);
@@ -89,7 +89,7 @@ TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
 }
 
 // A logger that is faster than its clock.
-TEST(PressRecording, F8EqualTimesAreSpreadWhereThatIsSaid) {
+TEST(PressRecording, EqualTimesAreSpreadWhereThatIsSaid) {
   const SourceFile file("press.csv", "time [s],load [N]\n0,1\n0,2\n1,3\n1,4\n2,5\n2,6\n2,7\n");
   Listener listener;
   const PressRecording r = read_press_recording(file, listener, {}, EqualTimes::spread);

@@ -77,7 +77,7 @@ class DurableEnd : public InFolder {
   }
 };
 
-TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
+TEST_F(DurableEnd, EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.out = folder / "runs" / "one";
@@ -106,7 +106,7 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
 }
 
 // Small results share a file and a wait for the disk: what came since the last one is waited for at the end.
-TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
+TEST_F(DurableEnd, ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.out = folder / "one";
@@ -132,7 +132,7 @@ TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone)
 }
 
 // What it takes to go on after a cut is there before the script begins.
-TEST_F(DurableEnd, F2ScriptAndManifestAreOnTheDiskFromTheBeginning) {
+TEST_F(DurableEnd, ScriptAndManifestAreOnTheDiskFromTheBeginning) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.script_text = "return 1";

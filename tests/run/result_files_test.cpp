@@ -167,7 +167,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
 }
 
 // A script of somebody else's does not fill a folder that others share.
-TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
+TEST_F(ResultFilesTest, OneAddsNoMoreThanItMay) {
   const Field field = ramp(64, 64);
   ResultFilesSetup shared = setup();
   shared.most_bytes = unlimited;
@@ -186,7 +186,7 @@ TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
       << files.notices().front();
 }
 
-TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
+TEST_F(ResultFilesTest, PartsOfKilledWritersGoAndOthersCount) {
   const Field field = ramp(64, 64);
   ResultFilesSetup limited = setup();
   limited.most_bytes = 250 << 10;
@@ -204,7 +204,7 @@ TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
   EXPECT_TRUE(std::filesystem::exists(now));  // somebody writes it
 }
 
-TEST_F(ResultFilesTest, F14TheLimitIsToldInItsOwnUnit) {
+TEST_F(ResultFilesTest, TheLimitIsToldInItsOwnUnit) {
   ResultFilesSetup limited = setup();
   limited.most_bytes = 3 << 10;
   ResultFiles files(limited);

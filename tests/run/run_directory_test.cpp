@@ -315,7 +315,7 @@ TEST_F(RunDirectoryTest, DryRunWritesNothing) {
   fs::current_path(before);
 }
 
-TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
+TEST_F(RunDirectoryTest, IsLockedToItsEnd) {
   RunSetup s = setup();
   s.out = folder / "r";
   RunDirectory run(s);
@@ -356,7 +356,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
 
 // Who makes and locks a directory for another process holds it, and leaves nothing where nothing was
 // begun.
-TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
+TEST_F(RunDirectoryTest, OnePreparedForAnotherProcessIsLockedThroughout) {
   RunSetup s = setup();
   s.out = folder / "above" / "r";
   RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
@@ -404,7 +404,7 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
 }
 
 // A run that died before its first manifest was "not empty" for ever.
-TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
+TEST_F(RunDirectoryTest, WhatHasNotBegunMayBegin) {
   RunSetup s = setup();
   s.out = folder / "r";
   const auto leave = [&](const std::vector<std::string>& files) {
@@ -444,7 +444,7 @@ TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   EXPECT_FALSE(is_not_begun(*s.out));
 }
 
-TEST_F(RunDirectoryTest, F4AMoveAsideThatWasCutOffGoesOn) {
+TEST_F(RunDirectoryTest, AMoveAsideThatWasCutOffGoesOn) {
   const fs::path root = folder / "r";
   fs::create_directories(root / "before-1");
   fs::create_directories(root / "before-2");
@@ -459,7 +459,7 @@ TEST_F(RunDirectoryTest, F4AMoveAsideThatWasCutOffGoesOn) {
   EXPECT_TRUE(is_not_begun(root));
 }
 
-TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
+TEST_F(RunDirectoryTest, AFinishedRunIsMendedOrSaysWhatCannotBe) {
   RunSetup s = setup();
   s.out = folder / "r";
   const auto work = [](RunDirectory& run, double value) {
@@ -507,7 +507,7 @@ TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
   EXPECT_EQ(manifest(run).find("status")->string(), "failed");
 }
 
-TEST_F(RunDirectoryTest, F3TheJournalIsKnownByItsDigest) {
+TEST_F(RunDirectoryTest, TheJournalIsKnownByItsDigest) {
   RunSetup s = setup();
   s.out = folder / "r";
   {
@@ -530,7 +530,7 @@ TEST_F(RunDirectoryTest, F3TheJournalIsKnownByItsDigest) {
   EXPECT_THROW(read_run(*s.out), Error);
 }
 
-TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
+TEST_F(RunDirectoryTest, AJournalThatIsTakenAwayUnderWayIsNoticed) {
   RunSetup s = setup();
   s.out = folder / "r";
   RunDirectory run(s);
@@ -547,7 +547,7 @@ TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
 }
 
 // Each of a run's own files and folders, replaced by a link to somebody else's.
-TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
+TEST_F(RunDirectoryTest, ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   RunSetup s = setup();
   s.out = folder / "r";
   {
@@ -581,7 +581,7 @@ TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
 }
 
 // A table that is a link is written anew in its place.
-TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
+TEST_F(RunDirectoryTest, ATableIsNotAppendedToThroughALink) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
   run.notebook("book")->write(row);
@@ -595,7 +595,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
 
 // A copy of the directory by hard links (cp -al), of which either is taken up while the other stays as it
 // is.
-TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
+TEST_F(RunDirectoryTest, ACopyByHardLinksIsAnotherRun) {
   RunSetup s = setup();
   s.out = folder / "r";
   std::vector<Entry> row = {{"k", 1.0}};
@@ -630,7 +630,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
 }
 
 // A table with another name is written anew, too.
-TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
+TEST_F(RunDirectoryTest, ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
   run.notebook("book")->write(row);
@@ -640,7 +640,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 
-TEST_F(RunDirectoryTest, F10TakenUpItHasNoPartsOfAKilledWriter) {
+TEST_F(RunDirectoryTest, TakenUpItHasNoPartsOfAKilledWriter) {
   RunSetup s = setup();
   s.out = folder / "r";
   {

@@ -116,7 +116,7 @@ std::vector<BinaryKind> binary_kinds() {
   };
 }
 
-TEST(FileLengths, F13HeadAndLengthContradictEachOther) {
+TEST(FileLengths, HeadAndLengthContradictEachOther) {
   for (const BinaryKind& kind : binary_kinds()) {
     EXPECT_EQ(refusal(kind.name, kind.file(5, 4)), "no error") << kind.name;
     for (const auto& [nx, ny] :
@@ -130,7 +130,7 @@ TEST(FileLengths, F13HeadAndLengthContradictEachOther) {
   }
 }
 
-TEST(FileLengths, F13BytesOverAreCounted) {
+TEST(FileLengths, BytesOverAreCounted) {
   EXPECT_EQ(
       refusal("a.sur", testing::SurExample{.nx = 2}(std::vector<std::int16_t>{1, 2, 3, 4, 5, 6})),
       "\"a.sur\" says in its header that it holds 2 x 2 heights of 2 bytes but has 12 bytes of data, 4 too "
@@ -138,7 +138,7 @@ TEST(FileLengths, F13BytesOverAreCounted) {
 }
 
 // What may stand after the heights does.
-TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
+TEST(FileLengths, TrailersAndFurtherObjectsAreNoBytesOver) {
   const std::string sdf = testing::SdfExample{.points = 5, .profiles = 4, .type = 5}(twenty);
   EXPECT_EQ(refusal("a.sdf", sdf + "*\r\n<Operator>somebody</Operator>\r\n"), "no error");
   EXPECT_NE(refusal("a.sdf", sdf + std::string("\x01\x02", 2)), "no error");
@@ -152,7 +152,7 @@ TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
 }
 
 // Files that state their own end: what is appended moves no height, and is not passed over in silence.
-TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
+TEST(FileLengths, BytesAfterTheEndThatAFileStatesAreWarnedOf) {
   const testing::Scratch scratch;
   write_surface(Surface(Grid{3, 2, 3e-6, 2e-6}, Field(3, 2, 1e-6)), scratch.path("a.h5"));
   const std::string gwy = testing::gwy_example(testing::gwy_inner("/0/data", testing::GwyField().object()));
@@ -177,7 +177,7 @@ TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
 }
 
 // With 555 columns for 563 it was read, sheared.
-TEST(FileLengths, F13MeasuredFileOfAnotherWidth) {
+TEST(FileLengths, MeasuredFileOfAnotherWidth) {
   if (testing::measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
   std::string bytes = testing::bytes_of(testing::measured("sur-2.sur"));
   bytes.replace(108, 4, testing::little(555, 4));

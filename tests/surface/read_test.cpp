@@ -230,7 +230,7 @@ TEST(Read, ProfileFromEveryShape) {
 }
 
 // Two columns under a head are a trace, whether read as a profile or as a surface.
-TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
+TEST(Read, TwoColumnsUnderAHeadAreATrace) {
   for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
                            "Position [mm];Height [um]\n"}) {
     const std::string text = std::string(head) + "0 1\n0.1 2\n0.2 4\n";
@@ -254,7 +254,7 @@ TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
 }
 
 // A size that no instrument has comes from a head or a unit that is wrong.
-TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
+TEST(Read, LengthsOutOfAllProportionAreWarnedOf) {
   const auto warnings = [](const std::string& text, const ReadOptions& options) {
     testing::Warnings heard;
     read_surface(SourceFile("map.txt", text), options, heard);
@@ -277,7 +277,7 @@ TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
 }
 
 // "152" cut to "15" looks like a number.
-TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
+TEST(Read, ALastLineWithoutEndIsWarnedOf) {
   for (const auto& [text, warned] :
        {std::pair{"1 2\n3 4\n", false}, std::pair{"1 2\n3 4", true}, std::pair{"1 2\r3 4\r", false},
         std::pair{"0 0 1\n1 0 2\n0 1 3\n1 1 4", true}, std::pair{"x [mm],z [um]\n0,1\n1,2\n2,3", true}}) {
@@ -291,7 +291,7 @@ TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
 }
 
 // A sparse file takes no time to be refused.
-TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
+TEST(Read, AFileThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
   const std::string path = scratch.write("large.npy", "\x93NUMPY");
   std::filesystem::resize_file(path, std::uintmax_t{10} << 30);

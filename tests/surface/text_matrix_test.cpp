@@ -95,7 +95,7 @@ TEST(TextMatrix, HeadsOfAGermanGwyddion) {
 }
 
 // As spreadsheets save "Unicode text", and without the mark too; a head in it is one of any other text.
-TEST(TextMatrix, F7TextInUtf16IsReadAsItsLetters) {
+TEST(TextMatrix, TextInUtf16IsReadAsItsLetters) {
   const std::string text = "# Value units: um\n# Width: 3 \u00B5m\n# Height: 2 \u00B5m\n1\t2\t3\n4\t5\t6\n";
   const Surface wanted = read_surface(SourceFile("map.txt", text));
   for (const bool little : {true, false})

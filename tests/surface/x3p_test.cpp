@@ -215,7 +215,7 @@ std::string md5_of(const std::string& bytes) {
 }
 
 // One bit of the mask makes a point of a hole, and of it a height that was never measured.
-TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
+TEST(X3p, EveryByteOfItsBinaryEntriesCounts) {
   const std::string mask("\x3B", 1);
   Recipe recipe;
   recipe.content =
@@ -252,7 +252,7 @@ TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
 }
 
 // main.xml holds sizes and scales: with another one the heights stand, and their scale may not.
-TEST(X3p, F5TheSumOfMainXmlIsCompared) {
+TEST(X3p, TheSumOfMainXmlIsCompared) {
   const std::string xml = Recipe{}.xml(), sum = md5_of(xml);
   const auto warnings = [](const std::vector<std::pair<std::string, std::string>>& entries) {
     Warnings heard;

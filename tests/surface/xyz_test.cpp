@@ -49,7 +49,7 @@ TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
 }
 
 // Heights in um over positions in mm are common; nobody's unit is guessed.
-TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
+TEST(Xyz, UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   const std::string file = "\"" + sample("points.xyz") + "\" does not say ";
   EXPECT_EQ(
       message_of([] { read_surface(sample("points.xyz")); }),
@@ -68,7 +68,7 @@ TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
 }
 
 // The size of the call is enough, and then the file says nothing that could be overruled.
-TEST(Xyz, B2ASizeOfTheCallIsNoContradiction) {
+TEST(Xyz, ASizeOfTheCallIsNoContradiction) {
   testing::Warnings warnings;
   ReadOptions options;
   options.unit = 1e-6;
@@ -128,7 +128,7 @@ struct NamedUnit {
 constexpr NamedUnit units_of_heads[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}};
 
 // own.csv of an experimenter, 3 x 2 points 0.1 apart, in every unit, spelling and separator.
-TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
+TEST(Xyz, EveryTableOfUnitsIsTheSameSurface) {
   const std::vector<double> x{0, 1e-4, 2e-4}, y{0, 1e-4};
   const std::vector<double> z{1.2e-6, 1.5e-6, 1.1e-6, 0.9e-6, 2.0e-6, 1.7e-6};
   int tables = 0;
@@ -160,7 +160,7 @@ TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
   EXPECT_EQ(tables, 4 * 4 * 3 * 3);
 }
 
-TEST(Xyz, B2HeadsOfOtherForms) {
+TEST(Xyz, HeadsOfOtherForms) {
   const std::string points = "0 0 1\n0.1 0 2\n0 0.1 3\n0.1 0.1 4\n";
   for (const char* head :
        {"x [mm] y [mm] z [um]\n", "X (mm) Y (mm) Z (um)\n", "x/mm y/mm z/um\n", "x / mm y / mm z / um\n",
@@ -183,7 +183,7 @@ TEST(Xyz, B2HeadsOfOtherForms) {
       3);
 }
 
-TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
+TEST(Xyz, HeadAndCallAgreeOrAreRefused) {
   const std::string text = "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0;0,1;0,9\n0,1;0,1;2,0\n";
   ReadOptions options;
   options.unit = 1e-6;
@@ -218,7 +218,7 @@ TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
 }
 
 // `unit_xy` is of positions: a file without any does not pass it over.
-TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
+TEST(Xyz, UnitOfPositionsIsRefusedWhereThereAreNone) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1;
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("m.txt", "1 2 3 4\n5 6 7 8\n"), options); }),
@@ -227,7 +227,7 @@ TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
 }
 
 // What is left of a lattice is the map with holes or an error, and never a map of its own coordinates.
-TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
+TEST(Xyz, LatticesWithPointsMissingAreNeverMatrices) {
   const Stream stream(11, "lattices");
   std::uint64_t draw = 0;
   int maps = 0, refused = 0, wrong = 0;
@@ -280,7 +280,7 @@ TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
   EXPECT_GT(refused, 300);
 }
 
-TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
+TEST(Xyz, ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1e-3;
   const std::string three = "0\t0\t1\n1\t0\t2\n0\t1\t3\n";
@@ -297,7 +297,7 @@ TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
 }
 
 // What no lattice leaves: a place twice, places on no lattice, or a jumble of them.
-TEST(Xyz, B3MatricesOfThreeColumnsStayMatrices) {
+TEST(Xyz, MatricesOfThreeColumnsStayMatrices) {
   ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
   for (const char* text : {"5 1 2\n3 9 4\n8 2 7\n6 4 4\n0 0 1\n", "1 1 2\n1 1 3\n1 2 2\n1 1 1\n",

@@ -157,7 +157,7 @@ double cost_of(const State& state) {
   return std::max(state.cost().total.transforms, 1.0) * n * n * std::log2(n);
 }
 
-TEST(AskedErrors, N6AreMetByScenesOfAllKinds) {
+TEST(AskedErrors, AreMetByScenesOfAllKinds) {
   int met = 0, asked = 0;
   std::vector<double> ratios;
   for (const std::uint64_t seed : {401, 404}) {

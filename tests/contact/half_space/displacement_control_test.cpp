@@ -104,7 +104,7 @@ TEST(ApproachSolve, SaysThatACapCannotGoOn) {
 
 // Ground so soft once it yields that next to no load lies between one approach and another, and
 // the few heights of a wave come into contact one after the other.
-TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
+TEST(ApproachSolve, WhereLoadsHardlyTellApproachesApart) {
   for (const int n : {8, 16, 96}) {
     HalfSpaceProblem problem = problem_from(
         make_grid(n, n, 1e-3, 1e-3), Boundary::periodic,
@@ -122,7 +122,7 @@ TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
 }
 
 // By pressure, and then by what that brought.
-TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
+TEST(ApproachSolve, TakesAboutWhatTheSameStateTakesByPressure) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double over : {0.0, 1.2, 5.0})
       for (const double hardening : {0.0, 1e-3, 1.0})
@@ -147,7 +147,7 @@ TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
 }
 
 // What only a pressure beyond all heights would bring.
-TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
+TEST(ApproachSolve, SaysThatAStiffFlatIsFull) {
   HalfSpaceProblem problem = problem_from(
       make_grid(8, 8, 1e-3, 1e-3), Boundary::periodic, [](double, double) { return 0.0; }, 1e11);
   problem.yield.cap = 2e7;
@@ -166,7 +166,7 @@ TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
 }
 
 // The one random scene that a pressure had lost.
-TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
+TEST(ApproachSolve, ALoadBetweenTheTerracesOfSoftGround) {
   const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
   HalfSpaceProblem problem = problem_from(
       make_grid(96, 96, size, size), Boundary::periodic,
@@ -182,7 +182,7 @@ TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
 }
 
 // The bodies face each other on three quarters of the tile.
-TEST(ApproachSolve, V1_GroundThatNothingFacesCarriesNothing) {
+TEST(ApproachSolve, GroundThatNothingFacesCarriesNothing) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::free, 3, 1e-6);
   Field heights = *problem.heights;
   for (int j = 0; j < 16; ++j)
@@ -248,7 +248,7 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
 
 // Where the deepest gap hardly follows from the approach. Its load is found back to what the share
 // tells of it.
-TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
+TEST(FlatteningSolve, NearFullContactTakesAboutWhatItTakesByPressure) {
   for (const double tolerance : {1e-4, 1e-8})
     for (const double share_of_load : {.3, .6, .9, .99}) {
       const HalfSpaceProblem problem = rough_problem(96, Boundary::periodic, 5, tolerance);
@@ -264,7 +264,7 @@ TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
     }
 }
 
-TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
+TEST(FlatteningSolve, TheLeastLoadOfFullContactIsOne) {
   const HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-8);
   const double full = pressure_of_full_contact(problem).value();
   const auto nodes = static_cast<std::int64_t>(problem.grid.nodes());
@@ -275,7 +275,7 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
 
 // Between the least load of full contact and one that makes everything yield all is flat, and the
 // contact is a linear one.
-TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
+TEST(FlatteningSolve, AllOfHardeningGroundIsPressedAwayInAFewSolves) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double yield : {1e-3, .02, 1.0})
       for (const double hardening : {1e-3, .1, 10.0}) {
@@ -300,7 +300,7 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
 
 // Deep pits, whose depth the rms height is many times of what is pressed away. Solves as exact as
 // what is asked for leave that too rough.
-TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
+TEST(FlatteningSolve, AFewThousandthsOfPittedGroundAreFoundBack) {
   HalfSpaceProblem problem = rough_problem(48, Boundary::free, 6, 1e-10);
   Field heights = *problem.heights;
   for (const std::size_t k : {100u, 1111u, 2000u}) heights[k] -= 400 * problem.rms;
@@ -339,7 +339,7 @@ TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
 }
 
 // Long cells just below full contact.
-TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
+TEST(ApproachSolve, LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   const HalfSpaceProblem problem = problem_from(
       make_grid(40, 30, 40, 30 * 400.0), Boundary::periodic,
       [](double x, double y) {
@@ -361,7 +361,7 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
 
 // A hardness far above the least load of full contact weighs what rounding leaves of the gaps by
 // how far. More load is taken then, no more than twice one that does not do, and the answer says so.
-TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
+TEST(FlatteningSolve, FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();
   problem.yield.cap = 1e7 * least;
@@ -380,7 +380,7 @@ TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad)
 }
 
 // The least load does where no hardness weighs anything, and where rounding leaves little of it.
-TEST(FlatteningSolve, V1_FullContactThatIsSeenTakesTheLeastLoad) {
+TEST(FlatteningSolve, FullContactThatIsSeenTakesTheLeastLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();
   for (const double cap : {0.0, 10 * least}) {

@@ -129,7 +129,7 @@ TEST(LineLoads, ALineThatPullsCarriesNothingAndOneWithinItsBoundsStays) {
 }
 
 // Lengthwise on a free tile it took 619 transforms.
-TEST(LineLoads, V2_NoiseOnAFreeTileTakesFewPasses) {
+TEST(LineLoads, NoiseOnAFreeTileTakesFewPasses) {
   for (const double aspect : {1e-3, 1e3}) {
     const Stream draws(1, "noise");
     Field heights(96, 96);

@@ -312,7 +312,7 @@ TEST_F(CommandLine, APressLogOfLabViewIsReadBelowItsHead) {
 }
 
 // No option takes the word after its value, be that the script or the run.
-TEST_F(CommandLine, B8OptionsStandBeforeTheScriptOrAfterIt) {
+TEST_F(CommandLine, OptionsStandBeforeTheScriptOrAfterIt) {
   write("s.lua", "print 'ran'");
   ASSERT_EQ(call({"run", "s.lua", "--out", "kept"}).status, 0);
   const std::vector<std::vector<std::string>> options_of_run = {{"--reuse", "kept"},
