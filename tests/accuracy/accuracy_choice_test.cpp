@@ -26,6 +26,7 @@
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/accuracy/asked_scenes.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::accuracy_choice_test {
 namespace {
@@ -34,14 +35,7 @@ using test::asking;
 using test::measured;
 using test::rough;
 
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
+using test::error_of;
 
 TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   SpecimenPair pair(asking(rough(512), rigid_material(), Boundary::periodic, 0.05));

@@ -15,6 +15,7 @@
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::test {
 
@@ -64,16 +65,6 @@ inline std::shared_ptr<const Solver> ready(const Scene& scene) {
 
 inline State press(const Scene& scene, PressBy by, double value) {
   return ready(scene)->press({by, value, {}});
-}
-
-// The text of the Error that `call` throws; empty when it throws none.
-inline std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace asperity::test

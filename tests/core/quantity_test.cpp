@@ -11,28 +11,17 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::quantity_test {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_quantity(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_unit) << text;
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { parse_quantity(text); }, ErrorCode::bad_unit);
 }
 
 std::string refusal_as(const std::string& text, Dimension wanted) {
-  try {
-    parse_quantity_as(text, wanted);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_unit) << text;
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { parse_quantity_as(text, wanted); }, ErrorCode::bad_unit);
 }
 
 double length(const std::string& text) { return parse_quantity_as(text, dimension::length); }

@@ -12,6 +12,7 @@
 #include "engine/metrology/spherical_tip.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::stylus_test {
 namespace {
@@ -36,16 +37,7 @@ StylusOptions short_traces(double length = 80e-6, double tip = 2e-6) {
   return o;
 }
 
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 std::string refusal(const StylusOptions& options) {
   return refusal([&] { Stylus{options}; });
 }

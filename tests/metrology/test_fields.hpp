@@ -14,6 +14,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/surface/profile.hpp"
 #include "engine/surface/surface.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::testing {
 
@@ -81,12 +82,7 @@ inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
 // The text of the Error that the call throws.
 template <class Call>
 std::string error_text(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { call(); }, "no error");
 }
 
 }  // namespace asperity::testing
