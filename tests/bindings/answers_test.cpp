@@ -4,16 +4,10 @@
 #include <vector>
 
 #include "tests/bindings/lua_test.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::lua::answers_test {
 namespace {
-
-class Collecting final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { all.emplace_back(sentence); }
-  std::vector<std::string> all;
-};
 
 class Answers : public LuaTest {
  protected:
@@ -28,7 +22,7 @@ class Answers : public LuaTest {
   }
   // What is warned of while a chunk runs.
   std::string warned(const std::string& code) {
-    Collecting monitor;
+    test::Warnings monitor;
     const Session::Reporting reporting(session, monitor);
     EXPECT_EQ(run(code), "") << code;
     std::string text;

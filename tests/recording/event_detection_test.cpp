@@ -110,7 +110,7 @@ struct Outcome {
 Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   SyntheticTruth truth;
   const PressRecording recording = play(press, seed, truth);
-  Listener listener;
+  test::Warnings listener;
   Outcome outcome;
   try {
     outcome.difference = difference(press, truth, detect_events(recording, {}, listener));
@@ -120,7 +120,7 @@ Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   }
   outcome.warned_of_noise = listener.told("would not be told from it") || listener.told(" only") ||
                             listener.told("the noise does not tell") || listener.told("is not held");
-  for (const std::string& warning : listener.warnings) outcome.warnings += "\n  " + warning;
+  for (const std::string& warning : listener.all) outcome.warnings += "\n  " + warning;
   return outcome;
 }
 
@@ -225,7 +225,7 @@ TEST(EventDetection, FilteredNoiseMakesNoGhosts) {
         noise = r * noise + std::sqrt(1 - r * r) * deviation * normal(random);
         load += noise;
       }
-      Listener listener;
+      test::Warnings listener;
       std::string found;
       try {
         const Protocol protocol = detect_events(recording, {}, listener);
@@ -235,7 +235,7 @@ TEST(EventDetection, FilteredNoiseMakesNoGhosts) {
         found = error.what();
       }
       exact += found == "prreroprreroprreroprrero" ? 1 : 0;
-      EXPECT_TRUE(found == "prreroprreroprreroprrero" || !listener.warnings.empty())
+      EXPECT_TRUE(found == "prreroprreroprreroprrero" || !listener.all.empty())
           << share << ", seed " << seed << ": " << found;
     }
     EXPECT_GE(exact, share > 0.015 ? 14 : 20) << share;
@@ -249,7 +249,7 @@ TEST(EventDetection, AClippedSensorIsNamed) {
     press.noise = 0.5;
     SyntheticTruth truth;
     PressRecording recording = play(press, seed, truth);
-    Listener whole, clipped;
+    test::Warnings whole, clipped;
     detect_events(recording, {}, whole);
     EXPECT_FALSE(whole.told("a sensor at its limit"));
     for (double& load : recording.load) load = std::min(load, 0.5 * 220);
@@ -364,13 +364,13 @@ TEST(EventDetection, TurnsComeInSteps) {
 }
 
 TEST(EventDetection, LoadsMissingInAHoldAreBridgedAndElsewhereRefused) {
-  Listener listener;
+  test::Warnings listener;
   const Protocol found = detect_events(
       recorded(times(20, {0}) + times(10, {50}) + times(4, {none}) + times(16, {50}) + times(20, {0})), {},
       listener);
   EXPECT_EQ(std::get<PressRequest>(found.events()[0].step).dwell, 29.0);
   EXPECT_EQ(found.recording()->missing, 4U);
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
   EXPECT_EQ(refusal(times(20, {0}) + times(30, {50}) + times(10, {none}) + times(20, {0})),
             "bad_file: \"press.csv\" lacks the load in lines 52 to 61, where it neither was held nor rested: "
             "what was done there is not recorded; fill the cells in by hand, or cut the recording there");
@@ -386,14 +386,14 @@ TEST(EventDetection, AnAngleMissingAcrossAPressIsRefusedWhereItMatters) {
 }
 
 TEST(EventDetection, SaysWhatItLeavesOut) {
-  Listener listener;
+  test::Warnings listener;
   detect_events(recorded(times(20, {0}) + times(15, {50}) + times(1, {0}) + times(15, {50}) + times(20, {0})),
                 {}, listener);
   EXPECT_TRUE(listener.told("1 stray reading is left out, in line 37: the readings around it lie on a line"));
-  listener.warnings.clear();
+  listener.all.clear();
   detect_events(recorded(times(20, {0}) + times(15, {50})), {}, listener);
   EXPECT_TRUE(listener.told("it ends under load, in line 36"));
-  listener.warnings.clear();
+  listener.all.clear();
   DetectionOptions options;
   options.overshoot = DetectionOptions::Overshoot::ignore;
   const auto over = times(20, {0}) + times(2, {60}) + times(15, {50}) + times(20, {0});

@@ -15,6 +15,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::plastic_events_test {
 namespace {
@@ -55,13 +56,6 @@ double volume_lost(const Surface& before, const Surface& after) {
   for (std::size_t k = 0; k < before.heights().size(); ++k) sum += before.heights()[k] - after.heights()[k];
   return sum * before.grid().cell_area();
 }
-
-class Warnings : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { all.emplace_back(sentence); }
-  std::vector<std::string> all;
-};
 
 TEST(PlasticEvents, ALoadAboveTheHardnessIsRefusedBeforeAnyEvent) {
   const double tile = specimen(1).grid().area();
@@ -323,21 +317,21 @@ TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;
   scene.lower = Surface(body.grid(), std::move(tilted), SurfaceTraits{body.material(), false, {}});
   SpecimenPair pair(scene);
-  Warnings monitor;
+  test::Warnings monitor;
   pair.press(pressure(10), monitor);
   pair.press(pressure(20), monitor);
   ASSERT_EQ(monitor.all.size(), 1U);
   EXPECT_NE(monitor.all[0].find("the lower body does not continue across the rim"), std::string::npos);
   EXPECT_NE(monitor.all[0].find("boundary=\"free\""), std::string::npos);
   scene.boundary = Boundary::free;
-  Warnings quiet;
+  test::Warnings quiet;
   SpecimenPair free(scene);
   free.press(pressure(10), quiet);
   EXPECT_TRUE(quiet.all.empty());
 }
 
 TEST(PlasticEvents, ADwellWithoutCreepIsWarnedOfOnce) {
-  Warnings monitor;
+  test::Warnings monitor;
   SpecimenPair pair(scene_of());
   pair.press(pressure(10), monitor);
   EXPECT_TRUE(monitor.all.empty());
@@ -352,7 +346,7 @@ TEST(PlasticEvents, ADwellWithoutCreepIsWarnedOfOnce) {
   Scene scene = scene_of();
   scene.effects.set(CreepOptions{});
   SpecimenPair creeping(scene);
-  Warnings quiet;
+  test::Warnings quiet;
   creeping.press({PressBy::pressure, 10 * megapascal, 600.0}, quiet);
   EXPECT_TRUE(quiet.all.empty());
 }

@@ -8,10 +8,10 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 #include "tests/surface/optical_files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::file_lengths_test {
 namespace {
@@ -160,7 +160,7 @@ TEST(FileLengths, BytesAfterTheEndThatAFileStatesAreWarnedOf) {
        {std::pair{std::string("a.gwy"), gwy},
         std::pair{std::string("a.h5"), testing::bytes_of(scratch.path("a.h5"))}}) {
     const auto warnings = [&, &name = name, &whole = whole](const std::string& more) {
-      testing::Warnings heard;
+      test::Warnings heard;
       const Surface found = read_surface(SourceFile(name, whole + more), {}, heard);
       EXPECT_EQ(found.digest(), read_surface(SourceFile(name, whole)).digest());
       return heard.all;

@@ -7,17 +7,17 @@
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::x3p_test {
 namespace {
 
+using test::Warnings;
 using testing::measured;
 using testing::message_of;
 using testing::raw;
 using testing::Scratch;
-using testing::Warnings;
 using testing::zip_of;
 
 std::string incremental(const std::string& increment) {

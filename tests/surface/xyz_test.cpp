@@ -7,8 +7,8 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::xyz_test {
 namespace {
@@ -69,7 +69,7 @@ TEST(Xyz, UnitsOfHeightsAndOfPositionsAreAskedForApart) {
 
 // The size of the call is enough, and then the file says nothing that could be overruled.
 TEST(Xyz, ASizeOfTheCallIsNoContradiction) {
-  testing::Warnings warnings;
+  test::Warnings warnings;
   ReadOptions options;
   options.unit = 1e-6;
   options.size_x = 4e-4;
@@ -106,7 +106,7 @@ TEST(Xyz, LinesThatEndTooSoonAreWarnedOf) {
     }
     ReadOptions options = in_micrometres();
     options.format = "xyz";
-    testing::Warnings warnings;
+    test::Warnings warnings;
     const Surface found = read_surface(SourceFile("a.xyz", text), options, warnings);
     EXPECT_EQ(found.measured(), static_cast<std::size_t>(16 - (last_missing - first_missing + 1)));
     return warnings.told("ends within a line of its points: the last " +
@@ -210,7 +210,7 @@ TEST(Xyz, HeadAndCallAgreeOrAreRefused) {
               read_surface(SourceFile("own.csv", "x [mm],y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"));
             }).find("says the unit of its x and not that of its y"),
             std::string::npos);
-  testing::Warnings warnings;
+  test::Warnings warnings;
   options.unit = 1e-6;
   read_surface(SourceFile("own.csv", "x [px],y [px],z [V]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"), options, warnings);
   ASSERT_EQ(warnings.all.size(), 3U);

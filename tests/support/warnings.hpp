@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a reader warned of.
+// A monitor that stores the warnings.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "engine/core/monitor.hpp"
 
-namespace asperity::testing {
+namespace asperity::test {
 
 class Warnings final : public Monitor {
  public:
@@ -22,4 +22,4 @@ class Warnings final : public Monitor {
   std::vector<std::string> all;
 };
 
-}  // namespace asperity::testing
+}  // namespace asperity::test
