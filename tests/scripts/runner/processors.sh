@@ -9,12 +9,8 @@
 #   tests/scripts/runner/processors.sh PROGRAM FOLDER --write    writes the digests anew
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 scripts=$(cd "$(dirname "$0")/.." && pwd)
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 # What the C library takes for a processor of 2010. Of another library or processor it is ignored.
 masked() {

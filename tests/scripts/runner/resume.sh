@@ -7,13 +7,9 @@
 #   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS [CELLS]]
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 kills=${3:-5}
 cells=${4:-512}
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 # Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
 cat > events.lua <<LUA

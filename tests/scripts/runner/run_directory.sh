@@ -7,11 +7,7 @@
 #   tests/scripts/runner/run_directory.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 # What still runs when this fails would keep its standard output, and whoever waits for its end.
 trap 'kill -KILL $(jobs -p) 2> /dev/null || true' EXIT
 
