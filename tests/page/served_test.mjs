@@ -42,16 +42,7 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
-async function visit(options, act) {
-  const page = await on.openPage(browser, url, options);
-  try {
-    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
-    await act(page);
-    await on.assertQuiet(page);
-  } finally {
-    await page.done();
-  }
-}
+const visit = (options, act) => on.visit(browser, url, options, act);
 
 // How long that takes is the machine's: it is printed.
 test('Served, StartsWithFewRequestsAndBytes', () =>
