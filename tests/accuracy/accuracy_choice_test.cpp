@@ -27,6 +27,7 @@
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/accuracy/asked_scenes.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::accuracy_choice_test {
 namespace {
@@ -113,12 +114,8 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
 
 // Two cells a shortest wave lose the highest peak: 64 cells were 6.8 % off and "met" 3 %.
 TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
-  SelfAffineOptions o;
-  o.grid = Grid{512, 512, 1e-3, 1e-3};
-  o.hurst = 0.7;
+  SelfAffineOptions o = test::self_affine(Grid{512, 512, 1e-3, 1e-3}, 0.7, 1e-3 / 32, 4403);
   o.rms_slope = 0.1;
-  o.short_wave = 1e-3 / 32;
-  o.seed = 4403;
   Material material;
   material.young = 1e11;
   material.poisson = 0;
@@ -509,13 +506,9 @@ TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
 }
 
 Surface waves(int nx, int ny, std::uint64_t seed = 1) {
-  SelfAffineOptions o;
-  o.grid = Grid{nx, ny, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{nx, ny, 1, 1}, 0.8, 1.0 / 8, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 8;
-  o.seed = seed;
   Material material;
   material.young = 1e9;
   material.poisson = 0;

@@ -13,6 +13,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::stylus_test {
 namespace {
@@ -21,12 +22,9 @@ using testing::make_surface;
 using testing::periodic;
 
 Surface specimen(int cells = 128) {
-  SelfAffineOptions o;
-  o.grid = Grid{cells, cells, 100e-6, 100e-6};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{cells, cells, 100e-6, 100e-6}, 0.8, 5e-6);
   o.ra = 0.5e-6;
   o.roll_off = 25e-6;
-  o.short_wave = 5e-6;
   return self_affine_surface(o);
 }
 

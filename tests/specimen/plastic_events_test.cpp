@@ -15,6 +15,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 #include "tests/support/warnings.hpp"
 
 namespace asperity::plastic_events_test {
@@ -25,12 +26,9 @@ using test::error_of;
 constexpr double megapascal = 1e6, micrometre = 1e-6;
 
 Surface specimen(std::uint64_t seed, double hardness = 1.1e9, int cells = 64) {
-  SelfAffineOptions options;
-  options.grid = make_grid(cells, cells, 250 * micrometre, 250 * micrometre);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(cells, cells, 250 * micrometre, 250 * micrometre),
+                                                0.8, 250 * micrometre * 6 / cells, seed);
   options.ra = 1 * micrometre;
-  options.short_wave = 250 * micrometre * 6 / cells;
-  options.seed = seed;
   Material metal = test::elastic(70e9, 0.33);
   metal.hardness = hardness;
   return self_affine_surface(options).with_material(metal);

@@ -13,6 +13,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::displacement_control_test {
 
@@ -318,12 +319,8 @@ TEST(FlatteningSolve, AFewThousandthsOfPittedGroundAreFoundBack) {
 // All nodes but the lowest are at the cap: one load belongs to many approaches.
 TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   for (const std::uint64_t seed : {8U, 3U}) {
-    SelfAffineOptions options;
-    options.grid = make_grid(64, 64, 1e-3, 1e-3);
-    options.hurst = 0.5;
+    SelfAffineOptions options = test::self_affine(make_grid(64, 64, 1e-3, 1e-3), 0.5, 4e-3 / 128, seed);
     options.rms_slope = 0.1;
-    options.short_wave = 4e-3 / 128;
-    options.seed = seed;
     HalfSpaceProblem problem =
         problem_of(options.grid, self_affine_surface(options).heights(), Boundary::free, 1e11, 1e-6);
     problem.yield.cap = 3e8;
