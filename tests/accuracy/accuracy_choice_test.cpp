@@ -26,6 +26,8 @@
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/accuracy/asked_scenes.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::accuracy_choice_test {
 namespace {
@@ -34,14 +36,7 @@ using test::asking;
 using test::measured;
 using test::rough;
 
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
+using test::error_of;
 
 TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   SpecimenPair pair(asking(rough(512), rigid_material(), Boundary::periodic, 0.05));
@@ -118,12 +113,8 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesDoNotCount) {
 
 // Two cells a shortest wave lose the highest peak: 64 cells have an error of 6.8 %.
 TEST(AccuracyChoice, AnApproachIsNotReadFromCellsThatMissThePeak) {
-  SelfAffineOptions o;
-  o.grid = Grid{512, 512, 1e-3, 1e-3};
-  o.hurst = 0.7;
+  SelfAffineOptions o = test::self_affine(Grid{512, 512, 1e-3, 1e-3}, 0.7, 1e-3 / 32, 4403);
   o.rms_slope = 0.1;
-  o.short_wave = 1e-3 / 32;
-  o.seed = 4403;
   Material material;
   material.young = 1e11;
   material.poisson = 0;
@@ -234,7 +225,7 @@ TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
 }
 
 // Contact 13 cells wide: 1.5 % error on 64 cells. Reference: 2048 cells.
-TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
+TEST(AccuracyChoice, ABallAFewCellsWideIsMet) {
   const Surface ball =
       sphere_surface({Grid{1024, 1024, 1e-3, 1e-3}, 0.03, SphereShape::sphere}).with_material([] {
         Material material;
@@ -510,13 +501,9 @@ TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
 }
 
 Surface waves(int nx, int ny, std::uint64_t seed = 1) {
-  SelfAffineOptions o;
-  o.grid = Grid{nx, ny, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{nx, ny, 1, 1}, 0.8, 1.0 / 8, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 8;
-  o.seed = seed;
   Material material;
   material.young = 1e9;
   material.poisson = 0;

@@ -10,6 +10,7 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/scene/scene.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::test {
 
@@ -22,13 +23,9 @@ inline Material elastic_to_yield() {
 }
 
 inline Surface rough(int n, std::uint64_t seed = 1, double waves = 16) {
-  SelfAffineOptions o;
-  o.grid = Grid{n, n, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{n, n, 1, 1}, 0.8, 1 / waves, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1 / waves;
-  o.seed = seed;
   return self_affine_surface(o).with_material(elastic_to_yield());
 }
 

@@ -16,6 +16,7 @@
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::discretisation_error_test {
 namespace {
@@ -41,13 +42,9 @@ Surface paraboloid(int n) { return sphere_surface({Grid{n, n, 1, 1}, 10, SphereS
 double hertz_load(double radius_of_contact) { return 4.0 / 3 * 1e9 * std::pow(radius_of_contact, 3) / 10; }
 
 Surface rough(int n, std::uint64_t seed = 1) {
-  SelfAffineOptions o;
-  o.grid = Grid{n, n, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{n, n, 1, 1}, 0.8, 1.0 / 16, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 16;
-  o.seed = seed;
   return self_affine_surface(o);
 }
 

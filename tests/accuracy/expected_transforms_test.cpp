@@ -14,6 +14,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::expected_transforms_test {
 namespace {
@@ -27,11 +28,8 @@ constexpr PressBy controls[] = {PressBy::pressure, PressBy::load, PressBy::appro
                                 PressBy::flatten};
 
 Scene rough(int nx, int ny, Boundary boundary = Boundary::periodic) {
-  SelfAffineOptions o;
-  o.grid = Grid{nx, ny, 1.0 * nx, 1.0 * ny};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{nx, ny, 1.0 * nx, 1.0 * ny}, 0.8, 8);
   o.rms_slope = 0.1;
-  o.short_wave = 8;
   return {self_affine_surface(o).with_material(elastic(1e9)), rigid_material(), boundary, HalfSpaceOptions{},
           Accuracy{}};
 }

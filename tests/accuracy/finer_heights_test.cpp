@@ -12,6 +12,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::finer_heights_test {
 namespace {
@@ -20,13 +21,9 @@ using test::elastic;
 using test::error_of;
 
 Surface rough(int nx, int ny, std::uint64_t seed) {
-  SelfAffineOptions o;
-  o.grid = Grid{nx, ny, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{nx, ny, 1, 1}, 0.8, 1.0 / 8, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 8;
-  o.seed = seed;
   return self_affine_surface(o).with_material(elastic(1e9));
 }
 

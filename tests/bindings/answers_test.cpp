@@ -3,16 +3,10 @@
 #include <vector>
 
 #include "tests/bindings/lua_test.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::lua::answers_test {
 namespace {
-
-class Collecting final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { all.emplace_back(sentence); }
-  std::vector<std::string> all;
-};
 
 class Answers : public LuaTest {
  protected:
@@ -26,7 +20,7 @@ class Answers : public LuaTest {
               "");
   }
   std::string warned(const std::string& code) {
-    Collecting monitor;
+    test::Warnings monitor;
     const Session::Reporting reporting(session, monitor);
     EXPECT_EQ(run(code), "") << code;
     std::string text;
@@ -44,7 +38,7 @@ class Answers : public LuaTest {
   }
 };
 
-TEST_F(Answers, B7BareNumbersOfAnotherUnitAreAnswered) {
+TEST_F(Answers, BareNumbersOfAnotherUnitAreAnswered) {
   warns("local x = s:rotated(45)", "script.lua:1: `angle` is 45 rad, over a whole turn");
   warns("contact{ upper=s }:rotate(90 * math.pi)", "write \"282.743 deg\"");
   warns("lab.material{ young=70, poisson=0.3 }", "`young` is 70 Pa, softer than any solid");
@@ -61,7 +55,7 @@ TEST_F(Answers, B7BareNumbersOfAnotherUnitAreAnswered) {
     EXPECT_EQ(warned(right), "") << right;
 }
 
-TEST_F(Answers, B13ValuesOfAnotherKindAreConvertedOrRefused) {
+TEST_F(Answers, ValuesOfAnotherKindAreConvertedOrRefused) {
   refuses("lab.material(nil)", "lab.material was given nothing (nil)");
   refuses("lab.material()", "lab.material was given nothing (nil)");
   refuses("lab.surface.from_table{ size=1, heights={ 1, 2, 3 } }",
@@ -81,7 +75,7 @@ TEST_F(Answers, B13ValuesOfAnotherKindAreConvertedOrRefused) {
   EXPECT_EQ(run("book:write{ z='missing' }"), "");
 }
 
-TEST_F(Answers, B6ExpectationsCountInTheUnitOfTheColumn) {
+TEST_F(Answers, ExpectationsCountInTheUnitOfTheColumn) {
   EXPECT_EQ(run("book = lab.notebook 'b6' book:write{ ['p [MPa]']=10 }"), "");
   EXPECT_TRUE(holds("book:expect('p', { near='10 MPa', rel=0.1 })"));
   EXPECT_TRUE(holds("book:expect('p', { at_least='5 MPa' })"));
@@ -173,7 +167,7 @@ TEST_F(Answers, NamesStandAlongXAndNotUp) {
 }
 
 // The last height continues in the first.
-TEST_F(Answers, M2APeriodicFunctionHasNoStepAtTheRim) {
+TEST_F(Answers, APeriodicFunctionHasNoStepAtTheRim) {
   const std::string surface =
       "lab.surface.from_function{ cells=32, size=1e-3, material=al, height=function(x, y) return ";
   EXPECT_EQ(warned("contact{ lower=" + surface +
@@ -186,7 +180,7 @@ TEST_F(Answers, M2APeriodicFunctionHasNoStepAtTheRim) {
 }
 
 // Names may contain digits.
-TEST_F(Answers, M1ArgumentsMayHaveDigitsInTheirNames) {
+TEST_F(Answers, ArgumentsMayHaveDigitsInTheirNames) {
   EXPECT_EQ(value("require 'asperity.arguments'({ H1=1, x_2=3 }, 'H1=2', 'x_2=4').H1"), "2");
   EXPECT_NE(run("require 'asperity.arguments'({ H1=1 }, '1H=2')").find("is no argument of this script"),
             std::string::npos);

@@ -86,7 +86,7 @@ const char* const taken[] = {
     "elasticity='half_space' }, accuracy={ estimate=true } }",
 };
 
-TEST_F(DryScene, K2RefusesWhatARunRefusesAndInTheSameWords) {
+TEST_F(DryScene, RefusesWhatARunRefusesAndInTheSameWords) {
   for (const char* scene : refused) {
     const std::string in_run = outcome(false, scene);
     EXPECT_NE(in_run, "") << "a run takes " << scene;
@@ -94,14 +94,14 @@ TEST_F(DryScene, K2RefusesWhatARunRefusesAndInTheSameWords) {
   }
 }
 
-TEST_F(DryScene, K2TakesWhatARunTakes) {
+TEST_F(DryScene, TakesWhatARunTakes) {
   for (const char* scene : taken) {
     EXPECT_EQ(outcome(false, scene), "") << scene;
     EXPECT_EQ(outcome(true, scene), "") << scene;
   }
 }
 
-TEST_F(DryScene, B12SaysNothingOfWhatItCannotKnow) {
+TEST_F(DryScene, SaysNothingOfWhatItCannotKnow) {
   for (const char* scene :
        {"st = contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='box' } }:press{ "
         "pressure=1e6 }\n"

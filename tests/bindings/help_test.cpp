@@ -118,7 +118,7 @@ TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
       "lists what there is");
 }
 
-TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
+TEST_F(Help, FindsPartsOfNamesAndWordsOfSentences) {
   const std::pair<const char*, const char*> wanted[] = {
       {"weierstras", "lab.surface.weierstrass_mandelbrot: "},
       {"tilt", "lab.tilt_stage: "},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::lua::lessons_test {
 namespace {
@@ -24,12 +25,7 @@ constexpr std::string_view script =
     "local lab = require \"asperity\"\n";
 
 std::string message(std::string_view stem, std::string text) {
-  try {
-    read_lesson(stem, text);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::error_of([&] { read_lesson(stem, text); });
 }
 
 std::string without(const std::string& part) {

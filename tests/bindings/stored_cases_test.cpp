@@ -229,7 +229,7 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
 }
 
 // The spelling of the script's path must not change digests.
-TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
+TEST(ParcelContent, IsTheSameHoweverTheScriptIsNamed) {
   struct Typed {
     ScriptSpelling script;
     std::string file;  // as Lua names it

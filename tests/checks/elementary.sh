@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# N10: results do not hang on the C library's sine, exponential, logarithm or power, which choose by the processor:
+# Results do not hang on the C library's sine, exponential, logarithm or power, which choose by the processor:
 # no file of engine/ calls one but the file that tells C libraries apart, nor a function of the standard library
 # built on one, nor a random distribution (the names of unfinished files alone are drawn by the system); they are in
 # engine/core/arithmetic/elementary_functions.hpp. And Eigen is asked in two files alone: for products in one, which fixes what

@@ -70,11 +70,11 @@ for folder, groups in {"page": {"page"}, "web": {"web", "serve"}, "scripts": {"s
            f"tests/{folder}/CMakeLists.txt calls for {' '.join(sorted(selection.release))}")
 expect(chooser.select(None).everything, "what is not known calls for everything")
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
-                   "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/F1.sh": "reproductions: F1",
-                   "tests/known_to_fail/B4_box_counting.lua": "known to fail: B4 box counting",
-                   "tests/reproductions/beginning.sh": "reproductions: F3", "tests/page/browser.mjs": "page:teaching",
-                   "tests/scripts/runner/run_script.cpp": "reproductions: B1", "docs/accuracy.md": "known to fail: N7",
-                   "bindings/web/http/server.cpp": "reproductions: F1", "bindings/main.cpp": "command line: CommandLine",
+                   "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/softer_body_yields.lua": "reproductions: softer body yields",
+                   "tests/known_to_fail/cost_of_long_strips.lua": "known to fail: cost of long strips",
+                   "tests/reproductions/beginning.sh": "reproductions: containers share a store", "tests/page/browser.mjs": "page:teaching",
+                   "tests/scripts/runner/run_script.cpp": "reproductions: softer body yields", "docs/accuracy.md": "known to fail: cost of long strips",
+                   "bindings/web/http/server.cpp": "reproductions: students take turns", "bindings/main.cpp": "command line: CommandLine",
                    "bindings/web/serve_command.cpp": "command line: completion"}.items():
     expect(re.search(chooser.select([path]).lines()["release"], name), f"{path} does not call for {name}")
 

@@ -14,6 +14,7 @@
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::test {
 
@@ -63,16 +64,6 @@ inline std::shared_ptr<const Solver> ready(const Scene& scene) {
 
 inline State press(const Scene& scene, PressBy by, double value) {
   return ready(scene)->press({by, value, {}});
-}
-
-// Text of the Error; empty without an Error.
-inline std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace asperity::test

@@ -13,6 +13,7 @@
 #include "engine/contact/plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::overhanging_bodies_test {
 namespace {
@@ -31,12 +32,8 @@ Material metal(double hardness) {
 
 // Contacts away from the middle, too.
 Surface dome(const Grid& grid, std::uint64_t seed, double rms = 2e-7) {
-  SelfAffineOptions options;
-  options.grid = grid;
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(grid, 0.8, 6 * std::max(grid.hx(), grid.hy()), seed);
   options.rms_height = rms;
-  options.short_wave = 6 * std::max(grid.hx(), grid.hy());
-  options.seed = seed;
   const Field waves = self_affine_surface(options).heights();
   return surface_of(grid,
                     [&](int i, int j) {

@@ -120,7 +120,7 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
 }
 
 // A half-space takes at most the planned memory and at least half of this, within a mebibyte.
-TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
+TEST(Plan, MemoryOfAHalfSpaceIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
                                                {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
@@ -144,7 +144,7 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
       }
 }
 
-TEST(Plan, N9MemoryOfAFlatteningIsNotExceeded) {
+TEST(Plan, MemoryOfAFlatteningIsNotExceeded) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const bool hardens : {false, true})
       for (const double share : {.3, .9}) {

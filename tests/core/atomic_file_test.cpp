@@ -132,7 +132,7 @@ class PartFile : public InFolder {
 };
 
 // Processes of two containers can have the same number.
-TEST_F(PartFile, F11NoTwoNamesAreOne) {
+TEST_F(PartFile, NoTwoNamesAreOne) {
   std::set<fs::path> names;
   for (int k = 0; k < 1000; ++k) names.insert(part_beside(folder / "a.h5"));
   EXPECT_EQ(names.size(), 1000U);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::exact_phase_test {
 namespace {
@@ -19,13 +20,7 @@ namespace {
 constexpr std::uint64_t half_turn = std::uint64_t{1} << 63;
 
 std::string refusal(double gamma, double span, int cells, int directions, int n_max) {
-  try {
-    phase_increments(gamma, span, cells, directions, n_max);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { phase_increments(gamma, span, cells, directions, n_max); });
 }
 
 TEST(PhaseIncrements, AreThoseOfTheReferenceTable) {

@@ -12,18 +12,13 @@
 
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::grid_test {
 namespace {
 
 std::string refusal(double nx, double ny, double sx, double sy) {
-  try {
-    make_grid(nx, ny, sx, sy);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { make_grid(nx, ny, sx, sy); });
 }
 
 TEST(Grid, NodesAndCells) {

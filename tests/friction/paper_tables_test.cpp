@@ -95,9 +95,9 @@ struct Statistics {
   double mean = 0, sd = 0, up = 0;  // up: share of values above 1
 };
 
-Statistics over_seeds(const std::function<double(int seed)>& value, int first = 1, int last = 20) {
+Statistics over_seeds(const std::function<double(int seed)>& value) {
   std::vector<double> values;
-  for (int seed = first; seed <= last; ++seed) values.push_back(value(seed));
+  for (int seed = 1; seed <= 20; ++seed) values.push_back(value(seed));
   Statistics result;
   const auto n = static_cast<double>(values.size());
   for (const double v : values) result.mean += v / n;
@@ -109,6 +109,24 @@ Statistics over_seeds(const std::function<double(int seed)>& value, int first = 
   return result;
 }
 
+using Quantity = std::function<double(const State&)>;
+
+double depth_of(const State& st) { return st.indentation(); }
+double area_of(const State& st) { return st.area_fraction(); }
+double secant_of(const State& st) { return 0.01 / st.indentation(); }
+double spots_of(const State& st) { return static_cast<double>(st.spots()); }
+double spots8_of(const State& st) { return static_cast<double>(st.spots8()); }
+
+Statistics statistics(char preset, double D, const Quantity& quantity) {
+  return over_seeds([&](int seed) { return quantity(pressed(preset, D, seed)); });
+}
+
+// The ratio of a quantity to its value at D = 2.
+Statistics ratio_to_two(char preset, double D, const Quantity& quantity, double pressure = 0.01) {
+  return over_seeds([&](int seed) {
+    return quantity(pressed(preset, D, seed, pressure)) / quantity(pressed(preset, 2.0, seed, pressure));
+  });
+}
 // To one unit of the last digit: "1.24" to 0.01, ".0354" to 0.0001.
 void expect_printed(double value, const std::string& printed, const std::string& what) {
   const auto point = printed.find('.');
@@ -187,18 +205,11 @@ TEST(PaperTables, DefinitionsOfTheAmplitude) {
 }
 
 TEST(PaperTables, SpreadAndSignOfTheRatiosToDTwo) {
-  auto ratio = [](char preset, auto quantity) {
-    return over_seeds([&](int seed) {
-      return quantity(pressed(preset, 2.9, seed)) / quantity(pressed(preset, 2.0, seed));
-    });
-  };
-  const auto depth = [](const State& st) { return st.indentation(); };
-  const auto area = [](const State& st) { return st.area_fraction(); };
-  const auto secant = [](const State& st) { return 0.01 / st.indentation(); };
+  auto ratio = [](char preset, const Quantity& quantity) { return ratio_to_two(preset, 2.9, quantity); };
   const std::array expected = {
-      std::tuple{ratio('A', depth), ".19", 1.0},  std::tuple{ratio('A', area), ".24", .90},
-      std::tuple{ratio('A', secant), ".09", 0.0}, std::tuple{ratio('B', depth), ".12", .85},
-      std::tuple{ratio('B', area), ".08", 1.0},   std::tuple{ratio('B', secant), ".09", .15},
+      std::tuple{ratio('A', depth_of), ".19", 1.0},  std::tuple{ratio('A', area_of), ".24", .90},
+      std::tuple{ratio('A', secant_of), ".09", 0.0}, std::tuple{ratio('B', depth_of), ".12", .85},
+      std::tuple{ratio('B', area_of), ".08", 1.0},   std::tuple{ratio('B', secant_of), ".09", .15},
   };
   for (const auto& [found, sd, up] : expected) {
     expect_printed(found.sd, sd, "sd");
@@ -206,79 +217,56 @@ TEST(PaperTables, SpreadAndSignOfTheRatiosToDTwo) {
   }
 }
 
+struct PresetRow {
+  double D;
+  const char *depth, *depth_sd, *area, *area_sd, *secant, *secant_sd, *spots4, *spots4_sd, *spots8;
+};
+
+void expect_printed(char preset, const PresetRow& row) {
+  const std::string what = "D = " + std::to_string(row.D);
+  const Statistics depth = statistics(preset, row.D, depth_of), area = statistics(preset, row.D, area_of);
+  const Statistics secant = statistics(preset, row.D, secant_of),
+                   spots4 = statistics(preset, row.D, spots_of);
+  expect_printed(depth.mean, row.depth, what);
+  expect_printed(depth.sd, row.depth_sd, what);
+  expect_printed(area.mean, row.area, what);
+  expect_printed(area.sd, row.area_sd, what);
+  expect_printed(secant.mean, row.secant, what);
+  expect_printed(secant.sd, row.secant_sd, what);
+  expect_printed(spots4.mean, row.spots4, what);
+  if (row.spots4_sd != nullptr) expect_printed(spots4.sd, row.spots4_sd, what);
+  expect_printed(statistics(preset, row.D, spots8_of).mean, row.spots8, what);
+}
+
 // Table 3.3.
 TEST(PaperTables, PresetA) {
-  struct Row {
-    const char *depth, *depth_sd, *area, *area_sd, *secant, *secant_sd, *spots4, *spots4_sd, *spots8;
-  };
-  const std::array<Row, 10> rows = {{
-      {".2623", ".0354", ".1274", ".0217", ".03877", ".00503", "10.3", "4.8", "8.6"},
-      {".2731", ".0355", ".1293", ".0211", ".03720", ".00467", "17.1", "7.0", "12.4"},
-      {".2842", ".0370", ".1312", ".0202", ".03575", ".00454", "27.3", "9.3", "19.3"},
-      {".2958", ".0392", ".1330", ".0194", ".03437", ".00451", "43.6", "14.1", "30.2"},
-      {".3105", ".0396", ".1357", ".0178", ".03271", ".00416", "76.0", "21.8", "49.0"},
-      {".3263", ".0402", ".1385", ".0157", ".03110", ".00389", "128.2", "33.6", "79.7"},
-      {".3409", ".0420", ".1420", ".0133", ".02977", ".00378", "212.9", "44.3", "131.6"},
-      {".3556", ".0405", ".1464", ".0111", ".02847", ".00324", "361.1", "62.9", "222.8"},
-      {".3676", ".0383", ".1497", ".0085", ".02747", ".00276", "618.2", "76.7", "386.1"},
-      {".3809", ".0321", ".1535", ".0069", ".02642", ".00215", "1105", "72", "711.4"},
+  const std::array<PresetRow, 10> rows = {{
+      {2.0, ".2623", ".0354", ".1274", ".0217", ".03877", ".00503", "10.3", "4.8", "8.6"},
+      {2.1, ".2731", ".0355", ".1293", ".0211", ".03720", ".00467", "17.1", "7.0", "12.4"},
+      {2.2, ".2842", ".0370", ".1312", ".0202", ".03575", ".00454", "27.3", "9.3", "19.3"},
+      {2.3, ".2958", ".0392", ".1330", ".0194", ".03437", ".00451", "43.6", "14.1", "30.2"},
+      {2.4, ".3105", ".0396", ".1357", ".0178", ".03271", ".00416", "76.0", "21.8", "49.0"},
+      {2.5, ".3263", ".0402", ".1385", ".0157", ".03110", ".00389", "128.2", "33.6", "79.7"},
+      {2.6, ".3409", ".0420", ".1420", ".0133", ".02977", ".00378", "212.9", "44.3", "131.6"},
+      {2.7, ".3556", ".0405", ".1464", ".0111", ".02847", ".00324", "361.1", "62.9", "222.8"},
+      {2.8, ".3676", ".0383", ".1497", ".0085", ".02747", ".00276", "618.2", "76.7", "386.1"},
+      {2.9, ".3809", ".0321", ".1535", ".0069", ".02642", ".00215", "1105", "72", "711.4"},
   }};
-  for (int k = 0; k < 10; ++k) {
-    const Row& row = rows[static_cast<std::size_t>(k)];
-    const std::string what = "D = " + std::to_string(decade(k));
-    const auto depth = over_seeds([&](int seed) { return pressed('A', decade(k), seed).indentation(); });
-    const auto area = over_seeds([&](int seed) { return pressed('A', decade(k), seed).area_fraction(); });
-    const auto secant =
-        over_seeds([&](int seed) { return 0.01 / pressed('A', decade(k), seed).indentation(); });
-    const auto spots4 =
-        over_seeds([&](int seed) { return static_cast<double>(pressed('A', decade(k), seed).spots()); });
-    const auto spots8 =
-        over_seeds([&](int seed) { return static_cast<double>(pressed('A', decade(k), seed).spots8()); });
-    expect_printed(depth.mean, row.depth, what);
-    expect_printed(depth.sd, row.depth_sd, what);
-    expect_printed(area.mean, row.area, what);
-    expect_printed(area.sd, row.area_sd, what);
-    expect_printed(secant.mean, row.secant, what);
-    expect_printed(secant.sd, row.secant_sd, what);
-    expect_printed(spots4.mean, row.spots4, what);
-    expect_printed(spots4.sd, row.spots4_sd, what);
-    expect_printed(spots8.mean, row.spots8, what);
-  }
+  for (const PresetRow& row : rows) expect_printed('A', row);
 }
 
 // Table 3.3.
 TEST(PaperTables, PresetB) {
-  struct Row {
-    double D;
-    const char *depth, *depth_sd, *area, *area_sd, *secant, *secant_sd, *spots4, *spots8;
-  };
-  const std::array<Row, 7> rows = {{
-      {2.0, ".3211", ".0306", ".1325", ".0101", ".03141", ".00297", "42.5", "37.0"},
-      {2.1, ".3267", ".0293", ".1345", ".0101", ".03085", ".00272", "57.7", "46.5"},
-      {2.3, ".3377", ".0281", ".1390", ".0094", ".02980", ".00242", "121.3", "86.7"},
-      {2.5, ".3503", ".0294", ".1442", ".0075", ".02873", ".00241", "261.8", "172.8"},
-      {2.7, ".3606", ".0306", ".1505", ".0058", ".02793", ".00245", "598.8", "380.4"},
-      {2.8, ".3612", ".0298", ".1533", ".0072", ".02787", ".00233", "901.9", "591.5"},
-      {2.9, ".3616", ".0243", ".1549", ".0071", ".02777", ".00184", "1359.5", "932.3"},
+  const std::array<PresetRow, 7> rows = {{
+      {2.0, ".3211", ".0306", ".1325", ".0101", ".03141", ".00297", "42.5", nullptr, "37.0"},
+      {2.1, ".3267", ".0293", ".1345", ".0101", ".03085", ".00272", "57.7", nullptr, "46.5"},
+      {2.3, ".3377", ".0281", ".1390", ".0094", ".02980", ".00242", "121.3", nullptr, "86.7"},
+      {2.5, ".3503", ".0294", ".1442", ".0075", ".02873", ".00241", "261.8", nullptr, "172.8"},
+      {2.7, ".3606", ".0306", ".1505", ".0058", ".02793", ".00245", "598.8", nullptr, "380.4"},
+      {2.8, ".3612", ".0298", ".1533", ".0072", ".02787", ".00233", "901.9", nullptr, "591.5"},
+      {2.9, ".3616", ".0243", ".1549", ".0071", ".02777", ".00184", "1359.5", nullptr, "932.3"},
   }};
-  for (const Row& row : rows) {
-    const std::string what = "D = " + std::to_string(row.D);
-    const auto depth = over_seeds([&](int seed) { return pressed('B', row.D, seed).indentation(); });
-    const auto area = over_seeds([&](int seed) { return pressed('B', row.D, seed).area_fraction(); });
-    const auto secant = over_seeds([&](int seed) { return 0.01 / pressed('B', row.D, seed).indentation(); });
-    const auto spots4 =
-        over_seeds([&](int seed) { return static_cast<double>(pressed('B', row.D, seed).spots()); });
-    const auto spots8 =
-        over_seeds([&](int seed) { return static_cast<double>(pressed('B', row.D, seed).spots8()); });
-    expect_printed(depth.mean, row.depth, what);
-    expect_printed(depth.sd, row.depth_sd, what);
-    expect_printed(area.mean, row.area, what);
-    expect_printed(area.sd, row.area_sd, what);
-    expect_printed(secant.mean, row.secant, what);
-    expect_printed(secant.sd, row.secant_sd, what);
-    expect_printed(spots4.mean, row.spots4, what);
-    expect_printed(spots8.mean, row.spots8, what);
-  }
+  for (const PresetRow& row : rows) expect_printed('B', row);
 }
 
 // Section 4: μ/μ(D = 2) at r = 0.1, 1, 10, 100; sd if printed.
@@ -300,10 +288,8 @@ TEST(PaperTables, FrictionRatios) {
   };
   for (const Row& row : rows)
     for (std::size_t r = 0; r < 4; ++r) {
-      const auto found = over_seeds([&](int seed) {
-        return mu_of(pressed(row.preset, row.D, seed), ratios[r], row.cap) /
-               mu_of(pressed(row.preset, 2.0, seed), ratios[r], row.cap);
-      });
+      const Statistics found =
+          ratio_to_two(row.preset, row.D, [&](const State& st) { return mu_of(st, ratios[r], row.cap); });
       const std::string what = std::string(1, row.preset) + " cap " +
                                std::to_string(static_cast<int>(row.cap)) +
                                " r = " + std::to_string(ratios[r]);
@@ -315,7 +301,7 @@ TEST(PaperTables, FrictionRatios) {
 // Section 4: absolute μ at r = 10.
 TEST(PaperTables, FrictionCoefficients) {
   auto mean_mu = [](char preset, double D, Cap cap) {
-    return over_seeds([&](int seed) { return mu_of(pressed(preset, D, seed), 10, cap); });
+    return statistics(preset, D, [&](const State& st) { return mu_of(st, 10, cap); });
   };
   expect_printed(mean_mu('A', 2.0, Cap::none).mean, ".22744", "A 2.0");
   expect_printed(mean_mu('A', 2.0, Cap::none).sd, ".0217", "A 2.0 sd");
@@ -345,14 +331,10 @@ TEST(PaperTables, OtherLoads) {
   };
   for (const Row& row : rows) {
     const std::string what = std::string(1, row.preset) + " p' = " + std::to_string(row.pressure);
-    auto ratio = [&](auto quantity) {
-      return over_seeds([&](int seed) {
-               return quantity(pressed(row.preset, 2.9, seed, row.pressure)) /
-                      quantity(pressed(row.preset, 2.0, seed, row.pressure));
-             })
-          .mean;
+    auto ratio = [&](const Quantity& quantity) {
+      return ratio_to_two(row.preset, 2.9, quantity, row.pressure).mean;
     };
-    expect_printed(ratio([](const State& st) { return st.area_fraction(); }), row.area, what);
+    expect_printed(ratio(area_of), row.area, what);
     expect_printed(ratio([](const State& st) { return 1 / st.indentation(); }), row.secant, what);
     if (row.least == nullptr) continue;
     double least = 1, greatest = 0;
@@ -389,83 +371,44 @@ TEST(PaperTables, PopulationBands) {
     char preset;
     WaveBand band;
     double D;
-    std::array<std::pair<double, double>, 7> expected;  // d, area, secant, μ at the four ratios: mean, sd
+    std::array<double, 14> expected;  // mean and sd of d, area, secant, μ at the four ratios
   };
   const std::array rows = {
       Row{'A',
           WaveBand::all,
           2.5,
-          {{{1.218, .122},
-            {1.100, .116},
-            {0.829, .082},
-            {1.099, .115},
-            {1.091, .105},
-            {1.051, .059},
-            {1.009, .011}}}},
+          {1.218, .122, 1.100, .116, 0.829, .082, 1.099, .115, 1.091, .105, 1.051, .059, 1.009, .011}},
       Row{'A',
           WaveBand::all,
           2.9,
-          {{{1.398, .209},
-            {1.271, .246},
-            {0.732, .112},
-            {1.268, .243},
-            {1.247, .220},
-            {1.138, .114},
-            {1.026, .021}}}},
+          {1.398, .209, 1.271, .246, 0.732, .112, 1.268, .243, 1.247, .220, 1.138, .114, 1.026, .021}},
       Row{'A',
           WaveBand::resolved,
           2.9,
-          {{{1.354, .189},
-            {1.219, .215},
-            {0.753, .105},
-            {1.217, .213},
-            {1.199, .193},
-            {1.111, .103},
-            {1.021, .019}}}},
+          {1.354, .189, 1.219, .215, 0.753, .105, 1.217, .213, 1.199, .193, 1.111, .103, 1.021, .019}},
       Row{'B',
           WaveBand::all,
           2.5,
-          {{{1.093, .080},
-            {1.090, .055},
-            {0.920, .066},
-            {1.090, .055},
-            {1.084, .051},
-            {1.051, .030},
-            {1.010, .006}}}},
+          {1.093, .080, 1.090, .055, 0.920, .066, 1.090, .055, 1.084, .051, 1.051, .030, 1.010, .006}},
       Row{'B',
           WaveBand::all,
           2.9,
-          {{{1.146, .138},
-            {1.159, .100},
-            {0.885, .109},
-            {1.158, .099},
-            {1.147, .092},
-            {1.089, .054},
-            {1.018, .011}}}},
+          {1.146, .138, 1.159, .100, 0.885, .109, 1.158, .099, 1.147, .092, 1.089, .054, 1.018, .011}},
       Row{'B',
           WaveBand::resolved,
           2.9,
-          {{{1.135, .135},
-            {1.133, .081},
-            {0.893, .106},
-            {1.132, .080},
-            {1.123, .074},
-            {1.075, .044},
-            {1.015, .009}}}},
+          {1.135, .135, 1.133, .081, 0.893, .106, 1.132, .080, 1.123, .074, 1.075, .044, 1.015, .009}},
   };
   const double width = 3 * std::sqrt(1.0 / 20 + 1.0 / 150);
   for (const Row& row : rows)
     for (std::size_t q = 0; q < 7; ++q) {
       auto quantity = [&](double D, int seed) {
         const State st = pressed(row.preset, D, seed, 0.01, Scaling::peak_to_valley, row.band);
-        if (q == 0) return st.indentation();
-        if (q == 1) return st.area_fraction();
-        if (q == 2) return 0.01 / st.indentation();
+        if (q < 3) return std::array{depth_of, area_of, secant_of}[q](st);
         return mu_of(st, ratios[q - 3], Cap::none);
       };
       const auto found = over_seeds([&](int seed) { return quantity(row.D, seed) / quantity(2.0, seed); });
-      const auto [mean, sd] = row.expected[q];
-      EXPECT_NEAR(found.mean, mean, width * sd + 0.0005)
+      EXPECT_NEAR(found.mean, row.expected[2 * q], width * row.expected[2 * q + 1] + 0.0005)
           << row.preset << " D = " << row.D << " quantity " << q;
     }
 }
@@ -476,14 +419,11 @@ TEST(PaperTables, TrendsWithDimension) {
     std::array<std::array<double, 4>, 2> mu{};
     for (int k = 0; k < 10; ++k) {
       const double D = decade(k);
-      auto mean_of = [&](auto quantity) {
-        return over_seeds([&](int seed) { return quantity(pressed(preset, D, seed)); }).mean;
-      };
       const std::string what = std::string(1, preset) + " D = " + std::to_string(D);
-      const double new_depth = mean_of([](const State& st) { return st.indentation(); });
-      const double new_area = mean_of([](const State& st) { return st.area_fraction(); });
-      const double new_spots = mean_of([](const State& st) { return static_cast<double>(st.spots()); });
-      const double new_secant = mean_of([](const State& st) { return 0.01 / st.indentation(); });
+      const double new_depth = statistics(preset, D, depth_of).mean;
+      const double new_area = statistics(preset, D, area_of).mean;
+      const double new_spots = statistics(preset, D, spots_of).mean;
+      const double new_secant = statistics(preset, D, secant_of).mean;
       EXPECT_GT(new_depth, depth) << what;
       EXPECT_GT(new_area, area) << what;
       EXPECT_GT(new_spots, spots) << what;
@@ -496,10 +436,8 @@ TEST(PaperTables, TrendsWithDimension) {
       for (const Cap cap : {Cap::none, Cap::yield}) {
         auto& before = mu[cap == Cap::none ? 0 : 1];
         for (std::size_t r = 0; r < 4; ++r) {
-          const double ratio = over_seeds([&](int seed) {
-                                 return mu_of(pressed(preset, D, seed), ratios[r], cap) /
-                                        mu_of(pressed(preset, 2.0, seed), ratios[r], cap);
-                               }).mean;
+          const double ratio =
+              ratio_to_two(preset, D, [&](const State& st) { return mu_of(st, ratios[r], cap); }).mean;
           if (cap == Cap::none) {
             EXPECT_GT(ratio, before[r]) << what << " r = " << ratios[r];
           }

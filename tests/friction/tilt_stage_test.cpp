@@ -55,7 +55,7 @@ TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
 }
 
 // A step of 1 rad instead of 1 deg must not give a coefficient of 0.
-TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
+TEST(SlipAngle, AStepAboveTheAngleOfSlipIsAnError) {
   for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
     EXPECT_NE(error_of([&] {
                 slip_angle(line(0, 0.5), 1, step, right);

@@ -18,6 +18,7 @@
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::acceptance_test {
 namespace {
@@ -38,13 +39,9 @@ Surface specimen(Kind kind, std::uint64_t seed, int cells = 256) {
     options.seed = seed;
     return bead_blasted_surface(options).with_material(aluminium);
   }
-  SelfAffineOptions options;
-  options.grid = grid;
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(grid, 0.8, 16 * micrometre, seed);
   options.ra = 3 * micrometre;
   options.roll_off = 250 * micrometre;
-  options.short_wave = 16 * micrometre;
-  options.seed = seed;
   return self_affine_surface(options).with_material(aluminium);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/contact/solver.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::persson_test {
 namespace {
@@ -20,12 +21,8 @@ constexpr double slope = 0.1;  // h': E* h' = 0.1 with E* = 1
 
 // Hurst exponent 0.8 down to waves of 8 cells.
 Surface surface(std::uint64_t seed) {
-  SelfAffineOptions options;
-  options.grid = make_grid(512, 512, 512, 512);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(512, 512, 512, 512), 0.8, 8, seed);
   options.rms_slope = slope;
-  options.short_wave = 8;
-  options.seed = seed;
   Material material;
   material.young = 1;
   material.poisson = 0;

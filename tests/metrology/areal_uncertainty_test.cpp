@@ -7,6 +7,7 @@
 #include "engine/metrology/parameters/areal_parameters.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::areal_uncertainty_test {
 namespace {
@@ -14,13 +15,10 @@ namespace {
 // A quarter of a scaled map: quarters differ as measured maps do.
 Surface rough_map(std::uint64_t seed, double roll_off_cells) {
   constexpr int cells = 128;
-  SelfAffineOptions options;
-  options.grid = make_grid(2 * cells, 2 * cells, 2 * cells * 1e-6, 2 * cells * 1e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options =
+      test::self_affine(make_grid(2 * cells, 2 * cells, 2 * cells * 1e-6, 2 * cells * 1e-6), 0.8, 3e-6, seed);
   options.rms_height = 1e-6;
   options.roll_off = roll_off_cells * 1e-6;
-  options.short_wave = 3e-6;
-  options.seed = seed;
   const Surface whole = self_affine_surface(options);
   return testing::make_surface(cells, cells, cells * 1e-6, cells * 1e-6,
                                [&](int i, int j) { return whole.height(i, j); });

@@ -6,6 +6,7 @@
 #include "engine/metrology/fractal_dimension.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::dimension_scaling_test {
 namespace {
@@ -33,12 +34,9 @@ FractalDimensionOptions with(DimensionMethod method, std::vector<int> steps = {}
 }
 
 Surface smooth_below(double cells, double hurst, int side = 256) {
-  SelfAffineOptions options;
-  options.grid = make_grid(side, side, side * 1e-6, side * 1e-6);
-  options.hurst = hurst;
+  SelfAffineOptions options =
+      test::self_affine(make_grid(side, side, side * 1e-6, side * 1e-6), hurst, cells * 1e-6, 5);
   options.rms_height = 1e-6;
-  options.short_wave = cells * 1e-6;
-  options.seed = 5;
   return self_affine_surface(options);
 }
 

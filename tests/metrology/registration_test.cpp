@@ -17,6 +17,7 @@
 #include "engine/surface/operations/placement.hpp"
 #include "tests/metrology/test_fields.hpp"
 #include "tests/metrology/worn_pairs.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::registration_test {
@@ -53,16 +54,7 @@ Surface with_noise(const Surface& surface, double size, std::uint64_t seed) {
   return Surface::with_holes(surface.grid(), std::move(z));
 }
 
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 std::string refusal(const Surface& after, const Surface& before, const RegistrationOptions& options = {}) {
   return refusal([&] { registered(after, before, options); });
 }

@@ -9,6 +9,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::spectral_bands_test {
 namespace {
@@ -133,11 +134,8 @@ TEST(SpectralDimension, SaysWhenBandsLieBetweenLines) {
 
 // The shortest wave is 3.9 cells, bands reach three: D = 1.1 instead of 1.5.
 TEST(SpectralDimension, SaysWhenASpectrumEnds) {
-  SelfAffineOptions options;
-  options.grid = make_grid(256, 256, 1e-3, 1e-3);
-  options.hurst = 0.5;
+  SelfAffineOptions options = test::self_affine(make_grid(256, 256, 1e-3, 1e-3), 0.5, 3.9e-3 / 256);
   options.rms_height = 1e-6;
-  options.short_wave = 3.9e-3 / 256;
   const FractalDimension d = by_spectrum(Surface(self_affine_surface(options)));
   EXPECT_FALSE(d.resolved);
   EXPECT_EQ(d.reason.substr(0, 32), "waves of about 3.4 samples hold ") << d.reason;
@@ -159,12 +157,8 @@ TEST(SpectralDimension, OfSelfAffineSurfaces) {
   for (const double hurst : {0.3, 0.5, 0.8}) {
     double sum = 0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      SelfAffineOptions options;
-      options.grid = make_grid(512, 512, 1e-3, 1e-3);
-      options.hurst = hurst;
+      SelfAffineOptions options = test::self_affine(make_grid(512, 512, 1e-3, 1e-3), hurst, 2e-3 / 512, seed);
       options.rms_height = 1e-6;
-      options.short_wave = 2e-3 / 512;
-      options.seed = seed;
       const FractalDimension d = by_spectrum(Surface(self_affine_surface(options)));
       EXPECT_TRUE(d.resolved) << d.reason;
       sum += d.D / 4;

@@ -8,6 +8,7 @@
 #include "engine/metrology/roughness.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::spectrum_test {
 namespace {
@@ -90,12 +91,9 @@ TEST(Spectrum, OfWhiteNoiseIsFlatAtItsLevel) {
 
 // Slope -2 - 2H between roll-off and cut-off; exact rms slope.
 TEST(Spectrum, OfASelfAffineSurface) {
-  SelfAffineOptions options;
-  options.grid = make_grid(512, 512, 1e-3, 1e-3);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(512, 512, 1e-3, 1e-3), 0.8, 1e-3 / 64);
   options.rms_slope = 0.1;
   options.roll_off = 0.25e-3;
-  options.short_wave = 1e-3 / 64;
   const Surface surface = self_affine_surface(options);
   const Spectrum s = spectrum(surface);
   EXPECT_NEAR(s.rms_slope, 0.1, 1e-13);

@@ -11,6 +11,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::spherical_tip_test {
 namespace {
@@ -61,13 +62,7 @@ double tried(const Surface& s, Point at, double radius) {
 }
 
 std::string refusal(const Surface& s, double radius) {
-  try {
-    SphericalTip(s, radius);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { SphericalTip(s, radius); });
 }
 
 TEST(SphericalTip, RestsOnAPlaneBesideItsAxis) {

@@ -11,6 +11,8 @@
 #include "engine/metrology/spherical_tip.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::stylus_test {
 namespace {
@@ -19,12 +21,9 @@ using testing::make_surface;
 using testing::periodic;
 
 Surface specimen(int cells = 128) {
-  SelfAffineOptions o;
-  o.grid = Grid{cells, cells, 100e-6, 100e-6};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{cells, cells, 100e-6, 100e-6}, 0.8, 5e-6);
   o.ra = 0.5e-6;
   o.roll_off = 25e-6;
-  o.short_wave = 5e-6;
   return self_affine_surface(o);
 }
 
@@ -35,16 +34,7 @@ StylusOptions short_traces(double length = 80e-6, double tip = 2e-6) {
   return o;
 }
 
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 std::string refusal(const StylusOptions& options) {
   return refusal([&] { Stylus{options}; });
 }

@@ -12,6 +12,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/surface/profile.hpp"
 #include "engine/surface/surface.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::testing {
 
@@ -75,12 +76,7 @@ inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
 
 template <class Call>
 std::string error_text(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { call(); }, "no error");
 }
 
 }  // namespace asperity::testing

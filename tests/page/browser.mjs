@@ -84,6 +84,21 @@ export async function assertQuiet(page) {
   assert.deepEqual(page.complaints, []);
 }
 
+export const ready = (page) =>
+  until(page, () => document.querySelector('.lessons button, .lesson'), 'the lessons should be listed');
+
+/** Opens the page, calls `act`, and asserts that console and content policy reported nothing. */
+export async function visit(browser, url, options, act) {
+  const page = await openPage(browser, url, options);
+  try {
+    await ready(page);
+    await act(page);
+    await assertQuiet(page);
+  } finally {
+    await page.done();
+  }
+}
+
 export const pause = (ms) => new Promise((r) => setTimeout(r, ms));
 
 /** Waits until all is drawn; a frame may request another. */

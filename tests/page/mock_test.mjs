@@ -6,40 +6,17 @@ import { createHash } from 'node:crypto';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import * as on from './browser.mjs';
+import { browser, mock, visit } from './mock_page.mjs';
 import { startMock } from './mock_server.mjs';
 
-let browser, mock;
-before(async () => {
-  browser = await on.openBrowser();
-  mock = await startMock(on.pageFolder);
-});
-after(async () => {
-  await browser?.close();
-  await mock?.close();
-});
-
-const ready = (page) =>
-  on.until(page, () => document.querySelector('.lessons button, .lesson'), 'the lessons should be listed');
 const tab = (page, name) => page.click(`#tab-${name}`);
-
-/** Opens the page, runs the test, and expects no complaint. */
-async function visit(options, act) {
-  const page = await on.openPage(browser, mock.url, options);
-  try {
-    await ready(page);
-    await act(page);
-    await on.assertQuiet(page);
-  } finally {
-    await page.done();
-  }
-}
 
 // Printed only: the time depends on the machine.
 test('Start, OfFewRequestsAndBytes', async () => {
   const page = await on.openPage(browser, mock.url);
-  await ready(page);
+  await on.ready(page);
   const { requests, bytes, ms } = await on.start(page);
   console.log(`interactive after ${requests} requests, ${bytes} bytes, ${Math.round(ms)} ms`);
   assert.ok(requests >= 2 && requests <= 6, `${requests} requests`);
@@ -51,7 +28,7 @@ test('Token, LeavesTheAddressAndOutlivesAReload', () =>
   visit({}, async (page) => {
     assert.equal(page.url(), `${mock.address}/`);
     await page.reload();
-    await ready(page);
+    await on.ready(page);
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
   }));
 
@@ -743,7 +720,7 @@ for (const [width, height] of [
   test(`Picture, CaptionAndColoursStandApartAt${width}x${height}`, async () => {
     const page = await on.openPage(browser, mock.url, { width, height });
     try {
-      await ready(page);
+      await on.ready(page);
       await on.run(page, 'for N = 1, 8 do end\n');
       await on.finished(page);
       await tab(page, 'picture');
@@ -787,7 +764,7 @@ test('Script, OfTwoTabsBothAreKept', () =>
     const other = await page.browserContext().newPage();
     other.setDefaultTimeout(0);
     await other.goto(mock.url);
-    await ready(other);
+    await on.ready(other);
     assert.equal((await on.editorText(other)).trim(), 'print "one"');
     await on.write(other, 'print "two"\n');
     await on.until(
@@ -796,10 +773,10 @@ test('Script, OfTwoTabsBothAreKept', () =>
       'the first tab should be warned',
     );
     await page.reload();
-    await ready(page);
+    await on.ready(page);
     assert.equal((await on.editorText(page)).trim(), 'print "one"');
     await other.reload();
-    await ready(other);
+    await on.ready(other);
     assert.equal((await on.editorText(other)).trim(), 'print "two"');
     await other.close();
   }));
@@ -948,7 +925,7 @@ test('Messages, TheServerIsGoneAndComesBack', async () => {
   const other = await startMock(on.pageFolder);
   const port = Number(new URL(other.address).port);
   const page = await on.openPage(browser, other.url);
-  await ready(page);
+  await on.ready(page);
   await other.close();
   await on.write(page, 'print "kept"\n');
   await page.waitForSelector('#banner:not([hidden])');

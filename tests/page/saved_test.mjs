@@ -6,19 +6,9 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import * as on from './browser.mjs';
-import { startMock } from './mock_server.mjs';
-
-let browser, mock;
-before(async () => {
-  browser = await on.openBrowser();
-  mock = await startMock(on.pageFolder);
-});
-after(async () => {
-  await browser?.close();
-  await mock?.close();
-});
+import { browser, mock } from './mock_page.mjs';
 
 /** Saves the effect of `act`; `look` checks the file opened from disk. */
 async function saved(act, look) {

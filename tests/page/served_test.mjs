@@ -41,16 +41,7 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
-async function visit(options, act) {
-  const page = await on.openPage(browser, url, options);
-  try {
-    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
-    await act(page);
-    await on.assertQuiet(page);
-  } finally {
-    await page.done();
-  }
-}
+const visit = (options, act) => on.visit(browser, url, options, act);
 
 // Printed only: the time depends on the machine.
 test('Served, StartsWithFewRequestsAndBytes', () =>

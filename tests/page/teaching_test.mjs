@@ -3,32 +3,12 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import * as on from './browser.mjs';
+import { visit } from './mock_page.mjs';
 import { startMock } from './mock_server.mjs';
 
 const root = new URL('../../', import.meta.url);
-
-let browser, mock;
-before(async () => {
-  browser = await on.openBrowser();
-  mock = await startMock(on.pageFolder);
-});
-after(async () => {
-  await browser?.close();
-  await mock?.close();
-});
-
-async function visit(options, act, server = mock) {
-  const page = await on.openPage(browser, server.url, options);
-  try {
-    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
-    await act(page);
-    await on.assertQuiet(page);
-  } finally {
-    await page.done();
-  }
-}
 
 const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${rows}\nbook:chart{ ${chart} }\n`;
 

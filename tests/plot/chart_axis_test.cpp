@@ -48,7 +48,7 @@ TEST(ChartAxis, ConvertsUnitsThatAreNotSi) {
   EXPECT_DOUBLE_EQ(layout.factor, 1000);
 }
 
-TEST(ChartAxis, B9SharesKeepTheirPerCent) {
+TEST(ChartAxis, SharesKeepTheirPerCent) {
   const AxisLayout layout = lay(axis("share", "%"), {10, 30});
   EXPECT_EQ(layout.label, "share (%)");
   EXPECT_EQ(layout.factor, 1);

@@ -83,7 +83,7 @@ TEST(Chart, SaysWhatIsNotDrawn) {
 }
 
 // A value beyond the plot's range is not a missing value.
-TEST(Chart, B13SaysThatANumberIsTooLarge) {
+TEST(Chart, SaysThatANumberIsTooLarge) {
   LineChart chart = simple();
   chart.series[0].y[0] = 2e300;
   std::vector<std::string> warnings;

@@ -82,7 +82,7 @@ TEST_F(Gnuplot, RunsNothingThatStandsInText) {
 }
 
 // gnuplot drew without fonts when handles were scarce, and only complained on stderr.
-TEST_F(Gnuplot, F9WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
+TEST_F(Gnuplot, WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
   const GnuplotResult odd = run_gnuplot(script(PictureFormat::png, "print \"no\\nfont\"\nplot x\n"));
   EXPECT_TRUE(odd.picture.starts_with("\x89PNG"));
   EXPECT_EQ(complaints_of(odd, folder / "r.png"),

@@ -75,7 +75,7 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
   EXPECT_EQ(picture.cells.size(), 64U * 64U * sizeof(float));
 }
 
-TEST(Picture, F9AReliefNamesItsBarAboveIt) {
+TEST(Picture, AReliefNamesItsBarAboveIt) {
   PictureOptions options;
   options.view = PictureOptions::View::relief;
   const std::string script = picture_script(make_grid(8, 8, 1e-4, 1e-4), ramp(8, 8), options).script;

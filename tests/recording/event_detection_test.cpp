@@ -109,7 +109,7 @@ struct Outcome {
 Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   SyntheticTruth truth;
   const PressRecording recording = play(press, seed, truth);
-  Listener listener;
+  test::Warnings listener;
   Outcome outcome;
   try {
     outcome.difference = difference(press, truth, detect_events(recording, {}, listener));
@@ -119,7 +119,7 @@ Outcome outcome_of(const SyntheticPress& press, unsigned seed) {
   }
   outcome.warned_of_noise = listener.told("would not be told from it") || listener.told(" only") ||
                             listener.told("the noise does not tell") || listener.told("is not held");
-  for (const std::string& warning : listener.warnings) outcome.warnings += "\n  " + warning;
+  for (const std::string& warning : listener.all) outcome.warnings += "\n  " + warning;
   return outcome;
 }
 
@@ -207,7 +207,7 @@ SyntheticPress four_presses() {
 }
 
 // Slow waves of filtered noise, y(k) = r y(k-1) + e, are not holds.
-TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
+TEST(EventDetection, FilteredNoiseMakesNoGhosts) {
   for (const double share : {0.003, 0.01, 0.02}) {
     int exact = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -223,7 +223,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
         noise = r * noise + std::sqrt(1 - r * r) * deviation * normal(random);
         load += noise;
       }
-      Listener listener;
+      test::Warnings listener;
       std::string found;
       try {
         const Protocol protocol = detect_events(recording, {}, listener);
@@ -233,7 +233,7 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
         found = error.what();
       }
       exact += found == "prreroprreroprreroprrero" ? 1 : 0;
-      EXPECT_TRUE(found == "prreroprreroprreroprrero" || !listener.warnings.empty())
+      EXPECT_TRUE(found == "prreroprreroprreroprrero" || !listener.all.empty())
           << share << ", seed " << seed << ": " << found;
     }
     EXPECT_GE(exact, share > 0.015 ? 14 : 20) << share;
@@ -241,13 +241,13 @@ TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
 }
 
 // A sensor saturated at 50 kN in a hold of 78 kN reads a constant.
-TEST(EventDetection, F8AClippedSensorIsNamed) {
+TEST(EventDetection, AClippedSensorIsNamed) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SyntheticPress press = four_presses();
     press.noise = 0.5;
     SyntheticTruth truth;
     PressRecording recording = play(press, seed, truth);
-    Listener whole, clipped;
+    test::Warnings whole, clipped;
     detect_events(recording, {}, whole);
     EXPECT_FALSE(whole.told("a sensor at its limit"));
     for (double& load : recording.load) load = std::min(load, 0.5 * 220);
@@ -258,7 +258,7 @@ TEST(EventDetection, F8AClippedSensorIsNamed) {
 }
 
 // Negative compression is not a turn under load.
-TEST(EventDetection, F8NegativeCompressionIsSaid) {
+TEST(EventDetection, NegativeCompressionIsSaid) {
   SyntheticPress press = four_presses();
   press.noise = 0.5;
   SyntheticTruth truth;
@@ -272,7 +272,7 @@ TEST(EventDetection, F8NegativeCompressionIsSaid) {
 
 // Correlated noise must not become a press unnoticed. Load errors may be underestimated, so only counts are
 // checked.
-TEST(EventDetection, F8FilteredNoiseIsNoPress) {
+TEST(EventDetection, FilteredNoiseIsNoPress) {
   for (const double noise : {0.003, 0.01, 0.02}) {
     int exact = 0;
     for (unsigned seed = 0; seed < 100; ++seed) {
@@ -362,13 +362,13 @@ TEST(EventDetection, TurnsComeInSteps) {
 }
 
 TEST(EventDetection, LoadsMissingInAHoldAreBridgedAndElsewhereRefused) {
-  Listener listener;
+  test::Warnings listener;
   const Protocol found = detect_events(
       recorded(times(20, {0}) + times(10, {50}) + times(4, {none}) + times(16, {50}) + times(20, {0})), {},
       listener);
   EXPECT_EQ(std::get<PressRequest>(found.events()[0].step).dwell, 29.0);
   EXPECT_EQ(found.recording()->missing, 4U);
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
   EXPECT_EQ(refusal(times(20, {0}) + times(30, {50}) + times(10, {none}) + times(20, {0})),
             "bad_file: \"press.csv\" lacks the load in lines 52 to 61, where it neither was held nor rested: "
             "what was done there is not recorded; fill the cells in by hand, or cut the recording there");
@@ -384,14 +384,14 @@ TEST(EventDetection, AnAngleMissingAcrossAPressIsRefusedWhereItMatters) {
 }
 
 TEST(EventDetection, SaysWhatItLeavesOut) {
-  Listener listener;
+  test::Warnings listener;
   detect_events(recorded(times(20, {0}) + times(15, {50}) + times(1, {0}) + times(15, {50}) + times(20, {0})),
                 {}, listener);
   EXPECT_TRUE(listener.told("1 stray reading is left out, in line 37: the readings around it lie on a line"));
-  listener.warnings.clear();
+  listener.all.clear();
   detect_events(recorded(times(20, {0}) + times(15, {50})), {}, listener);
   EXPECT_TRUE(listener.told("it ends under load, in line 36"));
-  listener.warnings.clear();
+  listener.all.clear();
   DetectionOptions options;
   options.overshoot = DetectionOptions::Overshoot::ignore;
   const auto over = times(20, {0}) + times(2, {60}) + times(15, {50}) + times(20, {0});

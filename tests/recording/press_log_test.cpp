@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "tests/support/run_fixture.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::press_log_test {
 namespace {
-
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  std::vector<std::string> warnings;
-};
 
 class PressLog : public InFolder {
  protected:
@@ -42,7 +36,7 @@ class PressLog : public InFolder {
   void write_log(const std::string& content) const {
     std::ofstream(folder / "log.csv", std::ios::binary) << content;
   }
-  Listener listener;
+  test::Warnings listener;
 };
 
 using PressLogWriter = PressLog;
@@ -63,7 +57,7 @@ TEST_F(PressLog, RowsAreEvents) {
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).value, 152.78e6);
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).dwell, 600.0);
   EXPECT_EQ(p.events()[3].origin, "log.csv line 3");
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
 }
 
 TEST_F(PressLog, ColumnsStandInAnyOrderAndAreNamedFreely) {
@@ -120,56 +114,54 @@ TEST_F(PressLog, NoPressureTakesTheLoadOff) {
 }
 
 // A forgotten number looks like a release.
-TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
+TEST_F(PressLog, AnEmptyLoadIsAReleaseWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n,45\n"),
             "press 1 MPa\nrelease\nrotate 90 deg\npress 1 MPa\nrelease\nrotate 45 deg\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_EQ(listener.warnings[0],
-            "\"" + path() +
-                "\": the cell of the pressure is empty in line 3, and so in 1 more: it is "
-                "taken for zero, which takes the load off; write 0 to say so");
-  listener.warnings.clear();
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_EQ(listener.all[0], "\"" + path() +
+                                 "\": the cell of the pressure is empty in line 3, and so in 1 more: it is "
+                                 "taken for zero, which takes the load off; write 0 to say so");
+  listener.all.clear();
   events("pressure [MPa],rotation [deg]\n1,0\n0,90\n1,0\n");
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
 }
 
 // Twenty minutes do not fit in ten.
-TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
+TEST_F(PressLog, ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_EQ(listener.warnings[0],
-            "\"" + path() +
-                "\": the dwell of 1200 s in line 2 goes on after line 3, which begins 600 s "
-                "later, and so in 1 more: times are kept, and nothing waits for them");
-  listener.warnings.clear();
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_EQ(listener.all[0], "\"" + path() +
+                                 "\": the dwell of 1200 s in line 2 goes on after line 3, which begins 600 s "
+                                 "later, and so in 1 more: times are kept, and nothing waits for them");
+  listener.all.clear();
   events("time [min],pressure [MPa],dwell [min]\n0,1,10\n10,1,5\n");
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
 }
 
 // 1,250 is a thousand in many countries.
-TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
+TEST_F(PressLog, ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
             "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
+  ASSERT_EQ(listener.all.size(), 1U);
   EXPECT_EQ(
-      listener.warnings[0],
+      listener.all[0],
       "\"" + path() +
           "\": the comma of \"1,250\" in line 2, column 1 (pressure) is read as a decimal sign; if it parts "
           "thousands, leave it out");
-  listener.warnings.clear();
+  listener.all.clear();
   for (const char* log : {"pressure [MPa];dwell [s]\n1,250;5\n1,5;5\n", "pressure [MPa];dwell [s]\n0,250;5\n",
                           "pressure [MPa];dwell [s]\n1234,250;5\n", "pressure [MPa],dwell [s]\n1.250,5\n"})
     events(log);
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
 }
 
-TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
+TEST_F(PressLog, UnitsOfGaugesAndScalesAreRead) {
   EXPECT_EQ(events("pressure [ksi]\n1\n"), "press 6.89476 MPa\n");
   EXPECT_EQ(events("load [lbf]\n1\n"), "press 4.44822 N\n");
   EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
 }
 
-TEST_F(PressLog, F8FormsOfLoggersAreRead) {
+TEST_F(PressLog, FormsOfLoggersAreRead) {
   const std::string first = "press 1 MPa (at 0 s, ", second = "press 2 MPa (at 900 s, ";
   const std::string utf8 = "time [s],pressure [MPa]\n0,1\n900,2\n";
   std::string utf16 = "\xFF\xFE";
@@ -189,15 +181,14 @@ TEST_F(PressLog, F8FormsOfLoggersAreRead) {
     EXPECT_NE(text.find(first), std::string::npos) << log << text;
     EXPECT_NE(text.find(second), std::string::npos) << log << text;
   }
-  listener.warnings.clear();
+  listener.all.clear();
   EXPECT_NE(read("time,pressure [MPa]\n46349.25,1\n46349.265625,2\n").text().find("press 2 MPa (at 1350 s"),
             std::string::npos);
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("\"46349.25\", are taken for days of a spreadsheet"),
-            std::string::npos);
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("\"46349.25\", are taken for days of a spreadsheet"), std::string::npos);
 }
 
-TEST_F(PressLog, F8FormsThatAreSaid) {
+TEST_F(PressLog, FormsThatAreSaid) {
   const auto said = [this](const std::string& log, const TableForm& form) {
     std::string lines;
     const Protocol protocol = read_press_log(SourceFile("log.csv", log), listener, form);
@@ -233,7 +224,7 @@ TEST_F(PressLog, F8FormsThatAreSaid) {
       "`load`");
 }
 
-TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
+TEST_F(PressLog, FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
        "column 1 (time): holds dates such as \"03/04/2026 10:00\", in which day and month may be either; "
@@ -266,14 +257,14 @@ TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
   }
   // Titles decide between two columns.
   EXPECT_EQ(events("load [N],result pressure [Pa]\n1,1\n"), "press 1 N\n");
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
 }
 
 // An angle is a stage reading, not a turn.
-TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
+TEST_F(PressLog, AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("\"angle [deg]\" (did you mean `rotation [deg]`?)"), std::string::npos);
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("\"angle [deg]\" (did you mean `rotation [deg]`?)"), std::string::npos);
 }
 
 TEST_F(PressLog, BodiesUnderLoadAreReleasedBeforeTheyAreMoved) {
@@ -288,28 +279,27 @@ TEST_F(PressLog, BodiesUnderLoadAreReleasedBeforeTheyAreMoved) {
 
 TEST_F(PressLog, UnknownColumnsAreLeftOutWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],operator,dwel [s]\n1,Li,5\n"), "press 1 MPa\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_EQ(listener.warnings[0], "\"" + path() +
-                                      "\" has columns that a protocol does not use: \"operator\", "
-                                      "\"dwel [s]\" (did you mean `dwell`?)");
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_EQ(listener.all[0], "\"" + path() +
+                                 "\" has columns that a protocol does not use: \"operator\", "
+                                 "\"dwel [s]\" (did you mean `dwell`?)");
 }
 
 TEST_F(PressLog, SampledRecordingsAreWarnedOf) {
   std::string log = "time [s],load [N]\n";
   for (int k = 0; k < 99; ++k) log += std::to_string(k) + ",1\n";
   EXPECT_EQ(read(log).count(), 99U);
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
   EXPECT_EQ(read(log + "99,1\n").count(), 100U);
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("has 100 rows and neither dwell nor turn: each is taken for an event"),
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("has 100 rows and neither dwell nor turn: each is taken for an event"),
             std::string::npos);
 }
 
 TEST_F(PressLog, DwellWithoutLoadIsAWarning) {
   EXPECT_EQ(events("pressure [MPa],dwell [s]\n0,5\n"), "release\n");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("a dwell without load changes nothing, as in line 2"),
-            std::string::npos);
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("a dwell without load changes nothing, as in line 2"), std::string::npos);
 }
 
 TEST_F(PressLog, EqualTimesAreNoStepBack) {
@@ -397,8 +387,8 @@ TEST_F(PressLog, AFileAsItIsKept) {
             "  7  press 1.9098 kN for 150 s (at 1800.5 s, press_log.csv line 7)\n"
             "  8  release (at 2700 s, press_log.csv line 8)");
   EXPECT_EQ(p.events()[6].origin, "press_log.csv line 7");
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("\"Operator\""), std::string::npos);
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("\"Operator\""), std::string::npos);
 }
 
 TEST_F(PressLogWriter, WritesWhatAPersonWould) {

@@ -7,16 +7,10 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "tests/support/run_fixture.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::press_recording_test {
 namespace {
-
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  std::vector<std::string> warnings;
-};
 
 PressRecording read(const std::string& text) { return read_press_recording(SourceFile("press.csv", text)); }
 std::string refusal(const std::string& text) {
@@ -65,7 +59,7 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
 }
 
 // An unknown unit does not prevent recognition.
-TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
+TEST(PressRecording, AUnitThatIsNotReadIsToldAndNotTheRows) {
   std::string text = "time [s],load [kN],angle [gon]\n";
   for (int k = 0; k < 120; ++k)
     text += std::to_string(k) + "," + std::to_string(k % 2 == 0 ? -0.1 : 0.1) + ",0\n";
@@ -77,7 +71,7 @@ TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   EXPECT_DOUBLE_EQ(read("time [s],load [N],angle [rev]\n0,1,0.25\n").angle[0], 0.5 * std::numbers::pi);
 }
 
-TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
+TEST(PressRecording, OtherNamesAndStampsAreRead) {
   const PressRecording r =
       read("Zeit;Kraft [kN];Winkel [deg]\n23.11.2026 10:00:00,5;1,5;0\n23.11.2026 10:01:00;2;90\n");
   ASSERT_EQ(r.time.size(), 2U);
@@ -88,15 +82,15 @@ TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
 }
 
 // A logger faster than its clock.
-TEST(PressRecording, F8EqualTimesAreSpreadWhereThatIsSaid) {
+TEST(PressRecording, EqualTimesAreSpreadWhereThatIsSaid) {
   const SourceFile file("press.csv", "time [s],load [N]\n0,1\n0,2\n1,3\n1,4\n2,5\n2,6\n2,7\n");
-  Listener listener;
+  test::Warnings listener;
   const PressRecording r = read_press_recording(file, listener, {}, EqualTimes::spread);
   const std::vector<double> wanted{0, 0.5, 1, 1.5, 2, 2.5, 3};
   ASSERT_EQ(r.time.size(), wanted.size());
   for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_EQ(r.time[k], wanted[k]) << k;
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_EQ(listener.warnings[0],
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_EQ(listener.all[0],
             "\"press.csv\": 4 rows have the time of the row before them, and are spread evenly until the "
             "next time");
   EXPECT_EQ(error_of([] {

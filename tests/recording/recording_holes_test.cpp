@@ -122,31 +122,31 @@ TEST(RecordingHoles, AGapBetweenTwoLevelsIsRefusedByItsLines) {
 }
 
 TEST(RecordingHoles, AGapInAHoldOrARestIsWarnedOf) {
-  Listener listener;
+  test::Warnings listener;
   const Protocol held = detect_events(without_rows(two_levels(75, 90, 75), 90, 70), {}, listener);
   EXPECT_EQ(kinds(held), "prre");
   EXPECT_TRUE(
       listener.told("no load was recorded for 71 s in the time between lines 91 and 162, and it is "
                     "taken to have stayed at 75"));
-  Listener at_rest;
+  test::Warnings at_rest;
   const Protocol rested = detect_events(without_rows(two_levels(75, 0, 50), 102, 46), {}, at_rest);
   EXPECT_EQ(kinds(rested), "prreprre");
   EXPECT_TRUE(at_rest.told("no load was recorded for 47 s in the time between lines 103 and 150"));
-  Listener brief;
+  test::Warnings brief;
   detect_events(without_rows(two_levels(75, 0, 50), 99, 2), {}, brief);
   EXPECT_TRUE(brief.told("the load is missing while it changes, in the time between lines 100 and 103"));
 }
 
 TEST(RecordingHoles, AbsentRowsAndEmptyCellsGiveTheSameFinding) {
   const auto finding = [](const PressRecording& recording) {
-    Listener listener;
+    test::Warnings listener;
     std::string found;
     try {
       found = detect_events(recording, {}, listener).text();
     } catch (const Error& error) {
       found = std::string(error.what()).substr(0, std::string("\"synthetic.csv\" lacks the load in").size());
     }
-    return found + ", " + std::to_string(listener.warnings.size()) + " warnings";
+    return found + ", " + std::to_string(listener.all.size()) + " warnings";
   };
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> uniform;
@@ -206,7 +206,7 @@ TEST(RecordingHoles, StepsTooUnevenToTellGapsAreWarnedOf) {
   PressRecording recording = two_levels(75, 0, 50);
   for (std::size_t first = 5; first + 21 < recording.time.size(); first += 15)
     recording = without_rows(recording, first, 6);
-  Listener listener;
+  test::Warnings listener;
   try {
     detect_events(recording, {}, listener);
   } catch (const Error&) {

@@ -44,9 +44,9 @@ std::vector<double> one_press() {
   return loads;
 }
 
-std::vector<std::string> stray_warnings(const Listener& listener) {
+std::vector<std::string> stray_warnings(const test::Warnings& listener) {
   std::vector<std::string> found;
-  for (const std::string& warning : listener.warnings)
+  for (const std::string& warning : listener.all)
     if (warning.find("stray") != std::string::npos) found.push_back(warning);
   return found;
 }
@@ -55,7 +55,7 @@ std::vector<std::string> stray_warnings(const Listener& listener) {
 void expect_one_press(std::size_t first, const std::vector<double>& readings) {
   std::vector<double> loads = one_press();
   std::copy(readings.begin(), readings.end(), loads.begin() + static_cast<std::ptrdiff_t>(first));
-  Listener listener;
+  test::Warnings listener;
   const Protocol found = detect_events(recorded(loads, 0.5), {}, listener);
   const std::string where = std::to_string(readings.size()) + " times " + std::to_string(readings[0]) +
                             " from sample " + std::to_string(first);
@@ -90,7 +90,7 @@ TEST(StrayReadings, ZerosInAHoldAreNoRelease) {
 TEST(StrayReadings, AreToldInOneLine) {
   std::vector<double> loads = one_press();
   for (const std::size_t k : {60, 160, 161, 162, 258}) loads[k] = 9999;
-  Listener listener;
+  test::Warnings listener;
   EXPECT_EQ(kinds(detect_events(recorded(loads, 0.5), {}, listener)), "prre");
   EXPECT_EQ(stray_warnings(listener),
             std::vector<std::string>{"\"press.csv\": 5 stray readings are left out, in lines 62, 162 to 164 "
@@ -105,7 +105,7 @@ std::vector<double> times(std::size_t count, double load) { return std::vector<d
 
 // No stray reading.
 void expect_kept(const std::vector<double>& loads, const std::string& wanted) {
-  Listener listener;
+  test::Warnings listener;
   EXPECT_EQ(kinds(detect_events(recorded(loads), {}, listener)), wanted);
   EXPECT_TRUE(stray_warnings(listener).empty()) << stray_warnings(listener)[0];
 }
@@ -176,7 +176,7 @@ class RandomRecording {
   }
 
   std::string difference() const {
-    Listener listener;
+    test::Warnings listener;
     const Protocol found = detect_events(recording, {}, listener);
     std::string wanted;
     for (const SyntheticHold& hold : press.holds) wanted += hold.rest > 0 ? "prre" : "pr";

@@ -13,20 +13,9 @@
 
 #include "engine/core/monitor.hpp"
 #include "engine/recording/press_recording.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity {
-
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  bool told(std::string_view part) const {
-    for (const std::string& warning : warnings)
-      if (warning.find(part) != std::string::npos) return true;
-    return false;
-  }
-  std::vector<std::string> warnings;
-};
 
 struct SyntheticHold {
   double load, dwell;         // N, s

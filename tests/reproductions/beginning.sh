@@ -4,11 +4,7 @@
 # ../known_to_fail.
 . "$(dirname "$0")/../scripts/runner/saying.sh"
 root=$(cd "$(dirname "$0")/../.." && pwd)
-program=$(readlink -f -- "$1")
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$(readlink -f -- "$1")" "$2"
 
 # Sizes with which something was met, where they take long: whole LONG SHORT.
 whole() { if [ -n "${ASPERITY_WHOLE:-}" ]; then echo "$1"; else echo "$2"; fi; }

@@ -1,28 +1,27 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# P1 to P10: sentences about the paper and about the program that did not hold are gone, and what holds stands in their
-# place, with its conditions.
+# Wrong sentences about the paper and the program are gone; the true ones replace them, with their conditions.
 set -eu
 . "$(dirname "$0")/beginning.sh"
 cd "$root"
 gone() { ! grep -n -F -- "$1" "$2" || fail "$2 says it still"; }
 stands() { tr -s '\n ' '  ' < "$2" | sed 's/ -- / /g' | grep -qF -- "$1" || fail "$2 does not say: $1"; }
-stands "IF SUMMITS STAY ELASTIC ON QUARTZ" examples/paper/fig7_tilt.lua                    # P1
+stands "IF SUMMITS STAY ELASTIC ON QUARTZ" examples/paper/fig7_tilt.lua
 stands "if the summits stay elastic on quartz" docs/paper.md
 stands "1.06" examples/paper/fig7_tilt.lua
-gone ".85 to 1.25 of eight pairs" examples/paper/fig7_tilt.lua                             # P2, K4
+gone ".85 to 1.25 of eight pairs" examples/paper/fig7_tilt.lua
 stands "1.19 and 1.16 over 24 pairs (standard errors" examples/paper/fig7_tilt.lua
-stands "property of boxes" examples/paper/fig8a_stiffness.lua                              # P3
+stands "property of boxes" examples/paper/fig8a_stiffness.lua
 stands "for boxes alone" examples/paper/fig8b_friction.lua
-stands "The paper's points are stylus scans" examples/paper/fig6_correlation.lua           # P4
-stands "Not found: that specimens lose D" examples/paper/fig9_flattening.lua               # P5
-gone "reproduces it figure by figure" README.md                                            # P6
+stands "The paper's points are stylus scans" examples/paper/fig6_correlation.lua
+stands "Not found: that specimens lose D" examples/paper/fig9_flattening.lua
+gone "reproduces it figure by figure" README.md
 stands "We do not compare with the paper's measured values" README.md
-stands "by the ratio r of the hardnesses at each node" docs/experimenter.md                # P8
-"$program" help lab.exact.persson | tr -s '\n ' '  ' | grep -q "25 % below simulations" || fail "persson"   # P10
+stands "by the ratio r of the hardnesses at each node" docs/experimenter.md
+"$program" help lab.exact.persson | tr -s '\n ' '  ' | grep -q "25 % below simulations" || fail "persson"
 "$program" help lab.contact | tr -s '\n ' '  ' | grep -q "0.5 to 1.5 ranges" || fail "adhesion"
 "$program" help surface:rotated | tr -s '\n ' '  ' | grep -q "there and back" || fail "rotated"
-gone "3.1 % at most" docs/performance.md                                                   # N13
+gone "3.1 % at most" docs/performance.md
 ! grep -rn "of which a protocol makes nothing" engine bindings || fail "English"
 ! grep -rnE "a line a call|pairs a pair|of flats none" bindings README.md docs/guide.md || fail "English"
 gone "by \`--shard\` or mpirun, and so does one contact" README.md

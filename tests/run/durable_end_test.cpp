@@ -76,7 +76,7 @@ class DurableEnd : public InFolder {
   }
 };
 
-TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
+TEST_F(DurableEnd, EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.out = folder / "runs" / "one";
@@ -105,7 +105,7 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
 }
 
 // The end of the run waits for results of a shared file.
-TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
+TEST_F(DurableEnd, ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.out = folder / "one";
@@ -131,7 +131,7 @@ TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone)
 }
 
 // A resume needs both files.
-TEST_F(DurableEnd, F2ScriptAndManifestAreOnTheDiskFromTheBeginning) {
+TEST_F(DurableEnd, ScriptAndManifestAreOnTheDiskFromTheBeginning) {
   RunSetup setup;
   setup.script_name = "s.lua";
   setup.script_text = "return 1";

@@ -249,7 +249,7 @@ constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},       {"MPa", "0.01 GPa
                                   {"", "10 %", 0.1},           {"N", "3 kN", 3000},
                                   {"MPa/um", "80 MPa/um", 80}, {"kg m^-3", "2 g/cm^3", 2000}};
 
-TEST(Expectation, B6QuantitiesAreCountedInTheUnitOfTheColumn) {
+TEST(Expectation, QuantitiesAreCountedInTheUnitOfTheColumn) {
   for (const UnitCase& one : same_kind) {
     SCOPED_TRACE(std::string(one.quantity) + " in " + one.column);
     for (const double factor : {1.0, 1.001}) {
@@ -268,7 +268,7 @@ TEST(Expectation, B6QuantitiesAreCountedInTheUnitOfTheColumn) {
   }
 }
 
-TEST(Expectation, B6AnotherKindIsAnError) {
+TEST(Expectation, AnotherKindIsAnError) {
   const auto refused = [](std::string unit, const char* quantity) {
     Table table;
     const std::vector<Entry> row = {{"v", 10.0, std::move(unit)}};
@@ -298,7 +298,7 @@ TEST(Expectation, B6AnotherKindIsAnError) {
   EXPECT_NE(refused("%", "10").find("has no unit"), std::string::npos);
 }
 
-TEST(Expectation, B6SaysWhatWasWantedInTheUnitOfTheColumn) {
+TEST(Expectation, SaysWhatWasWantedInTheUnitOfTheColumn) {
   Table table;
   const std::vector<Entry> row = {{"p", 12.0, "MPa"}};
   table.append(row);

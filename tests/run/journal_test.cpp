@@ -136,7 +136,7 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
 }
 
 // A power cut leaves zeros; the run rewrites lines from there.
-TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
+TEST_F(JournalTest, IsTakenUpToAHoleAndElseNamesWhatServes) {
   const auto lines = [](Journal& journal) {
     for (int k = 1; k <= 4; ++k) journal.write("row", Json::object({{"row", Json::object({{"k", k}})}}));
   };
@@ -161,7 +161,7 @@ TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
   }
 }
 
-TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
+TEST_F(JournalTest, ALinkIsNotTakenUp) {
   {
     Journal journal(folder / "victim");
     journal.write("row");
@@ -174,7 +174,7 @@ TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
 }
 
 // A hard-linked copy stays unchanged; the journal is complete.
-TEST_F(JournalTest, S3AnotherNameOfTheFileKeepsItsBytes) {
+TEST_F(JournalTest, AnotherNameOfTheFileKeepsItsBytes) {
   const std::filesystem::path file = folder / "j.jsonl", copy = folder / "copy";
   {
     Journal journal(file);

@@ -166,7 +166,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
 }
 
 // One user cannot fill a shared folder.
-TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
+TEST_F(ResultFilesTest, OneAddsNoMoreThanItMay) {
   const Field field = ramp(64, 64);
   ResultFilesSetup shared = setup();
   shared.most_bytes = unlimited;
@@ -185,7 +185,7 @@ TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
       << files.notices().front();
 }
 
-TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
+TEST_F(ResultFilesTest, PartsOfKilledWritersGoAndOthersCount) {
   const Field field = ramp(64, 64);
   ResultFilesSetup limited = setup();
   limited.most_bytes = 250 << 10;
@@ -203,7 +203,7 @@ TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
   EXPECT_TRUE(std::filesystem::exists(now));  // another process writes the file
 }
 
-TEST_F(ResultFilesTest, F14TheLimitIsToldInItsOwnUnit) {
+TEST_F(ResultFilesTest, TheLimitIsToldInItsOwnUnit) {
   ResultFilesSetup limited = setup();
   limited.most_bytes = 3 << 10;
   ResultFiles files(limited);

@@ -313,7 +313,7 @@ TEST_F(RunDirectoryTest, DryRunWritesNothing) {
   fs::current_path(before);
 }
 
-TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
+TEST_F(RunDirectoryTest, IsLockedToItsEnd) {
   RunSetup s = setup();
   s.out = folder / "r";
   RunDirectory run(s);
@@ -353,7 +353,7 @@ TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
 }
 
 // The directory is locked throughout for the other process.
-TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
+TEST_F(RunDirectoryTest, OnePreparedForAnotherProcessIsLockedThroughout) {
   RunSetup s = setup();
   s.out = folder / "above" / "r";
   RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
@@ -400,7 +400,7 @@ TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
 }
 
 // A run killed before its first manifest may start again.
-TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
+TEST_F(RunDirectoryTest, WhatHasNotBegunMayBegin) {
   RunSetup s = setup();
   s.out = folder / "r";
   const auto leave = [&](const std::vector<std::string>& files) {
@@ -440,7 +440,7 @@ TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   EXPECT_FALSE(is_not_begun(*s.out));
 }
 
-TEST_F(RunDirectoryTest, F4AMoveAsideThatWasCutOffGoesOn) {
+TEST_F(RunDirectoryTest, AMoveAsideThatWasCutOffGoesOn) {
   const fs::path root = folder / "r";
   fs::create_directories(root / "before-1");
   fs::create_directories(root / "before-2");
@@ -455,7 +455,7 @@ TEST_F(RunDirectoryTest, F4AMoveAsideThatWasCutOffGoesOn) {
   EXPECT_TRUE(is_not_begun(root));
 }
 
-TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
+TEST_F(RunDirectoryTest, AFinishedRunIsMendedOrSaysWhatCannotBe) {
   RunSetup s = setup();
   s.out = folder / "r";
   const auto work = [](RunDirectory& run, double value) {
@@ -503,7 +503,7 @@ TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
   EXPECT_EQ(manifest(run).find("status")->string(), "failed");
 }
 
-TEST_F(RunDirectoryTest, F3TheJournalIsKnownByItsDigest) {
+TEST_F(RunDirectoryTest, TheJournalIsKnownByItsDigest) {
   RunSetup s = setup();
   s.out = folder / "r";
   {
@@ -526,7 +526,7 @@ TEST_F(RunDirectoryTest, F3TheJournalIsKnownByItsDigest) {
   EXPECT_THROW(read_run(*s.out), Error);
 }
 
-TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
+TEST_F(RunDirectoryTest, AJournalThatIsTakenAwayUnderWayIsNoticed) {
   RunSetup s = setup();
   s.out = folder / "r";
   RunDirectory run(s);
@@ -543,7 +543,7 @@ TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
 }
 
 // A link replaces each of the run's own files and folders.
-TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
+TEST_F(RunDirectoryTest, ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
   RunSetup s = setup();
   s.out = folder / "r";
   {
@@ -577,7 +577,7 @@ TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
 }
 
 // A linked table is replaced.
-TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
+TEST_F(RunDirectoryTest, ATableIsNotAppendedToThroughALink) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
   run.notebook("book")->write(row);
@@ -590,7 +590,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
 }
 
 // Resuming a run leaves its hard-linked copy (cp -al) unchanged.
-TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
+TEST_F(RunDirectoryTest, ACopyByHardLinksIsAnotherRun) {
   RunSetup s = setup();
   s.out = folder / "r";
   std::vector<Entry> row = {{"k", 1.0}};
@@ -624,7 +624,7 @@ TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
 }
 
 // A table with a second hard link is replaced too.
-TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
+TEST_F(RunDirectoryTest, ATableIsNotAppendedToUnderItsOtherName) {
   RunDirectory run(setup());
   std::vector<Entry> row = {{"k", 1.0}};
   run.notebook("book")->write(row);
@@ -634,7 +634,7 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 
-TEST_F(RunDirectoryTest, F10TakenUpItHasNoPartsOfAKilledWriter) {
+TEST_F(RunDirectoryTest, TakenUpItHasNoPartsOfAKilledWriter) {
   RunSetup s = setup();
   s.out = folder / "r";
   {

@@ -53,7 +53,7 @@ class RunLockTest : public InFolder {
   static int no_locks(int) { return ENOLCK; }
 };
 
-TEST_F(RunLockTest, F1TheSecondComerIsToldProcessAndHostAndChangesNothing) {
+TEST_F(RunLockTest, TheSecondComerIsToldProcessAndHostAndChangesNothing) {
   const std::shared_ptr<RunLock> lock = RunLock::take(folder);
   const std::string before = content_of(folder / ".lock");
   for (int k = 0; k < 3; ++k)
@@ -67,7 +67,7 @@ TEST_F(RunLockTest, F1TheSecondComerIsToldProcessAndHostAndChangesNothing) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
+TEST_F(RunLockTest, IsFreeOnceItsProcessIsKilled) {
   const pid_t child = holder();
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find("bad_state: " + held_by(child)), 0U);
   kill(child);
@@ -75,7 +75,7 @@ TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
 }
 
 // A new holder may not have written its name.
-TEST_F(RunLockTest, F1WhoIsNamedLives) {
+TEST_F(RunLockTest, WhoIsNamedLives) {
   const pid_t child = holder();
   kill(child);
   fs::create_directory(folder / "other");
@@ -92,7 +92,7 @@ TEST_F(RunLockTest, F1WhoIsNamedLives) {
 }
 
 // One holds the lock until all others are refused.
-TEST_F(RunLockTest, F1OfManyOneHasIt) {
+TEST_F(RunLockTest, OfManyOneHasIt) {
   constexpr int comers = 8;
   int until[2];
   ASSERT_EQ(::pipe(until), 0);
@@ -129,7 +129,7 @@ TEST_F(RunLockTest, F1OfManyOneHasIt) {
   EXPECT_EQ(refused, comers - 1);
 }
 
-TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
+TEST_F(RunLockTest, WithoutLocksProcessAndHostDecide) {
   const pid_t child = holder(no_locks);
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
             "bad_state: " + held_by(child) + "; wait until that one has ended, or give another directory");
@@ -151,7 +151,7 @@ TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
 }
 
 // A sandbox hides boot time and process namespace and forbids signals: the holder counts as alive.
-TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
+TEST_F(RunLockTest, AHolderOfWhomLittleIsKnownIsBelievedToLive) {
   utsname system{};
   ::uname(&system);
   std::ofstream(folder / ".lock")
@@ -161,7 +161,7 @@ TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
 }
 
 // The lock lasts as long as either process.
-TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
+TEST_F(RunLockTest, AnInheritedLockHoldsUntilBothAreDone) {
   const std::string held = "bad_state: " + held_by(::getpid());
   std::shared_ptr<RunLock> parent = RunLock::take(folder);
   std::shared_ptr<RunLock> child = RunLock::inherited(folder, ::dup(parent->descriptor()));
@@ -175,7 +175,7 @@ TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
 }
 
-TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
+TEST_F(RunLockTest, IsFreeAtOnceThoughAChildIsStillDying) {
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
   const pid_t process = ::fork();
@@ -206,7 +206,7 @@ TEST_F(RunLockTest, ATornNameHoldsNothing) {
   }
 }
 
-TEST_F(RunLockTest, S3IsNoLink) {
+TEST_F(RunLockTest, IsNoLink) {
   std::ofstream(folder / "victim") << "mine";
   fs::create_symlink(folder / "victim", folder / ".lock");
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }),
@@ -215,7 +215,7 @@ TEST_F(RunLockTest, S3IsNoLink) {
   EXPECT_EQ(content_of(folder / "victim"), "mine");
 }
 
-TEST_F(RunLockTest, S3AnotherNameOfItsFileKeepsItsBytes) {
+TEST_F(RunLockTest, AnotherNameOfItsFileKeepsItsBytes) {
   std::ofstream(folder / "victim") << "mine";
   fs::create_hard_link(folder / "victim", folder / ".lock");
   {

@@ -9,11 +9,7 @@ local function bench(effects, accuracy)
   return lab.contact{ lower=body, upper=lab.rigid, boundary="free", effects=effects,
     accuracy=accuracy or { tolerance=1e-4 } }
 end
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok)
-  for _, part in ipairs{...} do assert(message:find(part, 1, true), message) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").anywhere
 
 -- A pull is carried up to the pull-off; a larger pull leaves the contact unchanged.
 local c = bench{ adhesion={ work=0.01, range=0.05 } }

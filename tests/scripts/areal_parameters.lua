@@ -10,10 +10,7 @@ end
 local function near(value, wanted, relative, what)
   assert(math.abs(value - wanted) <= relative * math.abs(wanted) + 1e-15, what .. ": " .. tostring(value) .. ", not " .. wanted)
 end
-local function refused(words, call)
-  local ok, message = pcall(call)
-  assert(not ok and message:find("areal_parameters.lua:%d+: ") and message:find(words, 1, true), tostring(message))
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 
 -- A sine of two directions, 1 um high on cells of half a um.
 local um = 1e-6
@@ -34,7 +31,7 @@ near(p.Vmp, s:bearing():material_volume(0.1), 1e-12, "Vmp")
 near(s:bearing():ratio(0), 0.5, 0.02, "half lies above the mean")
 near(s:bearing():height(0.1), -s:bearing():height(0.9), 1e-9, "the curve is odd")
 near(s:autocorrelation():at(0, 0), 1, 1e-12, "the autocorrelation at the origin")
-refused("over half the map", function() return s:autocorrelation():at(200, 0) end)
+refused(function() s:autocorrelation():at(200, 0) end, "over half the map")
 
 -- Ridges have a lay and no ratio of texture, but a bound for it.
 local ridges = lab.surface.from_function{ cells=128, size="128 um", height=function(x) return um * math.sin(2 * math.pi * x / (16 * um)) end }
@@ -57,7 +54,7 @@ local plane = lab.surface.from_function{ cells=64, size="64 um", height=function
 local nothing = plane:areal_parameters{ F=1 }
 assert(nothing.Sq < 1e-18 and nothing.Ssk == nil and nothing.Str == nil and nothing.Std == nil and nothing.Spd == nil)
 assert(nothing:why_not "Sku":find("but for rounding", 1, true))
-refused("nothing but rounding is left", function() return plane:profile{ row=3 }:profile_parameters{ section="12 um", F=1 } end)
+refused(function() plane:profile{ row=3 }:profile_parameters{ section="12 um", F=1 } end, "nothing but rounding is left")
 local row = lab.surface.from_function{ cells={ 64, 1 }, size={ "64 um", "1 um" }, height=function(x) return um * math.sin(x / um) end }
 assert(row:areal_parameters().Std == nil and row:areal_parameters().Spd == nil)
 
@@ -65,10 +62,10 @@ assert(row:areal_parameters().Std == nil and row:areal_parameters().Spd == nil)
 near(s:profile{ row=5 }:bearing():ratio(0), 0.5, 0.05, "Rmr(0)")
 near(s:profile{ row=5 }:bearing():height(0), s:profile{ row=5 }:roughness().peak, 1e-9, "Rmc(0), of whole periods")
 
-refused("is not below `L`", function() return s:areal_parameters{ S="1 mm", L="1 um" } end)
-refused("there is no areal parameter `Sqq`", function() return p:why_not "Sqq" end)
-refused("did you mean", function() return p.Sqr end)
-refused("a material ratio is a share", function() return s:bearing():height(1.5) end)
+refused(function() s:areal_parameters{ S="1 mm", L="1 um" } end, "is not below `L`")
+refused(function() p:why_not "Sqq" end, "there is no areal parameter `Sqq`")
+refused(function() return p.Sqr end, "did you mean")
+refused(function() s:bearing():height(1.5) end, "a material ratio is a share")
 
 local slopes = s:scale_dependence{ of="slope", cells={ 1, 4 } }
 near(slopes.value[1], p.Sdq / math.sqrt(2), 1e-9, "slope along x over a cell")
@@ -81,7 +78,7 @@ near(blunt.cut_off, s:reliability{ tip="10 um" }.x, 1e-12, "the cut-off of the t
 assert(blunt.cut_off > 2 * um and blunt.reliable[1] == false and blunt.reliable[2] == false)
 assert(blunt.reliable[3] == (blunt.distance[3] >= blunt.cut_off) and #blunt.reliable == 3)
 assert(s:scale_dependence{ of="height", tip="1 nm" }.reliable[1])
-refused("whose stencil fits", function() return s:scale_dependence{ cells={ 300 } } end)
+refused(function() s:scale_dependence{ cells={ 300 } } end, "whose stencil fits")
 
 -- A trace: sections as the standard has them, none guessed.
 local trace = ridges:profile{ row=5 }
@@ -93,10 +90,10 @@ assert(q.sections == 5 and q.measured == 2560)
 near(q.Rsm, 64 * um, 1e-3, "Rsm")
 near(q.Rz, 2 * um, 0.03, "Rz")
 assert(q.u_Rz >= 0 and q.Rdq > 0 and q.profile:roughness().Ra == q.profile:roughness().Ra)
-refused("neither `section` nor `class`", function() return long:profile_parameters{ F=1 } end)
-refused("both `section` and `class`", function() return long:profile_parameters{ section="1 mm", class="Sc3" } end)
-refused("there is no setting class `Sc7`", function() return long:profile_parameters{ class="Sc7" } end)
-refused("holds no section", function() return trace:profile_parameters{ class="Sc5" } end)
+refused(function() long:profile_parameters{ F=1 } end, "neither `section` nor `class`")
+refused(function() long:profile_parameters{ section="1 mm", class="Sc3" } end, "both `section` and `class`")
+refused(function() long:profile_parameters{ class="Sc7" } end, "there is no setting class `Sc7`")
+refused(function() trace:profile_parameters{ class="Sc5" } end, "holds no section")
 
 -- The primary profile keeps its long waves and its whole length; nothing is required of the call.
 local waves = lab.surface.from_function{ cells={ 4096, 1 }, size={ "4.096 mm", "1 um" }, height=function(x)
@@ -109,7 +106,7 @@ assert(primary.measured == 4096 and primary.sections == 1 and primary.u_Pz == ni
 near(primary.section, 4.096e-3, 1e-12, "the evaluation length")
 assert(waves:profile_parameters{ section="0.512 mm" }.Rq < 0.75 * um)
 assert(waves:primary_parameters{ S="64 um", F=1, sections=5 }.u_Pz > 0)
-refused("did you mean", function() return primary.Rq end)
-refused("`primary_parameters` takes no long waves away", function() return waves:profile_parameters{} end)
-refused("unknown key `section`", function() return waves:primary_parameters{ section="0.8 mm" } end)
+refused(function() return primary.Rq end, "did you mean")
+refused(function() waves:profile_parameters{} end, "`primary_parameters` takes no long waves away")
+refused(function() waves:primary_parameters{ section="0.8 mm" } end, "unknown key `section`")
 print "areal parameters: done"

@@ -3,13 +3,7 @@
 --! output: all refused
 local lab = require "asperity"
 local S = lab.surface
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(message:find("bad_heights.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() S.from_table{ size=1, heights={ { 1, 0/0 } } } end, "finite")
 refused(function() S.from_table{ size=1, heights={ { 1, math.huge } } } end, "finite")
 refused(function() S.from_table{ size=1, heights={ { 1, "2" } } } end, 'heights[1][2] is the string "2"')

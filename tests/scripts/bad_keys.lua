@@ -3,13 +3,7 @@
 --! output: all refused
 local lab = require "asperity"
 local S = lab.surface
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(message:find("bad_keys.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() S.weierstrass_mandelbrot{ cells=8, D=2.5, gama=1.5 } end, "unknown key `gama` (did you mean `gamma`?)")
 refused(function() lab.material{ young=1e9, poisson=0.3, hardnes=1e9 } end, "(did you mean `hardness`?)")
 refused(function() S.flat{ cells=8 } end, "`size` is missing", 'e.g. "250 um"')

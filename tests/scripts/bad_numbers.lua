@@ -4,13 +4,7 @@
 local lab = require "asperity"
 local S = lab.surface
 local W = S.weierstrass_mandelbrot
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(message:find("bad_numbers.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() W{ cells=0, D=2.5 } end, "`cells` is 0; give a whole number from 1 to 65536")
 refused(function() W{ cells={ 8, 0 }, D=2.5 } end, "`cells` is 0")
 refused(function() W{ cells=-4, D=2.5 } end, "`cells` is -4")

@@ -2,13 +2,7 @@
 -- Protocols that make no sense: every problem of a list is named by its event, every one of a log by its line.
 --! output: all refused
 local lab = require "asperity"
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(not ok, "this was accepted at line " .. line)
-  assert(message:find("bad_protocols.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local P = lab.protocol
 refused(function() P{} end, "a protocol of no events was asked")
 refused(function() P(3) end, "lab.protocol takes a list of events, and was given the number 3")

@@ -4,13 +4,7 @@
 --! file: kept.csv: 41
 --! file: kept.csv: 42
 local lab = require "asperity"
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(message:find("bad_records.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local book = lab.notebook "kept"
 book:write{ a=41 }
 refused(function() lab.notebook "" end, "a notebook has an empty name")

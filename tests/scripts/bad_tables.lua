@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Tables that can be read in two ways, or not at all: file, line, column, what was found and what would work.
 --! exit: 1
---! error: bad_tables.lua:42: 
+--! error: bad_tables.lua:38: 
 --! error: log.csv" has 2 problems
 --! error:   line 2, column 2 (load): "x" is no number
 --! error:   line 3, column 1 (N): "new" is no number, as others of this column are; mend it, or text={ "N" }
@@ -11,11 +11,7 @@ local function write(text)
   local file <close> = assert(io.open("log.csv", "wb"))
   file:write(text)
 end
-local function refused(words, call, ...)
-  local ok, message = pcall(call, ...)
-  assert(not ok, words .. ": this was taken")
-  assert(message:find(words, 1, true), message)
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
 local function file(words, text, options)
   write(text)
   refused(words, lab.table.read, "log.csv", options)

@@ -3,13 +3,7 @@
 --! output: all refused
 local lab = require "asperity"
 local S = lab.surface
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(message:find("bad_units.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() S.flat{ cells=8, size="1 kg" } end, '`size`: "1 kg": a mass where a length is wanted')
 refused(function() S.flat{ cells=8, size="1 micron" } end, "`size`: ")
 refused(function() S.flat{ cells=8, size="1" } end, "`size`: ")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- C1: all mistakes of a file at once, each at its line. Mistakes caught by pcall are notes, and the check continues.
+-- All mistakes of a file at once, each at its line. Mistakes caught by pcall are notes, and the check continues.
 --! command: check
 --! exit: 1
 --! error: check_many.lua:20: lab.surface has no field `self_afine` (did you mean `self_affine`?)

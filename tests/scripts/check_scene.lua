@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- B12: what a scene needs is known to the dry run, though its bodies are not made.
+-- What a scene needs is known to the dry run, though its bodies are not made.
 --! command: check
 --! exit: 1
 --! error: check_scene.lua:17: lab.contact: 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- N9: where a script presses by flattening, the memory of a contact holds what seeking the load takes.
+-- Where a script presses by flattening, the memory of a contact holds what seeking the load takes.
 --! command: explain
 --! output: 3.049 MiB at most
 --! output: 1.937 MiB more for a press by `flatten`, for a moment

@@ -3,12 +3,7 @@
 --! output: ok
 local lab = require "asperity"
 local S = lab.surface
-local function refused(what, ...)
-  local ok, message = pcall(what)
-  assert(not ok, "was not refused")
-  message = tostring(message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").anywhere
 local function body(seed)
   return S.self_affine{ cells=64, size="250 um", hurst=0.8, ra="1 um", short_wave="24 um", seed=seed,
     material=lab.material "Al-2011" }

@@ -7,11 +7,7 @@ local function file_of(name, text)
   file:write(text)
   return name
 end
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local function missing(height) return height ~= height end
 
 local text = file_of("map.txt", "1 2 nan 4\n5 bad 7 8\n9 10 11 12\n")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- B10: the line that ran, with a traceback.
+-- The line that ran, with a traceback.
 --! flags: --limit-time 2s
 --! exit: 1
 --! error: the time limit

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- B10: the line that ran, with a traceback.
+-- The line that ran, with a traceback.
 --! flags: --limit-memory 64M
 --! exit: 1
 --! error: limit_memory_table.lua:8: not enough memory

@@ -55,14 +55,10 @@ local function scene(effects)
   s.stage = lab.tilt_stage{ contact=c, friction=law, mass="4.3 g" }
   return s
 end
+local refusal = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").anywhere
 local function refused(s, row)
   local effect, what, ask = table.unpack(row)
-  local ok, message = pcall(ask, s)
-  assert(not ok, what .. " was given without " .. effect)
-  for _, part in ipairs{ effect, what } do
-    assert(message:find(part, 1, true), ("%s of %s: %s"):format(what, effect, message))
-  end
-  assert(message:find("needs_effect.lua:", 1, true), "the line of the script: " .. message)
+  refusal(function() ask(s) end, effect, what, "needs_effect.lua:")
 end
 
 -- A bare scene refuses every name. So does a scene with all other effects.

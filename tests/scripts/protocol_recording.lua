@@ -53,10 +53,8 @@ local rows = lab.protocol.read("recorded.csv", { events="rows" })
 assert(#rows > 200)
 local plain = lab.protocol.read("recorded.csv", { events="detect", zero="2.5 N", noise="0.2 N", turn_step="90 deg" })
 assert(math.abs(plain:events()[1].load - 100.5) < 0.2)
-local function refused(options, text)
-  local ok, message = pcall(lab.protocol.read, "recorded.csv", options)
-  assert(not ok and message:find(text, 1, true), message)
-end
+local with = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
+local function refused(options, text) with(text, lab.protocol.read, "recorded.csv", options) end
 refused({ events="rows", noise="1 N" }, "with events=\"rows\" nothing is detected, so only `events` may be given")
 refused({ noise="1 MPa" }, "`noise` is a pressure, and \"recorded.csv\" records a force")
 refused({ events="detct" }, "did you mean `detect`?")

@@ -3,11 +3,7 @@
 --! output: all as it should be
 local lab = require "asperity"
 local S, um, deg = lab.surface, lab.units.um, lab.units.deg
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local function near(a, b, within) assert(math.abs(a - b) <= within, a .. " is not near " .. b) end
 
 local before = S.self_affine{ cells=128, size="128 um", hurst=0.8, rms_height="1 um", roll_off="40 um", short_wave="6 um" }

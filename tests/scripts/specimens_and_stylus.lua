@@ -3,14 +3,7 @@
 --! output: all as it should be
 local lab = require "asperity"
 local S, um = lab.surface, lab.units.um
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  local line = debug.getinfo(call, "S").linedefined
-  local here = "specimens_and_stylus.lua:" .. line .. ": "
-  assert(message:find(here, 1, true), "no line " .. line .. " in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local function near(a, b, relative) assert(math.abs(a / b - 1) <= relative, a .. " is not near " .. b) end
 
 -- The specimen.

@@ -74,11 +74,7 @@ local again = lab.spread.read("made.npy", { size = 1e-4 })
 assert(made.digest == again.digest and made.peak == again.peak)
 assert(lab.spread.read("made.npy", { size = 1e-4, unit = "um" }).rms_height * 1e6 - made.rms_height < 1e-18)
 
-local function fails(text, call, ...)
-  local ok, message = pcall(call, ...)
-  assert(not ok, "there is no error: " .. text)
-  if not tostring(message):find(text, 1, true) then error(tostring(message) .. "\ndoes not say: " .. text, 2) end
-end
+local fails = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
 local function scene(changes)
   local keys = { lower = wave, upper = lab.rigid, boundary = "periodic", effects = { elasticity = "half_space" } }
   for key, value in pairs(changes) do keys[key] = value end

@@ -6,11 +6,7 @@
 --! error: the answer does not hang on the inputs: does `ask` use them?
 --! output: all told
 local lab = require "asperity"
-local function refused(words, call, keys)
-  local ok, message = pcall(call, keys)
-  assert(not ok, words .. ": this was taken")
-  assert(message:find(words, 1, true), message)
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
 
 -- A part that is 0 because `ask` forgot it.
 lab.budget{ ask = function() return 3 end, replicate = { seed = { 1, 2, 3 } } }

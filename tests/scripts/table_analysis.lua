@@ -5,13 +5,7 @@
 --! file: fit.svg: </svg>
 --! file: hist.svg: </svg>
 local lab = require "asperity"
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  local line = debug.getinfo(call, "S").linedefined
-  assert(not ok, "this was accepted at line " .. line)
-  assert(message:find("table_analysis.lua:", 1, true), "no line in: " .. message)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local function near(a, b, within) assert(math.abs(a - b) <= (within or 1e-12) * math.abs(b), a .. " is not " .. b) end
 
 local book = lab.notebook "trials"

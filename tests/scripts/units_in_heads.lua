@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Tables of points: the units of their heads (B2), points missing (B3), and profiles of two columns (F7).
+-- Tables of points: the units of their heads, points missing, and profiles of two columns.
 --! output: as they were measured
 local lab = require "asperity"
 local function file_of(name, text)
@@ -7,11 +7,7 @@ local function file_of(name, text)
   file:write(text)
   return name
 end
-local function refused(call, ...)
-  local ok, message = pcall(call)
-  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
-  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
-end
+local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local function near(a, b) assert(math.abs(a - b) <= 1e-12 * math.abs(b), a .. " is not " .. b) end
 
 local own = file_of("own.txt", "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0,2;0;1,1\n0;0,1;0,9\n0,1;0,1;2,0\n0,2;0,1;1,7\n")

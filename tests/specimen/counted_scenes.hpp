@@ -14,6 +14,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::counted {
 
@@ -35,12 +36,8 @@ inline const std::vector<Bench> benches = {{"boxes", Boundary::free, BoxOptions{
                                            {"free half-space", Boundary::free, HalfSpaceOptions{}}};
 
 inline Surface rough(std::uint64_t seed, int cells = 48) {
-  SelfAffineOptions options;
-  options.grid = make_grid(cells, cells, 1, 1);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(cells, cells, 1, 1), 0.8, 8.0 / cells, seed);
   options.rms_slope = 0.1;
-  options.short_wave = 8.0 / cells;
-  options.seed = seed;
   return self_affine_surface(options).with_material(test::elastic(1, 0.3));
 }
 

@@ -7,6 +7,7 @@
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::displacement_test {
 namespace {
@@ -14,12 +15,8 @@ namespace {
 constexpr double megapascal = 1e6;
 
 Surface rough(std::uint64_t seed) {
-  SelfAffineOptions options;
-  options.grid = make_grid(64, 64, 100e-6, 100e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(64, 64, 100e-6, 100e-6), 0.8, 12e-6, seed);
   options.ra = 0.3e-6;
-  options.short_wave = 12e-6;
-  options.seed = seed;
   return self_affine_surface(options).with_material(named_material("Al-2011"));
 }
 

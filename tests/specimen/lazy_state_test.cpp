@@ -8,10 +8,8 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/specimen/specimen_pair.hpp"
-#include "engine/surface/generators/self_affine.hpp"
-#include "tests/contact/contacts.hpp"
+#include "tests/specimen/counted_scenes.hpp"
 
 namespace asperity::lazy_state_test {
 namespace {
@@ -52,16 +50,8 @@ std::vector<LazyQuantity> lazy_quantities() {
 }
 
 Scene plastic_scene() {
-  const auto rough = [](std::uint64_t seed) {
-    SelfAffineOptions options;
-    options.grid = make_grid(cells, cells, 1, 1);
-    options.hurst = 0.8;
-    options.rms_slope = 0.1;
-    options.short_wave = 8.0 / cells;
-    options.seed = seed;
-    return self_affine_surface(options).with_material(test::elastic(1, 0.3));
-  };
-  Scene scene{rough(1), rough(2), Boundary::periodic, HalfSpaceOptions{}, Accuracy{1e-8}};
+  Scene scene{counted::rough(1, cells), counted::rough(2, cells), Boundary::periodic, HalfSpaceOptions{},
+              Accuracy{1e-8}};
   scene.effects.set(PlasticityOptions{0.05});
   return scene;
 }
@@ -79,17 +69,7 @@ Reading read(const State& state, const LazyQuantity& quantity) {
   return {scope.so_far(), memory::held() - before, value};
 }
 
-class LazyState : public testing::Test {
- protected:
-  void SetUp() override {
-    threads_ = thread_count();
-    set_thread_count(1);
-  }
-  void TearDown() override { set_thread_count(threads_); }
-
- private:
-  int threads_ = 1;
-};
+class LazyState : public counted::OnOneThread {};
 
 TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   for (const LazyQuantity& quantity : lazy_quantities()) {

@@ -19,7 +19,7 @@ using test::elastic;
 using test::random_surface;
 using test::scene_of;
 
-TEST(PlannedMemory, N9OfElementsIsNotExceeded) {
+TEST(PlannedMemory, OfElementsIsNotExceeded) {
   const std::vector<std::pair<int, int>> tiles{{1, 37}, {64, 64}, {251, 127}, {512, 512}};
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const auto& [nx, ny] : tiles)

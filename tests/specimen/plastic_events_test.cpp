@@ -14,6 +14,8 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::plastic_events_test {
 namespace {
@@ -23,12 +25,9 @@ using test::error_of;
 constexpr double megapascal = 1e6, micrometre = 1e-6;
 
 Surface specimen(std::uint64_t seed, double hardness = 1.1e9, int cells = 64) {
-  SelfAffineOptions options;
-  options.grid = make_grid(cells, cells, 250 * micrometre, 250 * micrometre);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(cells, cells, 250 * micrometre, 250 * micrometre),
+                                                0.8, 250 * micrometre * 6 / cells, seed);
   options.ra = 1 * micrometre;
-  options.short_wave = 250 * micrometre * 6 / cells;
-  options.seed = seed;
   Material metal = test::elastic(70e9, 0.33);
   metal.hardness = hardness;
   return self_affine_surface(options).with_material(metal);
@@ -54,13 +53,6 @@ double volume_lost(const Surface& before, const Surface& after) {
   for (std::size_t k = 0; k < before.heights().size(); ++k) sum += before.heights()[k] - after.heights()[k];
   return sum * before.grid().cell_area();
 }
-
-class Warnings : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { all.emplace_back(sentence); }
-  std::vector<std::string> all;
-};
 
 TEST(PlasticEvents, ALoadAboveTheHardnessIsRefusedBeforeAnyEvent) {
   const double tile = specimen(1).grid().area();
@@ -320,21 +312,21 @@ TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
     for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;
   scene.lower = Surface(body.grid(), std::move(tilted), SurfaceTraits{body.material(), false, {}});
   SpecimenPair pair(scene);
-  Warnings monitor;
+  test::Warnings monitor;
   pair.press(pressure(10), monitor);
   pair.press(pressure(20), monitor);
   ASSERT_EQ(monitor.all.size(), 1U);
   EXPECT_NE(monitor.all[0].find("the lower body does not continue across the rim"), std::string::npos);
   EXPECT_NE(monitor.all[0].find("boundary=\"free\""), std::string::npos);
   scene.boundary = Boundary::free;
-  Warnings quiet;
+  test::Warnings quiet;
   SpecimenPair free(scene);
   free.press(pressure(10), quiet);
   EXPECT_TRUE(quiet.all.empty());
 }
 
 TEST(PlasticEvents, ADwellWithoutCreepIsWarnedOfOnce) {
-  Warnings monitor;
+  test::Warnings monitor;
   SpecimenPair pair(scene_of());
   pair.press(pressure(10), monitor);
   EXPECT_TRUE(monitor.all.empty());
@@ -349,7 +341,7 @@ TEST(PlasticEvents, ADwellWithoutCreepIsWarnedOfOnce) {
   Scene scene = scene_of();
   scene.effects.set(CreepOptions{});
   SpecimenPair creeping(scene);
-  Warnings quiet;
+  test::Warnings quiet;
   creeping.press({PressBy::pressure, 10 * megapascal, 600.0}, quiet);
   EXPECT_TRUE(quiet.all.empty());
 }

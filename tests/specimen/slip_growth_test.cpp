@@ -12,6 +12,7 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::slip_growth_test {
 namespace {
@@ -33,12 +34,8 @@ Scene boxes_on_rough(Effects effects) {
 }
 
 Scene half_space(Effects effects) {
-  SelfAffineOptions options;
-  options.grid = make_grid(64, 64, 250e-6, 250e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(64, 64, 250e-6, 250e-6), 0.8, 24e-6, 7);
   options.ra = 1e-6;
-  options.short_wave = 24e-6;
-  options.seed = 7;
   Scene scene{self_affine_surface(options).with_material(named_material("Al-2011")), named_material("quartz"),
               Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
   scene.effects = effects;

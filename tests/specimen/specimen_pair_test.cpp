@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/contact/contacts.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::specimen_pair_test {
 namespace {
@@ -181,24 +182,19 @@ TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
 
 // Once per pair, and only with an overhang.
 TEST(SpecimenPair, AnOverhangIsWarnedOf) {
-  class Warned final : public Monitor {
-   public:
-    void progress(std::string_view, double) override {}
-    void warn(std::string_view sentence) override { sentences.emplace_back(sentence); }
-    std::vector<std::string> sentences;
-  } monitor;
+  test::Warnings monitor;
   SpecimenPair pair(rough_pair(Boundary::free));
   const std::string home = pair.press(pressure(1), monitor).digest();
   pair.rotate(quarter);
   EXPECT_EQ(pair.press(pressure(1), monitor).overlap_fraction(), 1);
-  EXPECT_TRUE(monitor.sentences.empty());
+  EXPECT_TRUE(monitor.all.empty());
   pair.rotate(0.5 * quarter);
   const State turned = pair.press(pressure(1), monitor);
   EXPECT_LT(turned.overlap_fraction(), 1);
-  ASSERT_EQ(monitor.sentences.size(), 1U);
-  EXPECT_NE(monitor.sentences[0].find("the bodies face each other on"), std::string::npos);
+  ASSERT_EQ(monitor.all.size(), 1U);
+  EXPECT_NE(monitor.all[0].find("the bodies face each other on"), std::string::npos);
   pair.press(pressure(2), monitor);
-  EXPECT_EQ(monitor.sentences.size(), 1U);
+  EXPECT_EQ(monitor.all.size(), 1U);
   EXPECT_EQ(pair.plan().overlap, turned.overlap_fraction());
   pair.rotate(-1.5 * quarter);
   EXPECT_EQ(pair.press(pressure(1)).digest(), home);

@@ -10,6 +10,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::tilt_half_space_test {
 namespace {
@@ -19,12 +20,8 @@ using test::error_of;
 constexpr double megapascal = 1e6;
 
 SpecimenPair on_quartz() {
-  SelfAffineOptions options;
-  options.grid = make_grid(64, 64, 250e-6, 250e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(64, 64, 250e-6, 250e-6), 0.8, 24e-6, 7);
   options.ra = 1e-6;
-  options.short_wave = 24e-6;
-  options.seed = 7;
   Scene scene{self_affine_surface(options).with_material(named_material("Al-2011")), named_material("quartz"),
               Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
   return SpecimenPair(scene);

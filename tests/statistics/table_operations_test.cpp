@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::table_operations_test {
 namespace {
@@ -15,12 +16,7 @@ Table measured() {
 Table computed() { return Table({{"N", ""}, {"mu", ""}}, {{2.0, 0.5}, {1.0, 0.4}, {1.0, 0.45}, {8.0, 0.6}}); }
 
 std::string refusal(const Table& table, const Table& other, const Join& join) {
-  try {
-    (void)joined(table, other, join);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "joined";
+  return test::error_of([&] { (void)joined(table, other, join); }, "joined");
 }
 
 TEST(TableOperations, JoinedRowsStandInTheOrderOfTheFirst) {

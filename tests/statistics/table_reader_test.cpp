@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tests/support/run_fixture.hpp"
-#include "tests/surface/warnings.hpp"
+#include "tests/support/warnings.hpp"
 
 namespace asperity::table_reader_test {
 namespace {
@@ -107,7 +107,7 @@ TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
 }
 
 std::vector<std::string> warnings_of(const std::string& text, const TableForm& form = {}) {
-  testing::Warnings warnings;
+  test::Warnings warnings;
   read_measured_table(SourceFile("t.csv", text), form, warnings);
   return warnings.all;
 }

@@ -33,7 +33,7 @@ TEST(Table, QuotesAsRfc4180) {
   EXPECT_EQ(table.csv(), "\"a,b\",c,e,t,f\nx,\"say \"\"hi\"\"\nthere\",\"\",true,false\n");
 }
 
-TEST(Table, S6FormulasAreTexts) {
+TEST(Table, FormulasAreTexts) {
   Table table;
   add(table,
       {{"=1+1", "=cmd|' /C calc'!A0"}, {"a", "+1+cmd"}, {"b", "-2+3"}, {"c", "@SUM(A1)"}, {"d", "\tx"}});
@@ -41,7 +41,7 @@ TEST(Table, S6FormulasAreTexts) {
             "\"'=1+1\",a,b,c,d\n\"'=cmd|' /C calc'!A0\",\"'+1+cmd\",\"'-2+3\",\"'@SUM(A1)\",\"'\tx\"\n");
 }
 
-TEST(Table, S6NumbersAndOtherTextsStayAsTheyAre) {
+TEST(Table, NumbersAndOtherTextsStayAsTheyAre) {
   Table table;
   add(table, {{"a", -5.0}, {"b", "-5"}, {"c", "+1e-6"}, {"d", "a=b"}, {"e", "1-2"}, {"f", "-inf"}});
   EXPECT_EQ(table.csv_row(0), "-5,-5,+1e-6,a=b,1-2,-inf\n");

@@ -17,18 +17,12 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/curve_fit.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::calibration_test {
 namespace {
 
-std::string error_of(auto run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::error_of;
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

@@ -11,18 +11,12 @@
 
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::curve_fit_test {
 namespace {
 
-std::string error_of(auto run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::error_of;
 
 void expect_parameter(const CalibratedParameter& parameter, double value, double error, double digits) {
   EXPECT_NEAR(*parameter.value / value, 1, digits) << parameter.name;

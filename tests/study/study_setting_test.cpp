@@ -7,17 +7,13 @@
 #include <limits>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::study_setting_test {
 namespace {
 
 std::string failure_of(std::vector<KnobSweep> knobs) {
-  try {
-    make_way("fine", std::move(knobs));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::error_of([&] { make_way("fine", std::move(knobs)); });
 }
 
 const std::vector<KnobValue> two = {std::int64_t{1}, std::int64_t{2}};

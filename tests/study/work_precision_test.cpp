@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tests/study/study_fixture.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::work_precision_test {
 namespace {
@@ -21,12 +22,7 @@ class Study : public testing::Test {
     return study.result();
   }
   static std::string failure_of(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return test::error_of([&] { action(); });
   }
   WrittenWork work;
   NotingMonitor monitor;

@@ -16,6 +16,7 @@
 #include "engine/surface/operations/heights.hpp"
 #include "engine/surface/operations/placement.hpp"
 #include "engine/surface/operations/resampling.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::at_cells_test {
 namespace {
@@ -31,12 +32,8 @@ double difference(const Surface& coarse, const Surface& fine) {
 }
 
 SelfAffineOptions self_affine(int n) {
-  SelfAffineOptions o;
-  o.grid = Grid{n, n, 1e-3, 1e-3};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{n, n, 1e-3, 1e-3}, 0.8, 1e-3 / 16, 4);
   o.ra = 1e-6;
-  o.short_wave = 1e-3 / 16;
-  o.seed = 4;
   return o;
 }
 

@@ -5,9 +5,9 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::bcr_test {
 namespace {
@@ -76,7 +76,7 @@ TEST(Bcr, FloatsAreInTheirUnitAndVoidpixelsMayBeTheNumber) {
 }
 
 TEST(Bcr, AScaleOfIntegersIsPassedOverForFloatsWithAWarning) {
-  testing::Warnings warnings;
+  test::Warnings warnings;
   const std::string header =
       "fileformat = bcrf\nxpixels = 2\nypixels = 1\nxlength = 2\nylength = 1\nbit2nm = 0.5\n";
   const Surface s = read_surface(SourceFile("a.bcr", example<float>(header, {1, 2})), {}, warnings);

@@ -11,6 +11,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::bead_blasted_test {
 namespace {
@@ -41,13 +42,7 @@ template <class Change>
 std::string refusal(const Change& change) {
   BeadBlastedOptions options = example(25, 25);
   change(options);
-  try {
-    bead_blasted_surface(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { bead_blasted_surface(options); });
 }
 
 TEST(BeadBlasted, RaIsMetExactlyAndTheMeanIsZero) {

@@ -7,10 +7,10 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 #include "tests/surface/optical_files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::file_lengths_test {
 namespace {
@@ -115,7 +115,7 @@ std::vector<BinaryKind> binary_kinds() {
   };
 }
 
-TEST(FileLengths, F13HeadAndLengthContradictEachOther) {
+TEST(FileLengths, HeadAndLengthContradictEachOther) {
   for (const BinaryKind& kind : binary_kinds()) {
     EXPECT_EQ(refusal(kind.name, kind.file(5, 4)), "no error") << kind.name;
     for (const auto& [nx, ny] :
@@ -129,14 +129,14 @@ TEST(FileLengths, F13HeadAndLengthContradictEachOther) {
   }
 }
 
-TEST(FileLengths, F13BytesOverAreCounted) {
+TEST(FileLengths, BytesOverAreCounted) {
   EXPECT_EQ(
       refusal("a.sur", testing::SurExample{.nx = 2}(std::vector<std::int16_t>{1, 2, 3, 4, 5, 6})),
       "\"a.sur\" says in its header that it holds 2 x 2 heights of 2 bytes but has 12 bytes of data, 4 too "
       "many; its header is wrong or the file is damaged: read so, its lines would be shifted");
 }
 
-TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
+TEST(FileLengths, TrailersAndFurtherObjectsAreNoBytesOver) {
   const std::string sdf = testing::SdfExample{.points = 5, .profiles = 4, .type = 5}(twenty);
   EXPECT_EQ(refusal("a.sdf", sdf + "*\r\n<Operator>somebody</Operator>\r\n"), "no error");
   EXPECT_NE(refusal("a.sdf", sdf + std::string("\x01\x02", 2)), "no error");
@@ -150,7 +150,7 @@ TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
 }
 
 // Bytes after a stated end change no height but cause a warning.
-TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
+TEST(FileLengths, BytesAfterTheEndThatAFileStatesAreWarnedOf) {
   const testing::Scratch scratch;
   write_surface(Surface(Grid{3, 2, 3e-6, 2e-6}, Field(3, 2, 1e-6)), scratch.path("a.h5"));
   const std::string gwy = testing::gwy_example(testing::gwy_inner("/0/data", testing::GwyField().object()));
@@ -158,7 +158,7 @@ TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
        {std::pair{std::string("a.gwy"), gwy},
         std::pair{std::string("a.h5"), testing::bytes_of(scratch.path("a.h5"))}}) {
     const auto warnings = [&, &name = name, &whole = whole](const std::string& more) {
-      testing::Warnings heard;
+      test::Warnings heard;
       const Surface found = read_surface(SourceFile(name, whole + more), {}, heard);
       EXPECT_EQ(found.digest(), read_surface(SourceFile(name, whole)).digest());
       return heard.all;
@@ -175,7 +175,7 @@ TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
 }
 
 // 555 instead of 563 columns would shear the map.
-TEST(FileLengths, F13MeasuredFileOfAnotherWidth) {
+TEST(FileLengths, MeasuredFileOfAnotherWidth) {
   if (testing::measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
   std::string bytes = testing::bytes_of(testing::measured("sur-2.sur"));
   bytes.replace(108, 4, testing::little(555, 4));

@@ -20,7 +20,7 @@ std::string refusal(const std::string& name, const std::string& bytes) {
   return message_of([&] { read_surface(SourceFile(name, bytes)); });
 }
 
-TEST(ForeignFormat, F7EachIsNamedByItsContent) {
+TEST(ForeignFormat, EachIsNamedByItsContent) {
   const std::string rest = std::string(40, '\0') + "more";
   const std::vector<std::array<std::string, 3>> files{{
       {"scan.di", "?*File list\r\n" + rest, "a Nanoscope file"},
@@ -53,14 +53,14 @@ TEST(ForeignFormat, F7EachIsNamedByItsContent) {
 }
 
 // Text is read despite another maker's binary extension.
-TEST(ForeignFormat, F7TextsAreLookedAtByTheirContent) {
+TEST(ForeignFormat, TextsAreLookedAtByTheirContent) {
   ReadOptions options;
   options.size_x = options.size_y = options.unit = 1e-6;
   EXPECT_EQ(read_surface(SourceFile("map.top", "1 2\n3 4\n"), options).height(1, 1), 4e-6);
   EXPECT_FALSE(foreign_format(SourceFile("map.mnt", "words\n")));
 }
 
-TEST(ForeignFormat, F7ATextWithAHeadOfItsOwnIsToldWhereItsNumbersBegin) {
+TEST(ForeignFormat, ATextWithAHeadOfItsOwnIsToldWhereItsNumbersBegin) {
   EXPECT_EQ(
       refusal("trace.prf", "Stylus profiler\nOperator Li\nSpeed 0.5 mm/s\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n"),
       "\"trace.prf\" has a head of its own, from line 1, \"Stylus profiler\", to line 4, over 2 columns of "
@@ -88,7 +88,7 @@ std::string alicona(const std::string& folder, const std::vector<double>& height
        {folder + "bindata/data.bin", testing::raw(heights)}});
 }
 
-TEST(ForeignFormat, F7InfiniteHeightsOfX3pAreMissingPoints) {
+TEST(ForeignFormat, InfiniteHeightsOfX3pAreMissingPoints) {
   ReadOptions options;
   options.fill = HoleFill::with(7);
   const std::string bytes = alicona("", {1e-6, 2e-6, INFINITY, 4e-6, -INFINITY, 6e-6});
@@ -101,7 +101,7 @@ TEST(ForeignFormat, F7InfiniteHeightsOfX3pAreMissingPoints) {
   EXPECT_TRUE(std::isnan(holed.height(2, 0)) && std::isnan(holed.height(1, 1)));
 }
 
-TEST(ForeignFormat, F7X3pInAFolderIsRead) {
+TEST(ForeignFormat, X3pInAFolderIsRead) {
   const std::vector<double> heights{1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6};
   const std::string plain = read_surface(SourceFile("map.x3p", alicona("", heights))).digest();
   for (const char* folder : {"map/", "My Map\\", "a/b/"})
@@ -114,7 +114,7 @@ std::string in_utf16(const std::string& text) {
   return wide;
 }
 
-TEST(ForeignFormat, F7BcrWithAHeadInUtf16IsRead) {
+TEST(ForeignFormat, BcrWithAHeadInUtf16IsRead) {
   const auto head = [](const std::string& kind) {
     const std::string text =
         "fileformat = " + kind +

@@ -12,6 +12,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::grain_profile_test {
 namespace {
@@ -25,13 +26,7 @@ GrainProfileOptions example(int points = 360) {
 }
 
 std::string refusal(const GrainProfileOptions& options) {
-  try {
-    grain_profile(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { grain_profile(options); });
 }
 
 double measured_structure_function(const Array<double>& w, std::size_t lag) {

@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::hdf5_file_test {
@@ -220,12 +221,7 @@ TEST_F(Hdf5File, DamagedFilesOfOtherProgramsCrashNothing) {
 }
 
 std::string refusal(const Hdf5Content& content, const std::string& path = "never.h5") {
-  try {
-    write_hdf5(path, content);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of([&] { write_hdf5(path, content); }, "no error");
 }
 
 TEST_F(Hdf5File, NamesAndShapesAreChecked) {

@@ -13,10 +13,10 @@
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 #include "tests/surface/optical_files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::holes_in_files_test {
 namespace {
@@ -243,7 +243,7 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
     return bytes.replace(at, from.size(), to);
   };
   // An unexplained mask is ordinary: its points have the mean.
-  testing::Warnings warnings;
+  test::Warnings warnings;
   const Surface taken = read_surface(SourceFile("a.gwy", with("Not measured", "Not Measured")), {}, warnings);
   EXPECT_TRUE(taken.complete());
   double sum = 0;

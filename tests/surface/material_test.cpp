@@ -8,20 +8,12 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::material_test {
 namespace {
 
-template <class Call>
-std::string refusal(Call call, ErrorCode code) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code);
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 
 Material elastic(double young, double poisson) {
   Material material;

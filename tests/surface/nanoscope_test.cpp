@@ -3,9 +3,9 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/scanning_probe_files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::nanoscope_test {
 namespace {
@@ -80,7 +80,7 @@ TEST(Nanoscope, AScanThatWasStoppedIsToldOf) {
   ReadOptions options;
   const std::string valid = "\\Valid data len Y: ";
   for (const auto& [lines, told] : {std::pair{"2", 0U}, std::pair{"1", 1U}}) {
-    testing::Warnings warnings;
+    test::Warnings warnings;
     std::string bytes = nanoscope({Image{}});
     const std::string line = valid + lines + "\r\n";
     const std::size_t at = bytes.find("\\Line Direction");
@@ -93,7 +93,7 @@ TEST(Nanoscope, AScanThatWasStoppedIsToldOf) {
 
 TEST(Nanoscope, AnAspectThatTheSizeContradictsIsToldOf) {
   for (const auto& [aspect, told] : {std::pair{"3:4", 0U}, std::pair{"1:1", 1U}}) {
-    testing::Warnings warnings;
+    test::Warnings warnings;
     const Image image{.line = std::string("Trace\r\n\\Aspect Ratio: ") + aspect};
     read_surface(SourceFile("a.spm", nanoscope({image})), {}, warnings);
     EXPECT_EQ(warnings.all.size(), told) << aspect;

@@ -3,14 +3,14 @@
 #include "engine/surface/io/own_head.hpp"
 
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::own_head_test {
 namespace {
 
+using test::Warnings;
 using testing::message_of;
-using testing::Warnings;
 
 constexpr const char* map = "10 20 31\n40 55 60\n71 80 90\n";
 

@@ -5,9 +5,9 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/optical_files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::plu_test {
 namespace {
@@ -36,7 +36,7 @@ TEST(Plu, HeightsAreMicrometresLineByLine) {
 }
 
 TEST(Plu, OfSeveralLayersTheFirstIsRead) {
-  testing::Warnings warnings;
+  test::Warnings warnings;
   EXPECT_EQ(read_surface(SourceFile("a.plu", PluExample{.layers = 2}(six)), {}, warnings).height(2, 0), 6e-6);
   ASSERT_EQ(warnings.all.size(), 1U);
   EXPECT_EQ(warnings.all[0], "\"a.plu\" holds 2 layers; the first is read");

@@ -8,18 +8,13 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::profile_test {
 namespace {
 
 std::string refusal(double spacing, Array<double> heights) {
-  try {
-    const Profile profile(spacing, std::move(heights));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { const Profile profile(spacing, std::move(heights)); });
 }
 
 TEST(Profile, LengthAndRange) {

@@ -7,8 +7,8 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::read_test {
 namespace {
@@ -18,13 +18,6 @@ using testing::measured;
 using testing::message_of;
 using testing::sample;
 using testing::Scratch;
-
-class Listener : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  std::vector<std::string> warnings;
-};
 
 ReadOptions square(double size, double unit) {
   ReadOptions options;
@@ -114,15 +107,15 @@ TEST(Read, MissingSizeAndUnitAreNamed) {
 }
 
 TEST(Read, CallWinsOverFileAndSaysSo) {
-  Listener listener;
+  test::Warnings listener;
   ReadOptions options = square(4e-6, 1e-9);
   const Surface surface = read_surface(sample("instrument.txt"), options, listener);
   EXPECT_EQ(surface.grid().size_x, 4e-6);
   EXPECT_EQ(surface.height(0, 0), -1e-9);
-  EXPECT_EQ(listener.warnings.size(), 3U);
-  Listener quiet;
+  EXPECT_EQ(listener.all.size(), 3U);
+  test::Warnings quiet;
   read_surface(sample("instrument.txt"), {}, quiet);
-  EXPECT_TRUE(quiet.warnings.empty());
+  EXPECT_TRUE(quiet.all.empty());
 }
 
 TEST(Read, MaterialTravelsAndIsChecked) {
@@ -227,7 +220,7 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
 }
 
-TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
+TEST(Read, TwoColumnsUnderAHeadAreATrace) {
   for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
                            "Position [mm];Height [um]\n"}) {
     const std::string text = std::string(head) + "0 1\n0.1 2\n0.2 4\n";
@@ -251,9 +244,9 @@ TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
 }
 
 // An implausible size reveals a wrong header or unit.
-TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
+TEST(Read, LengthsOutOfAllProportionAreWarnedOf) {
   const auto warnings = [](const std::string& text, const ReadOptions& options) {
-    testing::Warnings heard;
+    test::Warnings heard;
     read_surface(SourceFile("map.txt", text), options, heard);
     return heard.all;
   };
@@ -274,11 +267,11 @@ TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
 }
 
 // A truncated "152" reads as 15.
-TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
+TEST(Read, ALastLineWithoutEndIsWarnedOf) {
   for (const auto& [text, warned] :
        {std::pair{"1 2\n3 4\n", false}, std::pair{"1 2\n3 4", true}, std::pair{"1 2\r3 4\r", false},
         std::pair{"0 0 1\n1 0 2\n0 1 3\n1 1 4", true}, std::pair{"x [mm],z [um]\n0,1\n1,2\n2,3", true}}) {
-    testing::Warnings heard;
+    test::Warnings heard;
     ReadOptions options;
     options.size_x = options.size_y = 1;
     if (!std::string_view(text).starts_with("x")) options.unit = 1;
@@ -288,7 +281,7 @@ TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
 }
 
 // Refused without reading the sparse file.
-TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
+TEST(Read, AFileThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
   const std::string path = scratch.write("large.npy", "\x93NUMPY");
   std::filesystem::resize_file(path, std::uintmax_t{10} << 30);

@@ -9,16 +9,14 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/core/shelf.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::recalled_heights_test {
 namespace {
 
 SelfAffineOptions waves() {
-  SelfAffineOptions options;
-  options.grid = make_grid(24, 16, 1.5e-3, 1e-3);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(24, 16, 1.5e-3, 1e-3), 0.8, 2e-4);
   options.ra = 1e-6;
-  options.short_wave = 2e-4;
   return options;
 }
 

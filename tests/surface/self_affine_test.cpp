@@ -14,6 +14,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::self_affine_test {
 namespace {
@@ -29,13 +30,7 @@ SelfAffineOptions example(int nx = 64, int ny = 64) {
 }
 
 std::string refusal(const SelfAffineOptions& options) {
-  try {
-    self_affine_surface(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { self_affine_surface(options); });
 }
 
 double rms(const Field& field) {

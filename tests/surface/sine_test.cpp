@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::sine_test {
 namespace {
@@ -18,13 +19,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal(const SineOptions& options) {
-  try {
-    sine_surface(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { sine_surface(options); });
 }
 
 double mean_power(const Surface& surface, int power) {

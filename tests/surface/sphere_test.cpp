@@ -7,18 +7,13 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::sphere_test {
 namespace {
 
 std::string refusal(const SphereOptions& options) {
-  try {
-    sphere_surface(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { sphere_surface(options); });
 }
 
 TEST(Sphere, ApexStandsOnTheMiddleNodeAtHeightZero) {

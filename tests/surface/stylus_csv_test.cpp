@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::stylus_csv_test {
@@ -66,13 +67,6 @@ TEST(StylusCsv, UnevenOrCutShort) {
             std::string::npos);
 }
 
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  std::vector<std::string> warnings;
-};
-
 // Samples 1 um apart; stated length 100 um.
 std::string trace_of(int samples, const std::string& header) {
   std::string text = header + "\nScan Data\nLateral um,Raw um,\n";
@@ -102,11 +96,10 @@ TEST(StylusCsv, LessThanTheStatedLengthIsRefused) {
 
 TEST(StylusCsv, MoreThanTheStatedLengthIsAWarning) {
   const Scratch scratch;
-  Listener listener;
+  test::Warnings listener;
   EXPECT_EQ(read_profile(scratch.write("t.csv", trace_of(100, "Length,50 um")), {}, listener).size(), 100);
-  ASSERT_EQ(listener.warnings.size(), 1U);
-  EXPECT_NE(listener.warnings[0].find("says it is 50 um long but its samples span 100 um"),
-            std::string::npos);
+  ASSERT_EQ(listener.all.size(), 1U);
+  EXPECT_NE(listener.all[0].find("says it is 50 um long but its samples span 100 um"), std::string::npos);
 }
 
 // A truncated 1.258 reads as 1.25.
@@ -114,10 +107,10 @@ TEST(StylusCsv, LastLineWithoutEndIsAWarning) {
   const Scratch scratch;
   const std::string whole = testing::bytes_of(sample("trace.csv"));
   const auto warnings = [&](const std::string& bytes) {
-    Listener listener;
+    test::Warnings listener;
     read_profile(scratch.write("t.csv", bytes), {}, listener);
     read_surface(scratch.path("t.csv"), {}, listener);
-    return listener.warnings;
+    return listener.all;
   };
   EXPECT_TRUE(warnings(whole).empty());
   const std::size_t last = whole.find_last_not_of("\r\n");
@@ -146,9 +139,9 @@ TEST(StylusCsv, DamagedBytesGiveErrors) {
 
 TEST(StylusCsv, MeasuredFile) {
   if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
-  Listener listener;
+  test::Warnings listener;
   const Profile profile = read_profile(measured("dektak-1.csv"), {}, listener);
-  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_TRUE(listener.all.empty());
   EXPECT_NEAR(profile.length(), 1500e-6, 1e-10);  // as stated
   EXPECT_NEAR(profile.spacing(), 0.156e-6, 0.0005e-6);
   EXPECT_NEAR(profile.heights()[0], -0.00933e-6, 1e-18);

@@ -8,8 +8,8 @@
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::sur_writer_test {
 namespace {
@@ -72,7 +72,7 @@ TEST(SurWriter, TheSizeThatWasWrittenIsNotWarnedOf) {
     ReadOptions options;
     options.size_x = factor * surface.grid().size_x;
     options.size_y = surface.grid().size_y;
-    testing::Warnings warnings;
+    test::Warnings warnings;
     EXPECT_EQ(read_surface(scratch.path("a.sur"), options, warnings).grid().size_x, *options.size_x);
     EXPECT_EQ(warnings.told("of the call is used"), factor != 1) << factor;
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::surface_test {
 namespace {
@@ -20,16 +21,7 @@ Field ramp() {
   return field;
 }
 
-template <class Call>
-std::string refusal(Call call, ErrorCode code) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code);
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 
 TEST(Surface, IndexOrder) {
   const Surface surface(grid, ramp());

@@ -94,7 +94,7 @@ TEST(TextMatrix, HeadsOfAGermanGwyddion) {
 }
 
 // With and without a byte order mark.
-TEST(TextMatrix, F7TextInUtf16IsReadAsItsLetters) {
+TEST(TextMatrix, TextInUtf16IsReadAsItsLetters) {
   const std::string text = "# Value units: um\n# Width: 3 \u00B5m\n# Height: 2 \u00B5m\n1\t2\t3\n4\t5\t6\n";
   const Surface wanted = read_surface(SourceFile("map.txt", text));
   for (const bool little : {true, false})

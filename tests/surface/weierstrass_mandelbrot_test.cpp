@@ -19,6 +19,7 @@
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace asperity::weierstrass_mandelbrot_test {
 namespace {
@@ -34,13 +35,7 @@ Options square(int cells, double D, double span = 1) {
 }
 
 std::string refusal(const Options& options) {
-  try {
-    weierstrass_mandelbrot(options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::bad_value);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { weierstrass_mandelbrot(options); });
 }
 
 struct Statistics {

@@ -7,17 +7,17 @@
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::x3p_test {
 namespace {
 
+using test::Warnings;
 using testing::measured;
 using testing::message_of;
 using testing::raw;
 using testing::Scratch;
-using testing::Warnings;
 using testing::zip_of;
 
 std::string incremental(const std::string& increment) {
@@ -213,7 +213,7 @@ std::string md5_of(const std::string& bytes) {
 }
 
 // One flipped bit turns a hole into a height that was never measured.
-TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
+TEST(X3p, EveryByteOfItsBinaryEntriesCounts) {
   const std::string mask("\x3B", 1);
   Recipe recipe;
   recipe.content =
@@ -250,7 +250,7 @@ TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
 }
 
 // A wrong main.xml changes the scale.
-TEST(X3p, F5TheSumOfMainXmlIsCompared) {
+TEST(X3p, TheSumOfMainXmlIsCompared) {
   const std::string xml = Recipe{}.xml(), sum = md5_of(xml);
   const auto warnings = [](const std::vector<std::pair<std::string, std::string>>& entries) {
     Warnings heard;

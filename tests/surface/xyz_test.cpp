@@ -7,8 +7,8 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/read.hpp"
+#include "tests/support/warnings.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/warnings.hpp"
 
 namespace asperity::xyz_test {
 namespace {
@@ -48,7 +48,7 @@ TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
 }
 
 // No unit is guessed: um over mm is common.
-TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
+TEST(Xyz, UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   const std::string file = "\"" + sample("points.xyz") + "\" does not say ";
   EXPECT_EQ(
       message_of([] { read_surface(sample("points.xyz")); }),
@@ -66,8 +66,8 @@ TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).height(3, 2), 23e-6);
 }
 
-TEST(Xyz, B2ASizeOfTheCallIsNoContradiction) {
-  testing::Warnings warnings;
+TEST(Xyz, ASizeOfTheCallIsNoContradiction) {
+  test::Warnings warnings;
   ReadOptions options;
   options.unit = 1e-6;
   options.size_x = 4e-4;
@@ -104,7 +104,7 @@ TEST(Xyz, LinesThatEndTooSoonAreWarnedOf) {
     }
     ReadOptions options = in_micrometres();
     options.format = "xyz";
-    testing::Warnings warnings;
+    test::Warnings warnings;
     const Surface found = read_surface(SourceFile("a.xyz", text), options, warnings);
     EXPECT_EQ(found.measured(), static_cast<std::size_t>(16 - (last_missing - first_missing + 1)));
     return warnings.told("ends within a line of its points: the last " +
@@ -126,7 +126,7 @@ struct NamedUnit {
 constexpr NamedUnit units_of_heads[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}};
 
 // 3 x 2 points 0.1 apart.
-TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
+TEST(Xyz, EveryTableOfUnitsIsTheSameSurface) {
   const std::vector<double> x{0, 1e-4, 2e-4}, y{0, 1e-4};
   const std::vector<double> z{1.2e-6, 1.5e-6, 1.1e-6, 0.9e-6, 2.0e-6, 1.7e-6};
   int tables = 0;
@@ -158,7 +158,7 @@ TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
   EXPECT_EQ(tables, 4 * 4 * 3 * 3);
 }
 
-TEST(Xyz, B2HeadsOfOtherForms) {
+TEST(Xyz, HeadsOfOtherForms) {
   const std::string points = "0 0 1\n0.1 0 2\n0 0.1 3\n0.1 0.1 4\n";
   for (const char* head :
        {"x [mm] y [mm] z [um]\n", "X (mm) Y (mm) Z (um)\n", "x/mm y/mm z/um\n", "x / mm y / mm z / um\n",
@@ -180,7 +180,7 @@ TEST(Xyz, B2HeadsOfOtherForms) {
       3);
 }
 
-TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
+TEST(Xyz, HeadAndCallAgreeOrAreRefused) {
   const std::string text = "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0;0,1;0,9\n0,1;0,1;2,0\n";
   ReadOptions options;
   options.unit = 1e-6;
@@ -206,14 +206,14 @@ TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
               read_surface(SourceFile("own.csv", "x [mm],y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"));
             }).find("says the unit of its x and not that of its y"),
             std::string::npos);
-  testing::Warnings warnings;
+  test::Warnings warnings;
   options.unit = 1e-6;
   read_surface(SourceFile("own.csv", "x [px],y [px],z [V]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"), options, warnings);
   ASSERT_EQ(warnings.all.size(), 3U);
   EXPECT_NE(warnings.all[0].find("gives its \"x\" in \"px\", which is no unit of length"), std::string::npos);
 }
 
-TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
+TEST(Xyz, UnitOfPositionsIsRefusedWhereThereAreNone) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1;
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("m.txt", "1 2 3 4\n5 6 7 8\n"), options); }),
@@ -222,7 +222,7 @@ TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
 }
 
 // Never a matrix of the coordinates.
-TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
+TEST(Xyz, LatticesWithPointsMissingAreNeverMatrices) {
   const Stream stream(11, "lattices");
   std::uint64_t draw = 0;
   int maps = 0, refused = 0, wrong = 0;
@@ -275,7 +275,7 @@ TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
   EXPECT_GT(refused, 300);
 }
 
-TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
+TEST(Xyz, ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1e-3;
   const std::string three = "0\t0\t1\n1\t0\t2\n0\t1\t3\n";
@@ -292,7 +292,7 @@ TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
 }
 
 // Repeated, irregular or unordered places form no lattice.
-TEST(Xyz, B3MatricesOfThreeColumnsStayMatrices) {
+TEST(Xyz, MatricesOfThreeColumnsStayMatrices) {
   ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
   for (const char* text : {"5 1 2\n3 9 4\n8 2 7\n6 4 4\n0 0 1\n", "1 1 2\n1 1 3\n1 2 2\n1 1 1\n",

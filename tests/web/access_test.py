@@ -80,7 +80,6 @@ def test_every_answer_is_guarded_by_its_headers():
             assert again.status == 304 and again.body == b""
 
 
-# S4
 def test_a_refused_request_is_never_read_as_another():
     with Server(runner.program) as server:
         head = f"Host: {server.host}\r\nAuthorization: Bearer {server.token}\r\n"
@@ -122,7 +121,6 @@ def test_a_refused_request_is_never_read_as_another():
         assert answers.count(b"HTTP/1.1 200 ") == 2, answers
 
 
-# S10
 def test_addresses_and_types_are_what_they_are_called():
     with Server(runner.program) as server:
         assert server.ask("GET", "/api/about%00x").status == 400
@@ -135,7 +133,6 @@ def test_addresses_and_types_are_what_they_are_called():
         assert "belongs to the run" in json.dumps(events), events
 
 
-# S5
 def test_no_argument_of_a_program_holds_a_key():
     with tempfile.TemporaryDirectory() as folder:
         with open(folder + "/xdg-open", "w") as opener:

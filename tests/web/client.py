@@ -3,6 +3,7 @@
 import http.client
 import json
 import os
+import pty
 import re
 import shutil
 import signal
@@ -22,6 +23,24 @@ def until(test, what):
         assert time.monotonic() < end, what
         time.sleep(0.02)
     return found
+
+
+def in_terminal(command, **options):
+    """What a command writes to its pseudo terminal, and its exit status."""
+    master, slave = pty.openpty()
+    run = subprocess.Popen(command, stdout=slave, **options)
+    os.close(slave)
+    shown = b""
+    while True:
+        try:
+            piece = os.read(master, 4096)
+        except OSError:
+            break
+        if not piece:
+            break
+        shown += piece
+    os.close(master)
+    return shown, run.wait(patience)
 
 
 class Answer:

@@ -3,7 +3,6 @@
 # `asperity run --confined`: what a script of somebody else's cannot do, and that all else is as in any other run.
 import json
 import os
-import pty
 import shutil
 import signal
 import subprocess
@@ -11,7 +10,7 @@ import tempfile
 from contextlib import contextmanager
 
 import runner
-from client import alive, patience, until
+from client import alive, in_terminal, patience, until
 from confinement_test import refuse_calls
 
 
@@ -191,7 +190,7 @@ def test_links_in_the_run_directory_lead_nowhere():
         os.symlink(top + "/other/secret", top + "/home/work/R/table.csv")
         os.symlink(top + "/other", top + "/home/work/R/folder")
         asperity(top, "run", "--resume", "R")
-        # S3: nor in the place of its own files.
+        # Nor in the place of its own files.
         for own in (".lock", "journal.jsonl", "manifest.json", "store"):
             shutil.rmtree(top + "/home/work/R2", ignore_errors=True)
             shutil.copytree(top + "/home/work/R", top + "/home/work/R2", symlinks=True)
@@ -295,7 +294,6 @@ def test_time_and_memory_meet_their_limits():
         assert "time limit of 300 ms" in bounded(top, pattern, "--limit-time", "0.3s")
 
 
-# S2
 def test_no_run_leaves_more_on_the_disk_than_it_may():
     with workshop() as top:
         flood = """local s = ("x"):rep(2^20) for k = 1, 1000 do
@@ -308,7 +306,6 @@ def test_no_run_leaves_more_on_the_disk_than_it_may():
         assert os.path.exists(top + "/home/work/R/manifest.json")
 
 
-# S2
 def test_removed_files_are_no_hiding_place():
     with workshop() as top:
         put(top, """local s, open = ("x"):rep(2^18), {}
@@ -446,21 +443,9 @@ def test_signals_and_progress_pass_through():
         # On a terminal progress is drawn over itself, and what a script prints cannot write to it.
         put(top, """print "\\27]0;title\\7\\27[31mred\\27[0m" io.stderr:write "\\27[2J\\n"
         require("asperity").surface.flat{ cells=8, size=1 }""")
-        master, slave = pty.openpty()
-        run = subprocess.Popen([runner.program, "run", "--confined", "s.lua"], cwd=top + "/home/work", stdout=slave, stderr=slave,
-                               env={**os.environ, "HOME": top + "/home"})
-        os.close(slave)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:
-                break
-            if not piece:
-                break
-            shown += piece
-        os.close(master)
-        assert run.wait(patience) == 0 and b"\x1b]" not in shown and b"\x07" not in shown and b"\x1b[2J" not in shown, shown
+        shown, status = in_terminal([runner.program, "run", "--confined", "s.lua"], cwd=top + "/home/work",
+                                    stderr=subprocess.STDOUT, env={**os.environ, "HOME": top + "/home"})
+        assert status == 0 and b"\x1b]" not in shown and b"\x07" not in shown and b"\x1b[2J" not in shown, shown
         assert b"\x1b[31mred\x1b[0m" in shown and b"results in" in shown, shown
 
 

@@ -69,7 +69,6 @@ def test_memory_bombs_are_ended():
         assert finished(server.run("print(1)"))["status"] == "done"
 
 
-# T9
 def test_a_flood_of_output_is_cut_and_the_run_goes_on():
     with Server(runner.program) as server:
         script = "for k = 1, 3000 do print(string.rep('x', 1000)) end require('asperity').notebook 'n':write{ k=1 }"
@@ -90,7 +89,6 @@ def test_a_flood_of_rows_is_ended():
         assert end["status"] == "limit", end
 
 
-# S2
 def test_no_script_leaves_more_than_its_limit():
     script = """local s = ("x"):rep(2^20) for k = 1, 1000 do
     local f = assert(io.open("f" .. k, "w")) for i = 1, 60 do f:write(s) end f:close() end"""
@@ -104,7 +102,6 @@ def test_no_script_leaves_more_than_its_limit():
             assert sum(max(one.st_size, 512 * one.st_blocks) for one in taken) <= (64 << 20) + 4096
 
 
-# S8
 def test_a_stopped_run_does_not_wait_for_its_drawing():
     script = """local book = require("asperity").notebook "n"
     for k = 1, 60000 do book:write{ k=k, v=math.random(), w=math.random() } end

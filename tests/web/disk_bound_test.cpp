@@ -30,7 +30,7 @@ class DiskBound : public InFolder {
   bool there(const char* name) const { return fs::exists(fs::symlink_status(folder / "run" / name)); }
 };
 
-TEST_F(DiskBound, S2TheLastWrittenGoFirstAndTheRecordLast) {
+TEST_F(DiskBound, TheLastWrittenGoFirstAndTheRecordLast) {
   put("manifest.json", 5000, 0);
   put("old.csv", 100000, 100);
   put("newer.csv", 100000, 50);
@@ -44,7 +44,7 @@ TEST_F(DiskBound, S2TheLastWrittenGoFirstAndTheRecordLast) {
   EXPECT_LE(disk_use(folder / "run", 100).bytes, whole.bytes - 150000);
 }
 
-TEST_F(DiskBound, S2NoMoreFilesAreLeftThanMayBe) {
+TEST_F(DiskBound, NoMoreFilesAreLeftThanMayBe) {
   for (int k = 0; k < 40; ++k) put(("d" + std::to_string(k % 5) + "/f" + std::to_string(k)).c_str(), 1, k);
   put(".lock", 1, 0);
   EXPECT_NE(keep_within(folder / "run", 1 << 30, 10), "");

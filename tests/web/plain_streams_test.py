@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-# S6: what files and scripts hold is shown and never obeyed, in any output of any command.
+# What files and scripts hold is shown and never obeyed, in any output of any command.
 import json
 import os
-import pty
 import shutil
 import subprocess
 import tempfile
 
 import runner
-from client import patience
+from client import in_terminal, patience
 
 hostile = "a\x1b]0;pwn\x07\x1b[31mred\x9b2J\r\x1b[Kover\x08\x7f"
 in_lua = "a\\27]0;pwn\\7\\27[31mred\\xC2\\x9B2J\\x9B2J\\r\\27[Kover\\8\\127"
@@ -82,20 +81,8 @@ def test_what_a_script_prints_is_its_own_but_on_a_terminal():
             file.write('io.write("\\27]0;pwn\\7\\0\\255", "\\27[1;31mred\\27[0m \\xC3") io.write("\\xA9\\n")')
         piped = run(folder, "run", "s.lua", status=0)
         assert piped.stdout == b"\x1b]0;pwn\x07\0\xff\x1b[1;31mred\x1b[0m \xc3\xa9\n", piped.stdout
-        master, slave = pty.openpty()
-        done = subprocess.Popen([runner.program, "run", "s.lua"], cwd=folder, stdout=slave, stderr=subprocess.DEVNULL)
-        os.close(slave)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:
-                break
-            if not piece:
-                break
-            shown += piece
-        os.close(master)
-        assert done.wait(patience) == 0
+        shown, status = in_terminal([runner.program, "run", "s.lua"], cwd=folder, stderr=subprocess.DEVNULL)
+        assert status == 0
         assert shown == b"?]0;pwn???\x1b[1;31mred\x1b[0m \xc3\xa9\r\n", shown
 
 

@@ -31,7 +31,6 @@ def test_students_find_their_own_runs_only():
             assert server.ask("GET", "/api/about", token=ada).json()["classroom"] is True
 
 
-# S1
 def test_one_student_cannot_take_every_place():
     loop = "while true do end"
     with Server(runner.program, "--classroom", "127.0.0.1", "--students", "3", "--runs", "2") as server:
@@ -101,7 +100,6 @@ def test_the_teacher_sees_predictions_and_who_needs_help():
         assert server.ask("GET", "/api/people").status == 404
 
 
-# S7
 def test_scripts_that_are_checked_for_long_keep_nobody_from_theirs():
     with Server(runner.program, "--classroom", "127.0.0.1", "--students", "6") as server:
         over, long = threading.Event(), set()

@@ -25,7 +25,7 @@ TEST(Shares, LeaveSomethingForOthers) {
   EXPECT_NE(shares.take(3, milliseconds(0)), nullptr);
 }
 
-TEST(Shares, S7WhoHoldsLongLeavesSomeForOthers) {
+TEST(Shares, WhoHoldsLongLeavesSomeForOthers) {
   Shares shares(1, 3, 2, milliseconds(5));
   for (const std::size_t slow : {1, 2, 3}) {
     const auto held = shares.take(slow, milliseconds(0));
@@ -42,7 +42,7 @@ TEST(Shares, S7WhoHoldsLongLeavesSomeForOthers) {
   EXPECT_NE(shares.take(2, milliseconds(0)), nullptr);
 }
 
-TEST(Shares, S7AreGivenInTheOrderOfComing) {
+TEST(Shares, AreGivenInTheOrderOfComing) {
   Shares shares(9, 1);
   auto held = shares.take(0, milliseconds(0));
   std::vector<int> order;

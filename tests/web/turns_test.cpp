@@ -12,7 +12,7 @@ using Time = Turns::Clock::time_point;
 
 const Time start{std::chrono::hours(1)};
 
-TEST(Turns, S1OneTakesAllPlacesButOne) {
+TEST(Turns, OneTakesAllPlacesButOne) {
   Turns turns(3, true);
   for (int k = 0; k < 2; ++k) {
     EXPECT_EQ(turns.next({7}, start), 7U);
@@ -22,7 +22,7 @@ TEST(Turns, S1OneTakesAllPlacesButOne) {
   EXPECT_EQ(turns.next({8}, start), 8U);
 }
 
-TEST(Turns, S1OneHoldsOnePlaceWhileOthersWait) {
+TEST(Turns, OneHoldsOnePlaceWhileOthersWait) {
   Turns turns(8, true);
   turns.begin(7, start);
   EXPECT_EQ(turns.next({7, 8}, start), 8U);
@@ -44,7 +44,7 @@ TEST(Turns, AloneAllPlacesAreTaken) {
   }
 }
 
-TEST(Turns, S1WhoUsedLeastIsNext) {
+TEST(Turns, WhoUsedLeastIsNext) {
   Turns turns(4, true);
   turns.begin(7, start);
   turns.end(7, start, 20, start + seconds(20));

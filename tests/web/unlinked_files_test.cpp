@@ -48,7 +48,7 @@ TEST_F(UnlinkedFiles, AFileWithANameIsNoneOfThem) {
   EXPECT_GE(unlinked_bytes(), before + 100'000);
 }
 
-TEST_F(UnlinkedFiles, S2BeyondTheBoundTheyAreEmptied) {
+TEST_F(UnlinkedFiles, BeyondTheBoundTheyAreEmptied) {
   ::unlink(path_.c_str());
   const UnlinkedFilesBound bound(unlinked_bytes() + 200'000);
   write(100'000);

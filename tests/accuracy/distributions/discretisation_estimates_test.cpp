@@ -23,6 +23,7 @@
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "engine/surface/operations/resampling.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::discretisation_estimates_test {
 namespace {
@@ -167,13 +168,9 @@ void add_exact(Surveys& survey) {
 }
 
 void add_self_affine(Surveys& survey, std::uint64_t seed) {
-  SelfAffineOptions o;
-  o.grid = Grid{true_cells, true_cells, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{true_cells, true_cells, 1, 1}, 0.8, 1.0 / 16, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 16;
-  o.seed = seed;
   const Surface surface = self_affine_surface(o);
   for (const double p : {0.005, 0.02, 0.05, 0.1, 0.3})
     survey.scene(surface, Boundary::periodic, {PressBy::pressure, 0.1 * p * modulus, {}});
@@ -193,13 +190,9 @@ void add_blasted(Surveys& survey, std::uint64_t seed) {
 }
 
 void add_at_approach(Surveys& survey, std::uint64_t seed) {
-  SelfAffineOptions o;
-  o.grid = Grid{true_cells, true_cells, 1, 1};
-  o.hurst = 0.8;
+  SelfAffineOptions o = test::self_affine(Grid{true_cells, true_cells, 1, 1}, 0.8, 1.0 / 16, seed);
   o.rms_slope = 0.1;
   o.roll_off = 0.5;
-  o.short_wave = 1.0 / 16;
-  o.seed = seed;
   const Surface surface = self_affine_surface(o);
   for (const double share : {0.1, 0.25}) survey.at_approach(surface, Boundary::periodic, share);
   survey.at_approach(surface, Boundary::free, 0.2);

@@ -12,6 +12,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::displacement_control_test {
 
@@ -102,7 +103,7 @@ TEST(ApproachSolve, SaysThatACapCannotGoOn) {
 }
 
 // Soft yielding: almost the same load for different approaches.
-TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
+TEST(ApproachSolve, WhereLoadsHardlyTellApproachesApart) {
   for (const int n : {8, 16, 96}) {
     HalfSpaceProblem problem = problem_from(
         make_grid(n, n, 1e-3, 1e-3), Boundary::periodic,
@@ -119,7 +120,7 @@ TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
   }
 }
 
-TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
+TEST(ApproachSolve, TakesAboutWhatTheSameStateTakesByPressure) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double over : {0.0, 1.2, 5.0})
       for (const double hardening : {0.0, 1e-3, 1.0})
@@ -143,7 +144,7 @@ TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
         }
 }
 
-TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
+TEST(ApproachSolve, SaysThatAStiffFlatIsFull) {
   HalfSpaceProblem problem = problem_from(
       make_grid(8, 8, 1e-3, 1e-3), Boundary::periodic, [](double, double) { return 0.0; }, 1e11);
   problem.yield.cap = 2e7;
@@ -162,7 +163,7 @@ TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
 }
 
 // Regression: this random scene failed.
-TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
+TEST(ApproachSolve, ALoadBetweenTheTerracesOfSoftGround) {
   const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
   HalfSpaceProblem problem = problem_from(
       make_grid(96, 96, size, size), Boundary::periodic,
@@ -177,7 +178,7 @@ TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   EXPECT_LE(answer.certificate.worst(), 1e-6);
 }
 
-TEST(ApproachSolve, V1_GroundThatNothingFacesCarriesNothing) {
+TEST(ApproachSolve, GroundThatNothingFacesCarriesNothing) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::free, 3, 1e-6);
   Field heights = *problem.heights;
   for (int j = 0; j < 16; ++j)
@@ -240,7 +241,7 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
   EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
 }
 
-TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
+TEST(FlatteningSolve, NearFullContactTakesAboutWhatItTakesByPressure) {
   for (const double tolerance : {1e-4, 1e-8})
     for (const double share_of_load : {.3, .6, .9, .99}) {
       const HalfSpaceProblem problem = rough_problem(96, Boundary::periodic, 5, tolerance);
@@ -256,7 +257,7 @@ TEST(FlatteningSolve, V1_NearFullContactTakesAboutWhatItTakesByPressure) {
     }
 }
 
-TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
+TEST(FlatteningSolve, TheLeastLoadOfFullContactIsOne) {
   const HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-8);
   const double full = pressure_of_full_contact(problem).value();
   const auto nodes = static_cast<std::int64_t>(problem.grid.nodes());
@@ -265,7 +266,7 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
   EXPECT_NEAR(solve(problem, full).approach, approach_of_full_contact(problem), 1e-8 * problem.rms);
 }
 
-TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
+TEST(FlatteningSolve, AllOfHardeningGroundIsPressedAwayInAFewSolves) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double yield : {1e-3, .02, 1.0})
       for (const double hardening : {1e-3, .1, 10.0}) {
@@ -288,7 +289,7 @@ TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
 }
 
 // The rms height is many times the flattened height, so solves need a tighter tolerance than requested.
-TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
+TEST(FlatteningSolve, AFewThousandthsOfPittedGroundAreFoundBack) {
   HalfSpaceProblem problem = rough_problem(48, Boundary::free, 6, 1e-10);
   Field heights = *problem.heights;
   for (const std::size_t k : {100u, 1111u, 2000u}) heights[k] -= 400 * problem.rms;
@@ -306,12 +307,8 @@ TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
 // All but the lowest nodes at the cap: one load, many approaches.
 TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   for (const std::uint64_t seed : {8U, 3U}) {
-    SelfAffineOptions options;
-    options.grid = make_grid(64, 64, 1e-3, 1e-3);
-    options.hurst = 0.5;
+    SelfAffineOptions options = test::self_affine(make_grid(64, 64, 1e-3, 1e-3), 0.5, 4e-3 / 128, seed);
     options.rms_slope = 0.1;
-    options.short_wave = 4e-3 / 128;
-    options.seed = seed;
     HalfSpaceProblem problem =
         problem_of(options.grid, self_affine_surface(options).heights(), Boundary::free, 1e11, 1e-6);
     problem.yield.cap = 3e8;
@@ -326,7 +323,7 @@ TEST(FlatteningSolve, IsFoundWhereOneLoadClosesTheLastGap) {
   }
 }
 
-TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
+TEST(ApproachSolve, LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   const HalfSpaceProblem problem = problem_from(
       make_grid(40, 30, 40, 30 * 400.0), Boundary::periodic,
       [](double x, double y) {
@@ -348,7 +345,7 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
 
 // With a hardness far above the least load of full contact, rounding hides closed gaps: the solver uses up to
 // twice an insufficient load and reports it.
-TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
+TEST(FlatteningSolve, FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();
   problem.yield.cap = 1e7 * least;
@@ -366,7 +363,7 @@ TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad)
   EXPECT_EQ(near.mean_pressure, flat.mean_pressure);
 }
 
-TEST(FlatteningSolve, V1_FullContactThatIsSeenTakesTheLeastLoad) {
+TEST(FlatteningSolve, FullContactThatIsSeenTakesTheLeastLoad) {
   HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
   const double least = pressure_of_full_contact(problem).value();
   for (const double cap : {0.0, 10 * least}) {

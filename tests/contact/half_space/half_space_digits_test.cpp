@@ -12,6 +12,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::half_space_digits_test {
 namespace {
@@ -150,12 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Heights, FreeFlat, testing::Values(false, true),
 // --- light loads
 
 Scene light_scene(Boundary boundary, const std::optional<PlasticityOptions>& plasticity = {}) {
-  SelfAffineOptions options;
-  options.grid = make_grid(32, 32, 10e-6, 10e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(32, 32, 10e-6, 10e-6), 0.8, 1e-6, 1);
   options.rms_height = 50e-9;
-  options.short_wave = 1e-6;
-  options.seed = 1;
   Material metal = test::elastic(70e9, 0.33);
   metal.hardness = 1.1e9;
   Scene scene{self_affine_surface(options).with_material(metal), rigid_material(), boundary,
@@ -323,13 +320,9 @@ const Yield yields[] = {{"elastic", {}},
 
 Scene rough_pair(Boundary boundary, const std::optional<PlasticityOptions>& plasticity) {
   const auto body = [](std::uint64_t seed) {
-    SelfAffineOptions options;
-    options.grid = make_grid(60, 54, 300e-6, 270e-6);
-    options.hurst = 0.8;
+    SelfAffineOptions options = test::self_affine(make_grid(60, 54, 300e-6, 270e-6), 0.8, 40e-6, seed);
     options.ra = 1e-6;
     options.roll_off = 100e-6;
-    options.short_wave = 40e-6;
-    options.seed = seed;
     Material metal = test::elastic(70e9, 0.33);
     metal.hardness = 1.1e9;
     return self_affine_surface(options).with_material(metal);

@@ -12,6 +12,7 @@
 
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::half_space_test {
 
@@ -46,12 +47,8 @@ inline HalfSpaceProblem problem_from(const Grid& grid, Boundary boundary,
 
 // Hurst 0.8, roll-off = long wave = tile, shortest wave 16 cells, rms slope 0.1, E* = 1.
 inline HalfSpaceProblem rough_problem(int n, Boundary boundary, std::uint64_t seed, double tolerance = 1e-8) {
-  SelfAffineOptions options;
-  options.grid = make_grid(n, n, 1, 1);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(n, n, 1, 1), 0.8, 16.0 / n, seed);
   options.rms_slope = 0.1;
-  options.short_wave = 16.0 / n;
-  options.seed = seed;
   return problem_of(options.grid, self_affine_surface(options).heights(), boundary, 1, tolerance);
 }
 

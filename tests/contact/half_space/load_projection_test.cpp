@@ -127,7 +127,7 @@ TEST(LineLoads, ALineThatPullsCarriesNothingAndOneWithinItsBoundsStays) {
 }
 
 // Regression: 619 transforms lengthwise on a free tile.
-TEST(LineLoads, V2_NoiseOnAFreeTileTakesFewPasses) {
+TEST(LineLoads, NoiseOnAFreeTileTakesFewPasses) {
   for (const double aspect : {1e-3, 1e3}) {
     const Stream draws(1, "noise");
     Field heights(96, 96);

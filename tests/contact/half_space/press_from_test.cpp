@@ -13,6 +13,7 @@
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
 #include "tests/core/shelf.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::press_from_test {
 namespace {
@@ -84,11 +85,8 @@ TEST(PressFrom, OfADifferentContactItStillConverges) {
 
 TEST(PressFrom, CellsThatAreNotSquare) {
   const auto scene_of = [](int nx, int ny) {
-    SelfAffineOptions o;
-    o.grid = Grid{nx, ny, 2, 1};
-    o.hurst = 0.8;
+    SelfAffineOptions o = test::self_affine(Grid{nx, ny, 2, 1}, 0.8, 0.125);
     o.rms_slope = 0.1;
-    o.short_wave = 0.125;
     const Surface surface = self_affine_surface(o).with_material(test::elastic(1e9));
     Scene scene{surface, rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
     scene.accuracy.tolerance = 1e-5;

@@ -65,7 +65,7 @@ TEST(LineExtension, GatheringIsTheTranspose) {
       }
 }
 
-TEST(LineExtension, V2_NoiseAndWavesOnLongCells) {
+TEST(LineExtension, NoiseAndWavesOnLongCells) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
     for (const double aspect : {1e-3, 1e-2, .1, 10.0, 100.0, 1000.0})
       for (const bool noise : {true, false})

@@ -310,7 +310,7 @@ TEST_F(CommandLine, APressLogOfLabViewIsReadBelowItsHead) {
 }
 
 // No option consumes the script or run after its value.
-TEST_F(CommandLine, B8OptionsStandBeforeTheScriptOrAfterIt) {
+TEST_F(CommandLine, OptionsStandBeforeTheScriptOrAfterIt) {
   write("s.lua", "print 'ran'");
   ASSERT_EQ(call({"run", "s.lua", "--out", "kept"}).status, 0);
   const std::vector<std::vector<std::string>> options_of_run = {{"--reuse", "kept"},

@@ -6,11 +6,7 @@
 #   tests/scripts/runner/fixed_order.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 cat > each.lua <<'LUA'
 return function(t, visit) for name, value in pairs(t) do visit(name, value) end end

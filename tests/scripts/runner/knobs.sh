@@ -5,11 +5,7 @@
 #   tests/scripts/runner/knobs.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 cat > knobs.lua <<'LUA'
 local lab = require "asperity"

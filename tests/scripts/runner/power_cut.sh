@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# F2: a run on a file system whose power is cut, without its journal written, some time after the run ended, and on the
+# A run on a file system whose power is cut, without its journal written, some time after the run ended, and on the
 # way. What says `done` is whole then; all else is taken up to the same bytes. Needs root, a loop device and ext4;
 # exit status 77 where one of them is not to be had.
 #

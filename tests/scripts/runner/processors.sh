@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# N10: one of each kind of result is the same bits on a processor without wide vectors and fused operations (as the
+# One of each kind of result is the same bits on a processor without wide vectors and fused operations (as the
 # C library sees it), in any build of any compiler, for any number of threads: the digests are those in
 # tests/scripts/runner/processors.txt. And where a result does hang on the C library, because the script itself takes
 # a sine of it, replay names that beside the differences.
@@ -9,12 +9,8 @@
 #   tests/scripts/runner/processors.sh PROGRAM FOLDER --write    writes the digests anew
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 scripts=$(cd "$(dirname "$0")/.." && pwd)
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 # What the C library takes for a processor of 2010. Of another library or processor it is ignored.
 masked() {
@@ -32,7 +28,7 @@ masked "$program" run "$scripts/runner/processors.lua" --out masked --threads 2 
 alike digests digests.masked "these results hang on the processor"
 masked "$program" replay run --out again > printed || { cat printed; fail "the replay differs"; }
 
-# The reproduction of N10.
+# A run of elementary functions and transforms.
 cat > det.lua <<'LUA'
 local lab = require "asperity"
 print(lab.surface.self_affine{ cells=64, size="1 mm", hurst=0.8, ra="1 um", short_wave="50 um", seed=1 }.digest)

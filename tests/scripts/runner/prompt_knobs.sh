@@ -4,10 +4,7 @@
 # usage: prompt_knobs.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1 folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 XDG_STATE_HOME=$PWD/state
 export XDG_STATE_HOME
 

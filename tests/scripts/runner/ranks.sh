@@ -9,12 +9,8 @@
 # Three ranks alone; with ASPERITY_WHOLE=1 in the environment, one and two ranks as well.
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
 here=$(cd "$(dirname "$0")" && pwd)
-cd "$folder"
+begin "$@"
 . "$here/mpi_ranks.sh"
 
 cat > study.lua <<'LUA'

@@ -6,11 +6,7 @@
 #   tests/scripts/runner/replay.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 cat > events.lua <<'LUA'
 local lab = require "asperity"

@@ -7,13 +7,9 @@
 #   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS [CELLS]]
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 kills=${3:-5}
 cells=${4:-512}
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 # Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
 cat > events.lua <<LUA
@@ -199,5 +195,5 @@ head -n 4 whole/events.csv > early && head -n 4 varied/events.csv | cmp - early 
 cmp varied/events.csv whole/events.csv > /dev/null && fail "--set changed nothing"
 ends 1 'did you mean `pressure`' "$program" replay whole --set presure=1
 ends 2 "give a key and its value" "$program" replay whole --set presure
-# F8: a value of another kind is told as that, and not as so many differences.
+# A value of another kind is told as that, and not as so many differences.
 ends 1 'gives `contact:press` the value "3 um": `pressure`: ' "$program" replay whole --set "press.pressure=3 um"

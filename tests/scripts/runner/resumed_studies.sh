@@ -6,12 +6,8 @@
 #   tests/scripts/runner/resumed_studies.sh PROGRAM FOLDER [CELLS]
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 cells=${3:-256}
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 cat > studies.lua <<LUA
 local n = $cells

@@ -1,18 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a run directory withstands: a second process (F1), damage to a run that is done (F3), a death before the first
-# manifest (F4), files beside files (F6), gnuplot that cannot draw as it should (F9), what killed writers leave (F10),
-# containers that share a store (F11), scripts named in several ways (F12), signals and a journal that goes or has holes
-# (F14), and links in the place of its own files (S3).
+# What a run directory withstands: a second process, damage to a run that is done, a death before the first manifest,
+# files beside files, gnuplot that cannot draw as it should, files of killed writers, containers that share a store, scripts
+# named in several ways, signals, a journal that disappears or has holes, and links in place of its own files.
 #
 #   tests/scripts/runner/run_directory.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 # What still runs when this fails would keep its standard output, and whoever waits for its end.
 trap 'kill -KILL $(jobs -p) 2> /dev/null || true' EXIT
 
@@ -37,7 +32,7 @@ for k = 21, 40 do b:write{ k = k } end
 LUA
 echo 'require "asperity".notebook "n":write{ a = 1 }' > short.lua
 
-# F1: while a process writes, every other one is refused, naming it, and changes nothing; readers are not.
+# While a process writes, every other one is refused, naming it, and changes nothing; readers are not.
 "$program" run wait.lua --out R1 2> R1.err &
 first=$!
 until_true lines R1/n.csv 21
@@ -72,7 +67,7 @@ done_run R1
 ends 0 "the same again" "$program" replay R1 --out R1-again
 rm go
 
-# F3: a run that is done is what its manifest says, or is made so again.
+# A run that is done is what its manifest says, or is made so again.
 cat > outputs.lua <<'LUA'
 local lab = require "asperity"
 local b = lab.notebook "n"
@@ -107,7 +102,7 @@ echo 'require "asperity".notebook "n":write{ t = os.time() + os.clock() }' > clo
 : > clock/n.csv
 ends 1 'could not be made again as recorded' "$program" run --resume clock
 
-# F4: what died before its first manifest begins again.
+# What died before its first manifest begins again.
 mkdir R4
 printf 'half' > R4/script.lua
 printf '{"n":1,"event":"begin"}\n' > R4/journal.jsonl
@@ -138,7 +133,7 @@ else
   echo "run_directory: no strace here: kills at each call are not tried"
 fi
 
-# F6, K3: a directory holds its own files and what the manifest lists.
+# A directory holds its own files and what the manifest lists.
 listed() {
   {
     printf '%s\n' script.lua manifest.json journal.jsonl .lock
@@ -152,7 +147,7 @@ listed R3
 echo x >> R3/maps/a.xdmf
 ends 1 '`maps/a.xdmf` was altered since the run' "$program" replay R3 --out R3-again
 
-# F9: the same picture, or a word.
+# The same picture, or a word.
 cat > relief.lua <<'LUA'
 require "asperity".surface.sine{ cells = 16, size = 1e-3, amplitude = 1e-6 }:picture("r.png", { view = "relief" })
 LUA
@@ -167,7 +162,7 @@ if command -v gnuplot > /dev/null 2>&1; then
   done
 fi
 
-# F10: what a killed writer left goes.
+# What a killed writer left goes.
 rm -rf R10
 cp -r whole R10
 sed -i 's/"status": "done"/"status": "running"/' R10/manifest.json
@@ -178,7 +173,7 @@ mkdir -p R10/store
 ends 0 "results in" "$program" run --resume R10
 [ -z "$(find R10 -name '*.part*')" ] || fail "parts remain"
 
-# F11: processes of one number in several containers, and one store.
+# Processes of one number in several containers, and one store.
 cat > kept.lua <<'LUA'
 local lab = require "asperity"
 local rows = lab.ensemble{ over = { k = { 1, 2, 3, 4 } }, run = function(case)
@@ -199,7 +194,7 @@ else
   echo "run_directory: no name spaces of processes here: several containers at one store are not tried"
 fi
 
-# F12: a case is known by what it does.
+# A case is known by what it does.
 cat > ens.lua <<'LUA'
 local lab = require "asperity"
 local rows = lab.ensemble{ over = { k = { 1, 2, 3, 4 } }, run = function(case)
@@ -229,7 +224,7 @@ sed -i 's/end }$/end } print(rows[1].y)/' ens.lua other/ens.lua
 [ "$("$program" run "$folder/ens.lua" --store S12 --out f1 2> /dev/null)" = 2 ] || fail "twice"
 [ "$("$program" run "$folder/other/ens.lua" --store S12 --out f2 2> /dev/null)" = 3 ] || fail "a case of another module"
 
-# F14: signals; then the run goes on.
+# Signals; then the run goes on.
 for signal in INT:130 TERM:143 HUP:129; do
   name=${signal%:*}
   rm -rf "R14-$name"
@@ -272,7 +267,7 @@ for run in R14-zeros R14-cut; do
   ends 0 "there is nothing to resume" "$program" run --resume $run
 done
 
-# S3: own files that are links are refused, and nothing is written where they lead.
+# Own files that are links are refused, and nothing is written where they lead.
 cp -r R1 S3
 sed -i 's/"status": "done"/"status": "interrupted"/' S3/manifest.json
 mkdir victims

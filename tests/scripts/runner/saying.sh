@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the tests in shell share: `. saying.sh` from a script beside it. Sourced before any `cd`.
 
+# begin PROGRAM FOLDER ...: the program, and an empty folder to work in.
+begin() {
+  program=$1 folder=$2
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  cd "$folder"
+}
+
 fail() { echo "$(basename "$0" .sh): $*" >&2; exit 1; }
 
 # status text command...: the command ends so, and prints that.

@@ -7,12 +7,8 @@
 #   tests/scripts/runner/shards.sh PROGRAM FOLDER SLURM_EXAMPLE
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 example=$3
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 cat > study.lua <<'LUA'
 local lab = require "asperity"

@@ -9,13 +9,9 @@
 # SCRIPT runs on three ranks; with ASPERITY_WHOLE=1 in the environment, on two and five ranks as well.
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
 script=$3
-rm -rf "$folder"
-mkdir -p "$folder"
 here=$(cd "$(dirname "$0")" && pwd)
-cd "$folder"
+begin "$@"
 . "$here/mpi_ranks.sh"
 grep -q libfftw3_mpi "$(dirname "$program")/asperity-mpi.so" || skip "built without FFTW's MPI transforms"
 

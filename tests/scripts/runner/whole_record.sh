@@ -5,11 +5,7 @@
 #   tests/scripts/runner/whole_record.sh PROGRAM FOLDER
 set -eu
 . "$(dirname "$0")/saying.sh"
-program=$1
-folder=$2
-rm -rf "$folder"
-mkdir -p "$folder"
-cd "$folder"
+begin "$@"
 
 # A file that cannot be read is an error and not an empty script, manifest or journal.
 if [ -r /proc/self/mem ]; then

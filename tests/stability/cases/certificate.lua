@@ -24,32 +24,25 @@ local s = lab.surface.self_affine{ cells = { nx, ny }, size = { 1.5, 1 }, hurst 
 
 -- Displacements of pressures, by the definition of the Fourier sum along x and then along y.
 local cos, sin = math.cos, math.sin
-local function transform(re, im, sign)
+-- `count` sums of n terms, `step` apart from each other and `stride` apart within one.
+local function along(re, im, sign, n, stride, count, step)
   local out_re, out_im = {}, {}
-  for j = 0, ny - 1 do
-    for k = 0, nx - 1 do
+  for j = 0, count - 1 do
+    for k = 0, n - 1 do
       local a, b = 0, 0
-      for i = 0, nx - 1 do
-        local c, d = cos(2 * math.pi * ((i * k) % nx) / nx), sign * sin(2 * math.pi * ((i * k) % nx) / nx)
-        local x, y = re[j * nx + i], im[j * nx + i]
+      for i = 0, n - 1 do
+        local c, d = cos(2 * math.pi * ((i * k) % n) / n), sign * sin(2 * math.pi * ((i * k) % n) / n)
+        local x, y = re[j * step + i * stride], im[j * step + i * stride]
         a, b = a + x * c - y * d, b + x * d + y * c
       end
-      out_re[j * nx + k], out_im[j * nx + k] = a, b
+      out_re[j * step + k * stride], out_im[j * step + k * stride] = a, b
     end
   end
-  local re2, im2 = {}, {}
-  for k = 0, nx - 1 do
-    for l = 0, ny - 1 do
-      local a, b = 0, 0
-      for j = 0, ny - 1 do
-        local c, d = cos(2 * math.pi * ((j * l) % ny) / ny), sign * sin(2 * math.pi * ((j * l) % ny) / ny)
-        local x, y = out_re[j * nx + k], out_im[j * nx + k]
-        a, b = a + x * c - y * d, b + x * d + y * c
-      end
-      re2[l * nx + k], im2[l * nx + k] = a, b
-    end
-  end
-  return re2, im2
+  return out_re, out_im
+end
+local function transform(re, im, sign)
+  re, im = along(re, im, sign, nx, 1, ny, nx)
+  return along(re, im, sign, ny, nx, nx, 1)
 end
 local function displacements(p)
   local zero = {}

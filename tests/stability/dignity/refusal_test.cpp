@@ -18,6 +18,7 @@
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
+#include "tests/support/self_affine.hpp"
 
 namespace asperity::refusal_test {
 namespace {
@@ -25,12 +26,8 @@ namespace {
 constexpr double hardness = 1.1e9, megapascal = 1e6;
 
 Surface specimen(std::uint64_t seed) {
-  SelfAffineOptions options;
-  options.grid = make_grid(128, 96, 200e-6, 150e-6);
-  options.hurst = 0.8;
+  SelfAffineOptions options = test::self_affine(make_grid(128, 96, 200e-6, 150e-6), 0.8, 10e-6, seed);
   options.ra = 1e-6;
-  options.short_wave = 10e-6;
-  options.seed = seed;
   Material metal = test::elastic(70e9, 0.33);
   metal.hardness = hardness;
   return self_affine_surface(options).with_material(metal);
