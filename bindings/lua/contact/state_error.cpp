@@ -129,15 +129,13 @@ const Class& class_of<StateError>() {
         "How far a state is from exact, in parts that are never mixed. A part is found when it is read.";
     c.describe = describe_errors;
     c.fields = {
-        {"algebraic",
-         "AlgebraicError",
-         "bounds against the exact solution on the same grid",
-         {},
-         [](Call& call) -> Values {
-           StateBounds found{call.self<StateError>().state};
-           found.state.algebraic_error();  // now, and not after the contact was closed
-           return {object(std::move(found))};
-         }},
+        getter<StateError>("algebraic", "AlgebraicError",
+                           "bounds against the exact solution on the same grid",
+                           [](const StateError& of) {
+                             StateBounds found{of.state};
+                             found.state.algebraic_error();  // now, and not after the contact was closed
+                             return object(std::move(found));
+                           }),
         getter<StateError>(
             "discretisation", "DiscretisationError",
             "estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }",

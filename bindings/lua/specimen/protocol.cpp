@@ -179,9 +179,9 @@ const RecordType<Detection>& recording_type() {
   return type;
 }
 
-Values recording(Call& call) {
-  const Detection* found = call.self<Protocol>().recording().get();
-  return {found != nullptr ? Value(recording_type()(*found)) : Value()};
+Value recording(const Protocol& of) {
+  const Detection* found = of.recording().get();
+  return found != nullptr ? Value(recording_type()(*found)) : Value();
 }
 
 struct ChartKeys {
@@ -253,16 +253,15 @@ const Class& class_of<Protocol>() {
     c.native_bytes = bytes_of_protocol;
     c.equal = have_one_digest<Protocol>;
     c.digest = text_of<&Protocol::digest>;
-    c.fields = {getter<Protocol>("count", "integer", "number of events",
-                                 [](const Protocol& of) { return length(&of); }),
-                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
-                {"recording",
-                 "Recording?",
-                 "what was found in the recording that it was detected in, and by which thresholds; nil if "
-                 "there is none",
-                 {},
-                 recording},
-                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
+    c.fields = {
+        getter<Protocol>("count", "integer", "number of events",
+                         [](const Protocol& of) { return length(&of); }),
+        getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+        getter<recording, Protocol>(
+            "recording", "Recording?",
+            "what was found in the recording that it was detected in, and by which thresholds; nil if "
+            "there is none"),
+        getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
     c.methods = {
         {.name = "on",
          .body = on,

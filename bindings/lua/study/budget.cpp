@@ -408,14 +408,10 @@ const Class& class_of<Budget>() {
         getter<&Budget::seconds>("seconds", "number", "time inside `ask`", dimension::time),
         getter<Budget>("parts", "BudgetPart[]", "the parts of its error, greatest share first",
                        [](const Budget& of) { return part_type().list(of.parts); }),
-        {"plan",
-         "BudgetPlan?",
-         "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
-         {},
-         [](Call& call) -> Values {
-           const auto& plan = call.self<Budget>().plan;
-           return {plan ? Value(plan_type()(*plan)) : Value()};
-         }},
+        getter<Budget>(
+            "plan", "BudgetPlan?",
+            "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
+            [](const Budget& of) { return of.plan ? Value(plan_type()(*of.plan)) : Value(); }),
         getter<Budget>("warnings", "string[]", "what to be wary of: few replicates, skewed ones, a rough fit",
                        [](const Budget& of) { return text_list(of.warnings); }),
     };

@@ -477,14 +477,11 @@ const Class& class_of<Autocorrelation>() {
     c.sentence = "The autocorrelation of a surface at lags of whole cells, 1 at the origin.";
     c.describe = describe_correlation;
     c.native_bytes = bytes_of_correlation;
-    c.fields = {{"lags",
-                 "{integer, integer}",
-                 "the longest lags along x and y, in cells",
-                 {},
-                 [](Call& call) -> Values {
-                   const auto& f = call.self<Autocorrelation>();
-                   return {List{{f.lags_x(), f.lags_y()}}};
-                 }}};
+    c.fields = {getter<Autocorrelation>("lags", "{integer, integer}",
+                                        "the longest lags along x and y, in cells",
+                                        [](const Autocorrelation& of) {
+                                          return List{{of.lags_x(), of.lags_y()}};
+                                        })};
     c.methods = {
         {.name = "at",
          .body = correlation_at,
