@@ -246,8 +246,7 @@ int serve(const ServeCommand& command) {
   try {
     return serve_until_stopped(command);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return cli::bad_usage;
+    return cli::refused(error);
   }
 }
 

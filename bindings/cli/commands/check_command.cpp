@@ -45,8 +45,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   try {
     text = command.text ? *command.text : read_script(command.script);
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
   RunObserver* const observer = command.observer;
   Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/shared_options.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
@@ -95,8 +96,7 @@ int lesson(const LessonCommand& command) {
           lesson.name.c_str());
     return 0;
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return 2;
+    return refused(error);
   }
 }
 

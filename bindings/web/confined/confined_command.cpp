@@ -383,8 +383,7 @@ int carried_through(const cli::RunCommand& run, const cli::ReplayCommand* replay
   try {
     return Undertaking(run, replay).carry_through();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return cli::bad_usage;
+    return cli::refused(error);
   }
 }
 
