@@ -70,6 +70,9 @@ class StateHeap {
   SmallBlocks small_;
 };
 
+// Limits grids and Lua's heap by counting, libraries by the system.
+void limit_memory(std::int64_t bytes);
+
 // Whether a request for memory of this thread's states, or of the engine, was refused for good since the
 // limit was set, even if the script caught the error.
 bool memory_limit_met();

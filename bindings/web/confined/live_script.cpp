@@ -25,6 +25,7 @@
 #include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/confined/frames.hpp"
 #include "engine/core/digest.hpp"
@@ -217,7 +218,7 @@ class LiveScript {
         unlinked_(request.confinement.file_bytes),
         questions_(socket) {
     set_thread_count(request.threads);
-    cli::limit_memory(request.confinement.memory_bytes);
+    lua::limit_memory(request.confinement.memory_bytes);
     draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
       return GnuplotResult{"not drawn while a knob moves", ""};
     });
