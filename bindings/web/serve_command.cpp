@@ -21,13 +21,11 @@
 #include "bindings/cli/shared_options.hpp"
 #include "bindings/web/api/api.hpp"
 #include "bindings/web/confined/barrier_report.hpp"
-#include "bindings/web/confined/frames.hpp"
 #include "bindings/web/places.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
-#include "engine/core/text.hpp"
 
 extern char** environ;
 

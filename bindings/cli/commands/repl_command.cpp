@@ -26,7 +26,6 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 #include "engine/run/result_memory.hpp"
 #include "engine/run/run_directory.hpp"
 

@@ -2,7 +2,6 @@
 // The classes behind st.error: what there is of errors, and the bound of each quantity.
 #include "bindings/lua/contact/state_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,7 +13,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity::lua {
 

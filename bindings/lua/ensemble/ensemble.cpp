@@ -9,7 +9,6 @@
 #include "bindings/lua/ensemble/transfer.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/knob.hpp"

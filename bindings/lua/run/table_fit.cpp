@@ -2,14 +2,12 @@
 // t:fit: a straight line, a power law or a function of the script fitted to two columns. The function is
 // called with x and a table of the parameters by name, one table for all calls; x, y and weights are in the
 // units of their columns.
-#include <algorithm>
 #include <map>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_values.hpp"
-#include "bindings/lua/runtime/files.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/study/curve_fit.hpp"
 

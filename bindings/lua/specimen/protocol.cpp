@@ -8,7 +8,6 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/recording/protocol_chart.hpp"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +18,6 @@
 #include "bindings/web/confined/command_follower.hpp"
 #include "bindings/web/confined/command_request.hpp"
 #include "bindings/web/runs/plain_files.hpp"
-#include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/temporary_folder.hpp"

@@ -9,7 +9,6 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"

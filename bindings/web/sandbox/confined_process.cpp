@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -18,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 
