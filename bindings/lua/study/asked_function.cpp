@@ -67,6 +67,15 @@ std::vector<Quantity> read_sample(const Argument& given, const std::string& plac
   return sample;
 }
 
+// A share of the value, which may not be read yet.
+void resolve_share(const Argument& table, const std::string& path, Quantity& share) {
+  with_key(table, "value", [&](const Argument& of) {
+    Problems ignored;
+    if (const auto whole = quantity_of(of, path, ignored))
+      share = Quantity{std::abs(whole->value) * share.value, whole->dimension};
+  });
+}
+
 void read_input(const std::string& name, const std::string& path, const Argument& table, InputKeys& keys,
                 Problems& problems) {
   if (!table.is_table()) {
@@ -96,14 +105,8 @@ void read_input(const std::string& name, const std::string& path, const Argument
       sample = read_sample(given, place, problems);
     } else {
       auto read = quantity_of(given, place, problems);
-      if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read) {
-        // A share of the value, which may not be read yet.
-        with_key(table, "value", [&](const Argument& of) {
-          Problems ignored;
-          if (const auto whole = quantity_of(of, path, ignored))
-            read = Quantity{std::abs(whole->value) * read->value, whole->dimension};
-        });
-      }
+      if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read)
+        resolve_share(table, path, *read);
       (text == "u" ? u : value) = read;
     }
   });
