@@ -181,9 +181,8 @@ CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> ba
   options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
   options.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
-      "1 if anything differs. A run recorded by another minor version is repeated too: its rows and "
-      "verdicts are compared to 1e-05 of their values, and the exit status is 3. The script's own output is "
-      "dropped.");
+      "1 if anything differs. A run recorded by another minor version is repeated too: its rows and verdicts "
+      "are compared to 1e-05 of their values, and the exit status is 3. The script's own output is dropped.");
 
   return [given, barriers]() -> CommandWork {
     RunCommand& run = given->replay.run;

@@ -57,8 +57,7 @@ std::string output_fault() {
   if (!lost || ::fstat(STDOUT_FILENO, &facts) != 0 || S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode))
     return {};
   return "standard output could not be written to its end, so what the script printed is not all there; "
-         "check "
-         "the disk";
+         "check the disk";
 }
 
 std::string reason_text(StopReason reason, const RunCommand& command) {

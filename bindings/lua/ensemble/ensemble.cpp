@@ -418,9 +418,8 @@ Function ensemble_function() {
   f.sentence =
       "Runs a function for every case of a study, on all threads, and returns one row a case: the case's own "
       "values and what the function returned. Order and values do not depend on the number of threads. A "
-      "case "
-      "that fails is told on standard error and the others run on; then `on_failure` says what becomes of "
-      "it.";
+      "case that fails is told on standard error and the others run on; then `on_failure` says what becomes "
+      "of it.";
   f.options = &ensemble_block();
   f.returns = "table[]";
   f.example =

@@ -267,9 +267,8 @@ const Class& class_of<Protocol>() {
          .sentence =
              "Does one event after another to a contact, one a turn of a for loop, which is given the event "
              "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
-             "is "
-             "an error before the first event. An event that fails raises an error, and leaves "
-             "the contact as it was before that event; a loop that is broken off leaves the rest undone.",
+             "is an error before the first event. An event that fails raises an error, and leaves the "
+             "contact as it was before that event; a loop that is broken off leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},
          .returns = "iterator<ProtocolEvent and State?>",
          .example =

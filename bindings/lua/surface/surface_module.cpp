@@ -397,9 +397,8 @@ const Module& surface_module() {
          .sentence = "A measured surface from a file: " + format_names() +
                      ", known by its content, then by its extension, as it is or packed with gzip. Points "
                      "marked as not measured stay missing. y runs upwards: j = 0 is the lowest line, "
-                     "whichever a "
-                     "format stores first. Over x y z triples a line such as \"x "
-                     "[mm];y [mm];z [um]\" says their units.",
+                     "whichever a format stores first. Over x y z triples a line such as \"x [mm];y [mm];z "
+                     "[um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,
