@@ -281,10 +281,9 @@ class DirectoryRun {
     if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
     for (const Verdict& verdict : run_->expectations().verdicts())
       if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
-    const std::string saved =
-        counts.seconds_saved < 1
-            ? ""
-            : ", which had cost " + format_quantity(counts.seconds_saved, dimension::time, 3);
+    std::string saved;
+    if (counts.seconds_saved >= 1)
+      saved = ", which had cost " + format_quantity(counts.seconds_saved, dimension::time, 3);
     if (counts.found > 0)
       std::fprintf(stderr, "%lld %s taken from the store%s\n", static_cast<long long>(counts.found),
                    counts.found == 1 ? "result was" : "results were", saved.c_str());

@@ -191,11 +191,11 @@ Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*
   return unknown;
 }
 
-[[noreturn]] void throw_problems(const std::string& caller, const Problems& problems, bool has_unknown) {
-  const std::size_t count = problems.size() - (has_unknown ? 1 : 0);
+[[noreturn]] void throw_problems(const std::string& caller, const Problems& problems, bool unknown) {
+  const std::size_t count = problems.size() - (unknown ? 1 : 0);
   if (count == 1)
-    throw Error(has_unknown ? ErrorCode::unknown_name : ErrorCode::bad_value,
-                caller + ": " + problems.front(), has_unknown ? problems.back() : "");
+    throw Error(unknown ? ErrorCode::unknown_name : ErrorCode::bad_value, caller + ": " + problems.front(),
+                unknown ? problems.back() : "");
   std::string sentence = caller + ": " + std::to_string(count) + " problems";
   for (const std::string& problem : problems) sentence += "\n  " + problem;
   throw Error(ErrorCode::bad_value, sentence);

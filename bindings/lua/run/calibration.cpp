@@ -372,6 +372,7 @@ CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, Ca
   return report;
 }
 
+// data table
 template <>
 const Class& class_of<CalibrationReport>() {
   using R = CalibrationReport;

@@ -3,7 +3,6 @@
 // its fields and charts.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

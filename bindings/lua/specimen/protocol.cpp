@@ -238,6 +238,7 @@ std::size_t bytes_of_protocol(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<Protocol>() {
   static const Class type = [] {

@@ -40,6 +40,7 @@ Number of_hills(const Parameters& p, Number value) {
   return p.has_inside() ? unless_flat(p, value) : Number();
 }
 
+// data table
 const std::vector<ArealRow>& areal_rows() {
   using P = Parameters;
   static const Dimension length = dimension::length, number = dimension::number, angle = dimension::angle;

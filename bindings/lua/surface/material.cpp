@@ -86,7 +86,6 @@ const Class& class_of<Material>() {
                                              dimension::pressure),
                  getter<&Material::density>("density", "number", "mass per volume", dimension::density),
                  getter<&Material::source>("source", "string", "where the numbers come from")},
-      .methods = {},
       .describe = describe_material,
       .equal = equal_materials,
   };

@@ -85,6 +85,7 @@ std::string named_of(char kind, std::string text) {
 }
 
 // What both profiles have, under the letter of the one.
+// data table
 std::vector<RecordField<MeasuredProfile>> fields_of(char kind) {
   using M = MeasuredProfile;
   const auto sectioned = [](SectionedValue ProfileParameters::*member) {

@@ -87,6 +87,7 @@ std::size_t bytes_of_surface(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<Surface>() {
   static const Class type = [] {

@@ -339,6 +339,7 @@ Values read_body(Call& call) {
 
 }  // namespace
 
+// data table
 const Module& surface_module() {
   static const Module module = [] {
     Module m;
@@ -349,7 +350,6 @@ const Module& surface_module() {
       m.functions.push_back({.name = name,
                              .body = body,
                              .sentence = sentence,
-                             .parameters = {},
                              .options = &block,
                              .returns = returns,
                              .example = example,

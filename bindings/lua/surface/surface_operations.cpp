@@ -233,6 +233,7 @@ Values all_profiles(Call& call) {
 
 }  // namespace
 
+// data table
 std::vector<Function> surface_operations() {
   return {
       {.name = "scaled",
