@@ -127,8 +127,7 @@ int main(int argc, char** argv) {
     parser_exit(app, error);
     return cli::bad_usage;
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return cli::bad_usage;
+    return cli::refused(error);
   }
   return work();
 }

@@ -70,4 +70,19 @@ Shard parse_shard(const std::string& text) {
   return {static_cast<int>(*index), static_cast<int>(*count)};
 }
 
+CaseNumber parse_case(const std::string& text) {
+  CaseNumber one;
+  const std::size_t dot = text.find('.');
+  const auto read = [&](std::string_view part, auto& value) {
+    const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return problem == std::errc() && end == part.data() + part.size() && value >= 1;
+  };
+  const std::string_view all(text);
+  if ((dot == std::string::npos || read(all.substr(0, dot), one.ensemble)) &&
+      read(dot == std::string::npos ? all : all.substr(dot + 1), one.number))
+    return one;
+  throw Error(ErrorCode::bad_value, "`--case` is " + asperity::quoted(text),
+              "give the number of a case, such as 17, or 2.17 for the second ensemble");
+}
+
 }  // namespace asperity::cli

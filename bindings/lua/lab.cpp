@@ -144,7 +144,6 @@ const Module& units_module() {
   static const Module module = {
       .path = "lab.units",
       .sentence = "SI values of units, for printing: st.approach / lab.units.um is in micrometres.",
-      .functions = {},
       .constants = {{"m", "number", "metre", factor<1>},
                     {"mm", "number", "millimetre", factor<1, 1000>},
                     {"um", "number", "micrometre", factor<1, 1000000>},
@@ -162,7 +161,6 @@ const Module& units_module() {
                     {"GPa", "number", "gigapascal", factor<1000000000>},
                     {"rad", "number", "radian", factor<1>},
                     {"deg", "number", "degree", [] { return Value(std::numbers::pi / 180.0); }}},
-      .call = {},
   };
   return module;
 }

@@ -27,7 +27,6 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
-#include "engine/core/text.hpp"
 
 extern char** environ;
 
@@ -117,20 +116,34 @@ void print_addresses(const ServeCommand& command, const Access& access, int port
   std::fflush(stdout);
 }
 
+// Before any thread, which inherits the mask.
+sigset_t block_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
 void wait_for_end(const sigset_t& signals) {
   int signal = 0;
   while (::sigwait(&signals, &signal) != 0) {
   }
 }
 
+// Removes `folder` without recorded runs; names it otherwise.
+void clean_up(const std::filesystem::path& folder, const std::filesystem::path& scratch) {
+  std::error_code ignored;
+  std::filesystem::remove_all(scratch, ignored);
+  std::filesystem::remove(folder / open_page, ignored);
+  if (std::filesystem::is_empty(folder, ignored))
+    std::filesystem::remove(folder, ignored);
+  else
+    std::fprintf(stderr, "what the runs recorded is in %s\n", folder.c_str());
+}
+
 int serve_until_stopped(const ServeCommand& command) {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGHUP);
-  // Before any thread, which inherits the mask.
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  const sigset_t signals = block_stop_signals();
   std::signal(SIGPIPE, SIG_IGN);
   allow_many_files();
 
@@ -183,13 +196,7 @@ int serve_until_stopped(const ServeCommand& command) {
   live.close();
   server->stop();
   answering.join();
-  std::error_code ignored;
-  std::filesystem::remove_all(scratch, ignored);
-  std::filesystem::remove(folder / open_page, ignored);
-  if (std::filesystem::is_empty(folder, ignored))
-    std::filesystem::remove(folder, ignored);
-  else
-    std::fprintf(stderr, "what the runs recorded is in %s\n", folder.c_str());
+  clean_up(folder, scratch);
   return 0;
 }
 
@@ -246,8 +253,7 @@ int serve(const ServeCommand& command) {
   try {
     return serve_until_stopped(command);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return cli::bad_usage;
+    return cli::refused(error);
   }
 }
 

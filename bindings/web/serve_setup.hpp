@@ -2,7 +2,6 @@
 // People, limits and folder of `asperity serve`.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

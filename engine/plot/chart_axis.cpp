@@ -212,12 +212,9 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
   }
   // Avoids overflow in the sums below.
   constexpr double largest = 1e300, smallest = 1e-300;
-  low = std::clamp(low, -largest, largest);
-  high = std::clamp(high, -largest, largest);
-  if (axis.logarithmic) {
-    low = std::max(low, smallest);
-    high = std::max(high, smallest);
-  }
+  const double least = axis.logarithmic ? smallest : -largest;
+  low = std::clamp(low, least, largest);
+  high = std::clamp(high, least, largest);
   AxisLayout layout;
   // On a logarithmic axis the middle decade should read best.
   const double usual =

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -22,7 +21,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/disk.hpp"
 #include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"

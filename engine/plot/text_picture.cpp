@@ -47,10 +47,7 @@ std::string colour_code(unsigned rgb, bool background, TextColours colours) {
 
 std::string caption(const Grid& grid, const Field& marks, Range range, const PictureOptions& options,
                     Dimension dimension, bool coloured) {
-  const auto cells = [](int all, int shown) {
-    const double each = static_cast<double>(all) / shown;
-    return format_short(each, 3);
-  };
+  const auto cells = [](int all, int shown) { return format_short(static_cast<double>(all) / shown, 3); };
   std::string text = options.label + " from " + format_quantity(range.min, dimension, 3) + " (" +
                      (!coloured                                                       ? "blank"
                       : palette(options.palette).none || options.palette == "contact" ? "light"
@@ -61,6 +58,31 @@ std::string caption(const Grid& grid, const Field& marks, Range range, const Pic
   if (marks.nx() < grid.nx || marks.ny() < grid.ny)
     text += "; a mark is the mean of " + cells(grid.nx, marks.nx()) + " x " + cells(grid.ny, marks.ny()) +
             " cells";
+  return text;
+}
+
+std::string axis_script(const std::string& name, const AxisLayout& layout, bool logarithmic) {
+  std::string text = logarithmic ? "set logscale " + name + " 10\n" : "";
+  text += "set " + name + "range [" + gnuplot_number(layout.low) + ":" + gnuplot_number(layout.high) +
+          "]\nset " + name + "tics nomirror (";
+  bool first = true;
+  for (const Tic& tic : layout.tics) {
+    if (tic.label.empty()) continue;
+    text += (first ? "" : ", ") + gnuplot_text(tic.label) + " " + gnuplot_number(tic.at);
+    first = false;
+  }
+  return text + ")\n";
+}
+
+// Without blank lines and blanks at line ends.
+std::string without_blanks(std::string_view drawn) {
+  std::string text;
+  for (std::size_t at = drawn.find_first_not_of('\f'); at < drawn.size();) {
+    const std::size_t end = std::min(drawn.find('\n', at), drawn.size());
+    const std::size_t last = drawn.find_last_not_of(" \n", end == 0 ? 0 : end - 1);
+    if (last != std::string_view::npos && last >= at) text.append(drawn, at, last + 1 - at) += '\n';
+    at = end + 1;
+  }
   return text;
 }
 
@@ -194,34 +216,14 @@ std::string text_chart(const LineChart& chart, const TextCanvas& canvas, std::ve
                      (series.name.empty() ? " notitle" : " title " + gnuplot_text(series.name)));
     keyed = keyed || !series.name.empty();
   }
-  const auto axis = [](const std::string& name, const AxisLayout& layout, bool logarithmic) {
-    std::string text = logarithmic ? "set logscale " + name + " 10\n" : "";
-    text += "set " + name + "range [" + gnuplot_number(layout.low) + ":" + gnuplot_number(layout.high) +
-            "]\nset " + name + "tics nomirror (";
-    bool first = true;
-    for (const Tic& tic : layout.tics) {
-      if (tic.label.empty()) continue;
-      text += (first ? "" : ", ") + gnuplot_text(tic.label) + " " + gnuplot_number(tic.at);
-      first = false;
-    }
-    return text + ")\n";
-  };
-  script += "set border 3\n" + axis("x", x, chart.x.logarithmic) + axis("y", y, chart.y.logarithmic);
+  script +=
+      "set border 3\n" + axis_script("x", x, chart.x.logarithmic) + axis_script("y", y, chart.y.logarithmic);
   script += "set xlabel " + gnuplot_text(x.label) + "\n";
   // As a ylabel, the letters would be stacked.
   script += "set title " + gnuplot_text(chart.title.empty() ? y.label : chart.title + ": " + y.label) + "\n";
   script += keyed ? "set key top right\n" : "set key off\n";
   if (keyed && !chart.key_title.empty()) script += "set key title " + gnuplot_text(chart.key_title) + "\n";
-  std::string drawn = run_gnuplot(script + "plot " + joined(layers, ", ") + "\n").picture;
-  std::string text;
-  for (std::size_t at = drawn.find_first_not_of('\f'); at < drawn.size();) {
-    const std::size_t end = std::min(drawn.find('\n', at), drawn.size());
-    const std::size_t last = drawn.find_last_not_of(" \n", end == 0 ? 0 : end - 1);
-    const bool blank = last == std::string::npos || last < at;
-    if (!blank) text += drawn.substr(at, last + 1 - at) + "\n";
-    at = end + 1;
-  }
-  return text;
+  return without_blanks(run_gnuplot(script + "plot " + joined(layers, ", ") + "\n").picture);
 }
 
 }  // namespace asperity

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/core/files/text_encoding.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 #include "engine/statistics/table_head.hpp"
 #include "engine/statistics/time_stamp.hpp"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"

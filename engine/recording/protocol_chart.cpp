@@ -105,17 +105,39 @@ class Clock {
   Played played_;
 };
 
+ChartSeries line_alone(std::string name) {
+  ChartSeries series;
+  series.name = std::move(name);
+  series.points = false;
+  return series;
+}
+
+// Seconds, minutes or hours; no "ks".
+double time_unit(const std::vector<RecordedSpan>& spans, const Detection* found) {
+  double end = 0;
+  for (const RecordedSpan& span : spans) end = std::max(end, span.end);
+  if (found != nullptr && !found->time.empty()) end = std::max(end, found->time.back());
+  return end > 4 * 3600 ? 3600 : end > 600 ? 60 : 1;
+}
+
+Range load_range(double highest, const Detection* found) {
+  const double room = highest > 0 ? highest : 1;
+  double low = 0, high = highest;
+  if (found != nullptr)
+    for (const double value : found->load) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  return {low - 0.1 * room, high + 0.12 * room};
+}
+
 }  // namespace
 
 LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   const Detection* found = protocol.recording().get();
   const Played played =
       found != nullptr ? Played{found->by, "time", true, found->spans} : Clock(protocol).play();
-  double end = 0;
-  for (const RecordedSpan& span : played.spans) end = std::max(end, span.end);
-  if (found != nullptr && !found->time.empty()) end = std::max(end, found->time.back());
-  // No "ks".
-  const double clock = !played.in_seconds ? 1 : end > 4 * 3600 ? 3600 : end > 600 ? 60 : 1;
+  const double clock = played.in_seconds ? time_unit(played.spans, found) : 1;
   LineChart chart;
   chart.title = title;
   chart.x.label = played.time_label;
@@ -124,11 +146,8 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   chart.y.unit = played.by == PressBy::load ? "N" : "Pa";
   chart.width = 1100;
 
-  ChartSeries recorded, events;
-  recorded.name = "recorded";
-  recorded.points = false;
-  events.name = found != nullptr ? "detected" : "protocol";
-  events.points = false;
+  ChartSeries recorded = line_alone("recorded"),
+              events = line_alone(found != nullptr ? "detected" : "protocol");
   ChartSeries rise = marks_alone("rise", PointShape::triangle), peak = marks_alone("peak", PointShape::ring),
               release = marks_alone("release", PointShape::cross),
               turn = marks_alone("turn", PointShape::diamond);
@@ -143,54 +162,33 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   double load = 0, highest = 0;
   for (const RecordedSpan& span : played.spans) highest = std::max(highest, span.load);
   for (const RecordedSpan& span : played.spans) {
-    switch (span.kind) {
-      case SpanKind::rise:
-      case SpanKind::fall:
-        add(events, span.begin, load);
-        if (span.kind == SpanKind::rise) add(rise, span.begin, load);
-        break;
-      case SpanKind::hold:
-      case SpanKind::peak: {
-        const bool held = span.kind == SpanKind::hold;
-        const double middle = 0.5 * (span.begin + span.end);
-        add(events, held ? span.begin : middle, span.load);
-        if (held) add(events, span.end, span.load);
-        if (!held) add(peak, middle, span.load);
-        const double dwell = found != nullptr ? span.end - span.begin : span.dwell_error;
-        std::string text = format_quantity(span.load, unit, 4);
-        if (held && dwell > 0) text += ", " + minutes(dwell);
-        if (held) chart.labels.push_back({middle / clock, span.load, "hold " + text});
-        break;
-      }
-      case SpanKind::release:
-        add(events, span.begin, load);
-        add(release, span.begin, load);
-        break;
-      case SpanKind::turn:
-        add(turn, span.begin, 0);
-        chart.labels.push_back({span.begin / clock, 0,
-                                span.angle != 0 ? format_quantity(span.angle, dimension::angle, 4) : "placed",
-                                true});
-        break;
-      case SpanKind::rest:
-        break;
-    }
-    if (span.kind != SpanKind::turn)
+    const double middle = 0.5 * (span.begin + span.end);
+    if (span.kind == SpanKind::turn) {
+      add(turn, span.begin, 0);
+      const std::string angle = span.angle != 0 ? format_quantity(span.angle, dimension::angle, 4) : "placed";
+      chart.labels.push_back({span.begin / clock, 0, angle, true});
+    } else if (span.kind == SpanKind::hold) {
+      add(events, span.begin, span.load);
+      add(events, span.end, span.load);
+      const double dwell = found != nullptr ? span.end - span.begin : span.dwell_error;
+      const std::string text = "hold " + format_quantity(span.load, unit, 4);
+      chart.labels.push_back({middle / clock, span.load, dwell > 0 ? text + ", " + minutes(dwell) : text});
+      load = span.load;
+    } else if (span.kind == SpanKind::peak) {
+      add(events, middle, span.load);
+      add(peak, middle, span.load);
+      load = span.load;
+    } else {
+      if (span.kind != SpanKind::rest) add(events, span.begin, load);
+      if (span.kind == SpanKind::rise) add(rise, span.begin, load);
+      if (span.kind == SpanKind::release) add(release, span.begin, load);
       load = span.kind == SpanKind::release || span.kind == SpanKind::rest ? 0 : span.load;
-    if (span.kind == SpanKind::rise || span.kind == SpanKind::fall || span.kind == SpanKind::release ||
-        span.kind == SpanKind::rest)
       add(events, span.end, load);
+    }
   }
   constexpr std::size_t most = 24;
   if (chart.labels.size() > most) chart.labels.clear();
-  const double room = highest > 0 ? highest : 1;
-  double low = 0, high = highest;
-  if (found != nullptr)
-    for (const double value : found->load) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  chart.y.range = Range{low - 0.1 * room, high + 0.12 * room};
+  chart.y.range = load_range(highest, found);
   for (ChartSeries* series : {&recorded, &events, &rise, &peak, &release, &turn})
     if (!series->x.empty()) chart.series.push_back(std::move(*series));
   return chart;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/run/ranks.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 

@@ -159,10 +159,10 @@ class RunDirectory {
   void write_manifest(Durable durable);
   Json inputs() const;
   void wait_for_outputs(const Json& outputs) const;
-  std::string unlike_recorded(const Json& outputs) const;
+  void require_recorded(const Json& outputs) const;
   void require_place() const;
   void require_own_files() const;
-  std::string removed_by_others() const;
+  void require_present() const;
   void note_end(RunStatus status, std::string_view reason, Json files);
   Json outputs(bool with_digests) const;
   void keep_inside(const std::filesystem::path& relative, std::string_view file) const;

@@ -39,9 +39,9 @@ void RunDirectory::wait_for_outputs(const Json& outputs) const {
   for (const fs::path& folder : holding_) wait_for_names_in(folder);
 }
 
-// Differing outputs of a mended run; "" if none.
-std::string RunDirectory::unlike_recorded(const Json& outputs) const {
-  if (recorded_outputs_.is_null()) return {};
+// Refuses differing outputs of a mended run.
+void RunDirectory::require_recorded(const Json& outputs) const {
+  if (recorded_outputs_.is_null()) return;
   std::vector<std::string> unlike;
   const auto file_of = [](const Json& entry) { return entry.find("file")->string(); };
   for (const Json& entry : recorded_outputs_.list()) {
@@ -50,8 +50,9 @@ std::string RunDirectory::unlike_recorded(const Json& outputs) const {
         std::ranges::find_if(now, [&](const Json& other) { return file_of(other) == file_of(entry); });
     if (found == now.end() || !(*found == entry)) unlike.push_back(quoted(file_of(entry)));
   }
-  if (unlike.empty()) return {};
-  return joined(unlike, " and ") + " could not be made again as recorded";
+  if (!unlike.empty())
+    throw Error(ErrorCode::bad_state, joined(unlike, " and ") + " could not be made again as recorded",
+                "the script does not do the same again, or what it reads has changed");
 }
 
 // Restores the script: a resume needs it.
@@ -71,8 +72,8 @@ void RunDirectory::require_own_files() const {
                 "its results are kept: take the run up with --resume");
 }
 
-// "" if none. A trusted script may remove files itself.
-std::string RunDirectory::removed_by_others() const {
+// A trusted script may remove files itself.
+void RunDirectory::require_present() const {
   std::vector<std::string> gone;
   std::error_code missing;
   const auto look = [&](const std::string& file) {
@@ -82,9 +83,15 @@ std::string RunDirectory::removed_by_others() const {
     if (!trusted_ && !unseen_.contains(file)) look(file);
   for (const Input& input : inputs_)
     if (!input.copy.empty() && !scratch_) look(input.copy);
-  return gone.empty() ? ""
-                      : joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") +
-                            " taken away while the run went on";
+  if (!gone.empty())
+    throw Error(
+        ErrorCode::bad_file,
+        joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") + " taken away while the run went on",
+        "take the run up with --resume, which writes it again");
+  if (journal_->is_lost())
+    throw Error(ErrorCode::bad_file,
+                quoted(journal_->path().string()) + " was taken away while the run wrote it",
+                "its results are kept: take the run up with --resume");
 }
 
 Json RunDirectory::outputs(bool with_digests) const {
@@ -161,15 +168,8 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
       // A killed run does not read large files again.
       files = outputs(status != RunStatus::killed);
       if (!ends_well()) return;
-      if (const std::string unlike = unlike_recorded(files); !unlike.empty())
-        throw Error(ErrorCode::bad_state, unlike,
-                    "the script does not do the same again, or what it reads has changed");
-      if (const std::string gone = removed_by_others(); !gone.empty())
-        throw Error(ErrorCode::bad_file, gone, "take the run up with --resume, which writes it again");
-      if (journal_->is_lost())
-        throw Error(ErrorCode::bad_file,
-                    quoted(journal_->path().string()) + " was taken away while the run wrote it",
-                    "its results are kept: take the run up with --resume");
+      require_recorded(files);
+      require_present();
     });
   attempt([&] {
     Json fields = Json::object({{"status", name(status)}});

@@ -121,7 +121,7 @@ void fill_shares(PolynomialChaos& chaos, const LinearLeastSquares& fit) {
 }
 
 void check_answers(std::span<const UncertainInput> inputs, std::span<const std::vector<double>> points,
-                   std::span<const double> answers) {
+                   std::span<const double> answers, int highest) {
   check_inputs(inputs);
   if (points.size() != answers.size())
     throw Error(ErrorCode::bad_value, std::to_string(points.size()) + " points have " +
@@ -149,20 +149,31 @@ void check_answers(std::span<const UncertainInput> inputs, std::span<const std::
     throw Error(ErrorCode::bad_value, "the answer at " + where + " is not finite",
                 "a share needs an answer over the whole range of the inputs: make the ranges narrower");
   }
+  if (highest < 1 || highest > highest_degree)
+    throw Error(ErrorCode::bad_value, "the highest degree is " + std::to_string(highest),
+                "give one from 1 to " + std::to_string(highest_degree));
 }
 
-std::vector<std::vector<std::vector<double>>> tables_of(std::span<const UncertainInput> inputs,
-                                                        std::span<const std::vector<double>> points,
-                                                        int degree) {
-  std::vector<std::vector<std::vector<double>>> tables;
-  for (const std::vector<double>& point : points) {
-    auto& table = tables.emplace_back();
-    for (std::size_t j = 0; j < inputs.size(); ++j) {
-      table.emplace_back(static_cast<std::size_t>(degree) + 1);
-      polynomials(inputs[j].shape, point[j], table.back());
-    }
+using PolynomialTable = std::vector<std::vector<double>>;  // per input, of each degree
+
+PolynomialTable table_of(std::span<const UncertainInput> inputs, std::span<const double> point, int degree) {
+  PolynomialTable table;
+  for (std::size_t j = 0; j < inputs.size(); ++j) {
+    table.emplace_back(static_cast<std::size_t>(degree) + 1);
+    polynomials(inputs[j].shape, point[j], table.back());
   }
-  return tables;
+  return table;
+}
+
+// Adds the terms of one degree and their columns.
+void add_degree(int degree, const std::vector<PolynomialTable>& tables, std::vector<std::vector<int>>& terms,
+                TableColumns& columns) {
+  std::vector<int> term(tables.front().size());
+  add_terms(term, 0, degree, terms);
+  for (std::size_t k = columns.size(); k < terms.size(); ++k) {
+    std::vector<double>& column = columns.emplace_back(tables.size());
+    for (std::size_t i = 0; i < tables.size(); ++i) column[i] = value_of_term(terms[k], tables[i]);
+  }
 }
 
 }  // namespace
@@ -183,11 +194,7 @@ ChaosTrust PolynomialChaos::trust() const {
 }
 
 double PolynomialChaos::at(std::span<const double> coordinates) const {
-  std::vector<std::vector<double>> table;
-  for (std::size_t j = 0; j < inputs.size(); ++j) {
-    table.emplace_back(static_cast<std::size_t>(degree) + 1);
-    polynomials(inputs[j].shape, coordinates[j], table.back());
-  }
+  const PolynomialTable table = table_of(inputs, coordinates, degree);
   double sum = 0;
   for (std::size_t k = 0; k < degrees.size(); ++k) sum += coefficients[k] * value_of_term(degrees[k], table);
   return sum;
@@ -205,13 +212,9 @@ std::string PolynomialChaos::text() const {
 PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
                                  std::span<const std::vector<double>> points, std::span<const double> answers,
                                  int highest) {
-  check_answers(inputs, points, answers);
-  if (highest < 1 || highest > highest_degree)
-    throw Error(ErrorCode::bad_value, "the highest degree is " + std::to_string(highest),
-                "give one from 1 to " + std::to_string(highest_degree));
-  const std::size_t runs = points.size();
+  check_answers(inputs, points, answers, highest);
   PolynomialChaos found;
-  found.runs = runs;
+  const std::size_t runs = found.runs = points.size();
   found.inputs.assign(inputs.begin(), inputs.end());
 
   // No square may overflow.
@@ -232,7 +235,8 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
   }
 
   highest = std::min(highest, std::max(1, static_cast<int>(std::bit_width(runs)) - 1));
-  const auto tables = tables_of(inputs, points, highest);
+  std::vector<PolynomialTable> tables;
+  for (const std::vector<double>& point : points) tables.push_back(table_of(inputs, point, highest));
   std::vector<std::vector<int>> terms;
   TableColumns columns;
   std::optional<LinearLeastSquares> best;
@@ -240,21 +244,14 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     const std::size_t count = chaos_terms(inputs.size(), degree);
     if (runs_a_term * static_cast<double>(count) > static_cast<double>(runs)) break;
     if (degree > 2 && count > most_terms) break;
-    const std::size_t before = terms.size();
-    std::vector<int> term(inputs.size());
-    add_terms(term, 0, degree, terms);
-    for (std::size_t k = before; k < terms.size(); ++k) {
-      std::vector<double>& column = columns.emplace_back(runs);
-      for (std::size_t i = 0; i < runs; ++i) column[i] = value_of_term(terms[k], tables[i]);
-    }
+    add_degree(degree, tables, terms, columns);
     if (degree == 0) continue;
     LinearLeastSquares fit = linear_least_squares(columns, scaled);
     if (!(fit.independence > 1e-8)) break;
     double squares = 0;
     for (std::size_t i = 0; i < runs; ++i) squares += left_out(fit, i) * left_out(fit, i);
     const double error = squares / scatter;
-    if (!std::isfinite(error)) continue;
-    if (best && error >= found.leave_one_out) continue;
+    if (!std::isfinite(error) || (best && error >= found.leave_one_out)) continue;
     best = std::move(fit);
     found.degree = degree;
     found.leave_one_out = error;

@@ -209,10 +209,35 @@ bool TableLines::next_record(LineReader& lines, std::string_view& record, std::s
   return true;
 }
 
-bool TableLines::read_heads() {
+Separator TableLines::separator_by(std::string_view heads, std::string_view next,
+                                   std::string_view second) const {
   const auto holds = [](std::string_view text, char mark) {
     return find_unquoted(text, mark) != std::string_view::npos;
   };
+  if (holds(heads, ';')) return Separator::semicolon;
+  if (holds(heads, '\t')) return Separator::tab;
+  const bool commas = holds(heads, ',') && (!heads_are_given() || separator_of(heads) == Separator::comma);
+  const bool words = trimmed(heads).find_first_of(" \t") != std::string_view::npos;
+  if (commas || !words || split_at(heads, Separator::comma).size() != 1 ||
+      (!heads_are_given() && holds(next, ',') && separator_of(next) != Separator::blank))
+    return Separator::comma;
+  const std::vector<TableCell> below = split_at(next, Separator::blank);
+  const std::vector<TableCell> below_units = split_at(second, Separator::blank);
+  const auto has_numbers = [](const std::vector<TableCell>& cells) {
+    return cells.size() > 1 && std::ranges::any_of(cells, [](const TableCell& cell) {
+             return read_cell(cell.text, Separator::blank).kind == CellKind::number;
+           });
+  };
+  // Units may precede the numbers.
+  const bool units = std::ranges::all_of(below, [](const TableCell& cell) {
+    return cell.text == "-" || unit_in_cell(cell.text) || bare_unit(cell.text) != cell.text;
+  });
+  const bool several =
+      has_numbers(below) || (units && below_units.size() == below.size() && has_numbers(below_units));
+  return several ? Separator::blank : Separator::comma;
+}
+
+bool TableLines::read_heads() {
   std::string_view line;
   LineReader before = lines_;
   if (form_.separator) separator_ = *form_.separator;
@@ -236,30 +261,7 @@ bool TableLines::read_heads() {
       *below = without_comment(*below);
     }
   }
-  if (!form_.separator) {
-    separator_ = holds(line, ';')    ? Separator::semicolon
-                 : holds(line, '\t') ? Separator::tab
-                                     : Separator::comma;
-    const bool commas = holds(line, ',') && (!heads_are_given() || separator_of(line) == Separator::comma);
-    const std::vector<TableCell> words_below = split_at(next, Separator::blank);
-    const auto has_numbers = [](const std::vector<TableCell>& words_of_line) {
-      return words_of_line.size() > 1 && std::ranges::any_of(words_of_line, [](const TableCell& cell) {
-               return read_cell(cell.text, Separator::blank).kind == CellKind::number;
-             });
-    };
-    // Units may precede the numbers.
-    const bool units = std::ranges::all_of(words_below, [](const TableCell& cell) {
-      return cell.text == "-" || unit_in_cell(cell.text) || bare_unit(cell.text) != cell.text;
-    });
-    const std::vector<TableCell> words_of_second = split_at(second, Separator::blank);
-    const bool several = has_numbers(words_below) || (units && words_of_second.size() == words_below.size() &&
-                                                      has_numbers(words_of_second));
-    const bool words = trimmed(line).find_first_of(" \t") != std::string_view::npos;
-    if (separator_ == Separator::comma && !commas && several && words &&
-        split_at(line, Separator::comma).size() == 1 &&
-        (heads_are_given() || (!holds(next, ',') || separator_of(next) == Separator::blank)))
-      separator_ = Separator::blank;
-  }
+  if (!form_.separator) separator_ = separator_by(line, next, second);
   marks_known_ = true;
   head_line_ = line;
   if (heads_are_given()) {

@@ -60,6 +60,7 @@ class TableLines {
 
  private:
   std::vector<TableCell> heads_between_blanks(std::string_view line, std::string_view next) const;
+  Separator separator_by(std::string_view heads, std::string_view next, std::string_view second) const;
   // Joins lines within quotes; `number`: first line. A quote never closed ends with its line. False at the
   // end.
   bool next_record(LineReader& lines, std::string_view& record, std::size_t& number) const;

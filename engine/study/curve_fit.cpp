@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"

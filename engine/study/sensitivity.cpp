@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/study/study_text.hpp"

@@ -38,6 +38,29 @@ std::string line_in_script(const std::string& message, const std::string& script
   return lua::line_of(at == std::string::npos ? message : message.substr(at + lead.size() - 1));
 }
 
+// Reports mistakes and the reason of an early end. Returns the exit status.
+int report_mistakes(const RunCommand& command, const std::vector<std::string>& mistakes,
+                    const std::string& reached) {
+  if (command.observer != nullptr) {
+    for (std::size_t k = 0; k + 1 < mistakes.size(); ++k) command.observer->mistake(mistakes[k]);
+    command.observer->ended(failed, StopReason::none, mistakes.back());
+    return failed;
+  }
+  for (const std::string& mistake : mistakes) std::fprintf(stderr, "asperity: %s\n", mistake.c_str());
+  if (!reached.empty()) std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
+  return failed;
+}
+
+int report_stop(const RunCommand& command, const std::string& verb) {
+  const StopReason reason = stop_flag().reason();
+  if (command.observer != nullptr) {
+    command.observer->ended(failed, reason, "the " + verb + " was stopped");
+    return failed;
+  }
+  std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
+  return exit_status(reason);
+}
+
 // `report` prints the findings; `reached`: the reason of an early end, or "".
 int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
             const std::function<void(const std::string& reached)>& report) {
@@ -45,8 +68,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   try {
     text = command.text ? *command.text : read_script(command.script);
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
   RunObserver* const observer = command.observer;
   Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {
@@ -58,7 +80,6 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   session.dry_run = true;
   session.mistakes = std::make_shared<lua::Mistakes>();
   session.mistakes->script = text;
-  // Reports mistakes and the reason of an early end.
   const auto end = [&](const std::string& reached, const std::string& failure) {
     if (observer != nullptr)
       observer->made_knobs(session.knobs->json());
@@ -68,14 +89,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     std::vector<std::string> mistakes = session.mistakes->messages();
     if (mistakes.empty() && failure.empty()) return report(reached), done;
     if (!failure.empty()) mistakes.push_back(failure);
-    if (observer != nullptr) {
-      for (std::size_t k = 0; k + 1 < mistakes.size(); ++k) observer->mistake(mistakes[k]);
-      observer->ended(failed, StopReason::none, mistakes.back());
-      return failed;
-    }
-    for (const std::string& mistake : mistakes) std::fprintf(stderr, "asperity: %s\n", mistake.c_str());
-    if (!reached.empty()) std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
-    return failed;
+    return report_mistakes(command, mistakes, reached);
   };
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
   session.exit_hook = [&](int) {
@@ -91,14 +105,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     const int result = execute(state.get(), command, text, 0);
     if (result == LUA_OK) return end("", unmade_knobs(session));
     const std::string message = lua::error_text(state.get(), -1);
-    if (observer != nullptr && stop_flag().reason() != StopReason::none) {
-      observer->ended(failed, stop_flag().reason(), "the " + verb + " was stopped");
-      return failed;
-    }
-    if (stop_flag().reason() != StopReason::none) {
-      std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
-      return exit_status(stop_flag().reason());
-    }
+    if (stop_flag().reason() != StopReason::none) return report_stop(command, verb);
     if (lua::stopped_at_placeholder(message))
       return end("to line " + line_in_script(message, command.script) + ": " + lua::cannot_follow, "");
     // A result would set this value in a real run, or the script forgot to.

@@ -46,8 +46,7 @@ int print_help(const HelpRequest& asked, const CLI::App& program, std::string (*
   try {
     std::fputs(help_page(asked, program, overview).c_str(), stdout);
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
   return done;
 }

@@ -9,6 +9,7 @@
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -95,8 +96,7 @@ int lesson(const LessonCommand& command) {
           lesson.name.c_str());
     return 0;
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return 2;
+    return refused(error);
   }
 }
 

@@ -21,11 +21,11 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/knob.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 #include "engine/run/result_memory.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -54,14 +54,14 @@ class Conversation {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     set_thread_count(command.threads);
-    if (command.limit_memory) limit_memory(*command.limit_memory);
+    if (command.limit_memory) lua::limit_memory(*command.limit_memory);
     RunSetup setup;
     setup.script_name = "prompt";
     if (command.out) setup.out = *command.out;
     setup.trusted = command.trust;
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
-    setup.versions = version_json();
+    setup.versions = lua::version_json();
     run_ = std::make_shared<RunDirectory>(
         std::move(setup), [this] { return bench_ ? bench_->prompt->script() : std::string(); });
     run_->note("prompt", true);
@@ -273,8 +273,7 @@ int repl(const ReplCommand& command) {
     Conversation conversation(command);
     return conversation.converse();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
 }
 

@@ -111,6 +111,51 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
   return !replayed ? another_version : found.empty() ? equal : different;
 }
 
+std::shared_ptr<lua::Variation> variation_of(const ReplayCommand& command) {
+  if (command.settings.empty()) return nullptr;
+  auto variation = std::make_shared<lua::Variation>();
+  for (const std::string& setting : command.settings) {
+    if (setting.starts_with("knob.") || setting.starts_with("lab.knob."))
+      throw Error(ErrorCode::bad_value,
+                  "`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
+                  "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
+                      " for what stays the same");
+    variation->set(setting);
+  }
+  return variation;
+}
+
+// Returns the files of the record that differ from its manifest.
+std::vector<std::string> print_alterations(const RecordedRun& recorded) {
+  std::vector<std::string> altered = altered_outputs(recorded);
+  if (!recorded.journal_fault.empty()) altered.push_back(recorded.journal_fault);
+  for (const std::string& sentence : altered) std::fprintf(stderr, "asperity: %s\n", sentence.c_str());
+  if (!recorded.shard.empty() && recorded.status != "done")
+    std::printf(
+        "%s is shard %s of a run, and ends where the script needs the cases of the others; "
+        "the replay computes all cases and compares until there\n",
+        recorded.root.c_str(), recorded.shard.c_str());
+  return altered;
+}
+
+RunCommand repetition_of(const RecordedRun& recorded, const ReplayCommand& command) {
+  RunCommand run = command.run;
+  load_as_recorded(run, recorded, true);
+  run.arguments = recorded.arguments;
+  run.knobs = recorded.knobs;
+  run.seed = static_cast<std::uint64_t>(recorded.seed);
+  if (command.from) {
+    const auto lines = static_cast<std::int64_t>(recorded.journal.size());
+    if (*command.from < 1 || *command.from > lines)
+      throw Error(ErrorCode::bad_value, "`--from` is " + std::to_string(*command.from),
+                  "the journal of " + command.recorded + " has lines 1 to " + std::to_string(lines));
+    run.afresh_from = command.from;
+    run.reuse.push_back(command.recorded);
+  }
+  run.variation = variation_of(command);
+  return run;
+}
+
 CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> barriers) {
   struct Given {
     ReplayCommand replay;
@@ -133,9 +178,8 @@ CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> ba
   options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
   options.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
-      "1 if anything differs. A run recorded by another minor version is repeated too: its rows and "
-      "verdicts are compared to 1e-05 of their values, and the exit status is 3. The script's own output is "
-      "dropped.");
+      "1 if anything differs. A run recorded by another minor version is repeated too: its rows and verdicts "
+      "are compared to 1e-05 of their values, and the exit status is 3. The script's own output is dropped.");
 
   return [given, barriers]() -> CommandWork {
     RunCommand& run = given->replay.run;
@@ -161,66 +205,27 @@ Command replay_command(BehindBarriers<ReplayCommand> barriers) {
 }
 
 int replay(const ReplayCommand& command) {
-  std::optional<RecordedRun> recorded;
+  RecordedRun recorded;
+  std::vector<std::string> altered;
+  RunCommand run;
   try {
     recorded = read_run(command.recorded);
-    require_repeatable(command.run, *recorded, "replay");
+    require_repeatable(command.run, recorded, "replay");
+    altered = print_alterations(recorded);
+    run = repetition_of(recorded, command);
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
-  std::vector<std::string> altered = altered_outputs(*recorded);
-  if (!recorded->journal_fault.empty()) altered.push_back(recorded->journal_fault);
-  for (const std::string& sentence : altered) std::fprintf(stderr, "asperity: %s\n", sentence.c_str());
-  if (!recorded->shard.empty() && recorded->status != "done")
-    std::printf(
-        "%s is shard %s of a run, and ends where the script needs the cases of the others; "
-        "the replay computes all cases and compares until there\n",
-        recorded->root.c_str(), recorded->shard.c_str());
-
-  RunCommand run = command.run;
-  run.script = recorded->script_path;
-  run.text = recorded->script_text;
-  load_as_recorded(run, *recorded, true);
-  run.arguments = recorded->arguments;
-  run.knobs = recorded->knobs;
-  run.seed = static_cast<std::uint64_t>(recorded->seed);
-  const auto lines = static_cast<std::int64_t>(recorded->journal.size());
-  if (command.from && (*command.from < 1 || *command.from > lines)) {
-    std::fprintf(stderr, "asperity: `--from` is %lld; the journal of %s has lines 1 to %lld\n",
-                 static_cast<long long>(*command.from), command.recorded.c_str(),
-                 static_cast<long long>(lines));
-    return bad_usage;
-  }
-  if (command.from) {
-    run.afresh_from = command.from;
-    run.reuse.push_back(command.recorded);
-  }
-  std::shared_ptr<lua::Variation> variation;
-  try {
-    if (!command.settings.empty()) variation = std::make_shared<lua::Variation>();
-    for (const std::string& setting : command.settings) {
-      if (setting.starts_with("knob.") || setting.starts_with("lab.knob."))
-        throw Error(ErrorCode::bad_value,
-                    "`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
-                    "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
-                        " for what stays the same");
-      variation->set(setting);
-    }
-  } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
-  }
-  run.variation = variation;
+  lua::Variation* const variation = run.variation.get();
   std::filesystem::path place;
   const auto verdict = [&](int ended) {
     try {
-      if (variation) {
+      if (variation != nullptr) {
         variation->check_all_met();
-        show_variation(*recorded, place, variation->text());
+        show_variation(recorded, place, variation->text());
         return ended;
       }
-      const int status = compare(*recorded, place, !altered.empty());
+      const int status = compare(recorded, place, !altered.empty());
       return altered.empty() ? status : different;
     } catch (const Error& error) {
       std::fprintf(stderr, "asperity: %s\n", error.what());
@@ -230,11 +235,11 @@ int replay(const ReplayCommand& command) {
   std::optional<Muted> muted(std::in_place);
   const int status = in_run_directory(run, [&](RunContext& context) {
     place = context.run->path();
-    if (variation && command.from)
+    if (variation != nullptr && command.from)
       variation->in_force = [journal = &context.run->journal(), from = *command.from] {
         return journal->count() + 1 >= from;
       };
-    if (variation) context.run->note("variation", Json::strings(command.settings));
+    if (variation != nullptr) context.run->note("variation", Json::strings(command.settings));
     return run_script(context, [&](int code) {
       muted.reset();
       return verdict(code);

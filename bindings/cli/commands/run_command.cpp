@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -24,15 +23,14 @@
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/files/temporary_folder.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/sanitizers.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/result_files.hpp"
 #include "engine/run/run_directory.hpp"
@@ -40,16 +38,6 @@
 namespace asperity::cli {
 
 namespace {
-
-// Uncounted memory (a library's heap) still ends in bad_alloc.
-void limit_address_space(std::int64_t bytes) {
-  if (sanitized) return;
-  constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
-  rlimit limit{};
-  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
-  setrlimit(RLIMIT_DATA, &limit);
-}
 
 // Charts need descriptors for fonts. No warning of the run, because it depends on the machine.
 void tell_of_few_handles() {
@@ -69,8 +57,7 @@ std::string output_fault() {
   if (!lost || ::fstat(STDOUT_FILENO, &facts) != 0 || S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode))
     return {};
   return "standard output could not be written to its end, so what the script printed is not all there; "
-         "check "
-         "the disk";
+         "check the disk";
 }
 
 std::string reason_text(StopReason reason, const RunCommand& command) {
@@ -88,60 +75,6 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
       break;
   }
   return "";
-}
-
-void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
-                       std::string& one_case) {
-  CLI::Option* resume =
-      options.add_option("--resume", run.resume,
-                         "go on with the run in this directory where it was cut off; its script, arguments "
-                         "and seed are its own (a directory that is not there yet is begun)");
-  resume->excludes(options.get_option("--out"));
-  options
-      .add_option("--reuse", run.reuse,
-                  "take the results of heavy calls that are the same from this run; may be given again")
-      ->allow_extra_args(false);  // the next word may be the script
-  options.add_option("--store-limit", limit,
-                     "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
-  options.add_option(
-      "--store", run.store,
-      "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
-      "machines, may share it at the same time (no limit unless --store-limit is given)");
-  CLI::Option* share = options.add_option(
-      "--shard", shard,
-      "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
-      "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
-      "ensemble once all its cases are there, and else ends. A run without --shard puts all together");
-  CLI::Option* one = options.add_option(
-      "--case", one_case,
-      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by "
-      "--store, and leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 "
-      "cases of an earlier ensemble are missing. `asperity cases` lists the numbers");
-  CLI::Option* merge =
-      options.add_flag("--merge-only", run.merge_only,
-                       "compute no case: take all from the folder given by --store, or end with exit "
-                       "status 3 and the list of the missing cases");
-  for (CLI::Option* option : {share, one, merge})
-    option->needs(options.get_option("--store"))->excludes(options.get_option("--trust"));
-  for (CLI::Option* other :
-       {share, merge, resume, options.get_option("--out"), options.get_option("--reuse")})
-    one->excludes(other);
-  merge->excludes(share);
-}
-
-CaseNumber case_number(const std::string& text) {
-  CaseNumber one;
-  const std::size_t dot = text.find('.');
-  const auto read = [&](std::string_view part, auto& value) {
-    const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), value);
-    return problem == std::errc() && end == part.data() + part.size() && value >= 1;
-  };
-  const std::string_view all(text);
-  if ((dot == std::string::npos || read(all.substr(0, dot), one.ensemble)) &&
-      read(dot == std::string::npos ? all : all.substr(dot + 1), one.number))
-    return one;
-  throw Error(ErrorCode::bad_value, "`--case` is " + quoted(text),
-              "give the number of a case, such as 17, or 2.17 for the second ensemble");
 }
 
 CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers) {
@@ -166,7 +99,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     run.knobs = knobs_of(given->knobs);
     run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit, "the limit of the store");
     if (!given->shard.empty()) run.shard = parse_shard(given->shard);
-    if (!given->one_case.empty()) run.one_case = case_number(given->one_case);
+    if (!given->one_case.empty()) run.one_case = parse_case(given->one_case);
     if ((run.shard || run.one_case || run.merge_only) && run.store_limit == 0)
       throw Error(ErrorCode::bad_value,
                   "`--shard`, `--case` and `--merge-only` share a store, and `--store-limit 0` keeps nothing",
@@ -191,6 +124,298 @@ void remove_case_folder(const RunCommand& command) {
   if (command.case_folder) command.case_folder->remove();
 }
 
+RunSetup setup_of(const RunCommand& command, const std::string& text) {
+  RunSetup setup;
+  setup.script_name = command.script;
+  setup.script_text = text;
+  if (command.out) setup.out = *command.out;
+  if (command.resume) setup.resume = *command.resume;
+  setup.anew = command.anew;
+  setup.journal_lost = command.journal_lost;
+  setup.lock = command.lock;
+  // Files of other ranks than 0 are deleted at the end.
+  setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
+  setup.store = command.store.value_or("");
+  if (command.shard) setup.shard = command.shard->text();
+  setup.trusted = command.trust;
+  setup.barriers = command.barriers;
+  setup.arguments = command.arguments;
+  setup.seed = static_cast<std::int64_t>(command.seed);
+  setup.threads = thread_count();
+  if (!command.knobs.empty()) setup.knobs = given_knobs_json(command.knobs);
+  setup.versions = lua::version_json();
+  return setup;
+}
+
+// The steps of a run in a directory, in the order of their declaration.
+class DirectoryRun {
+ public:
+  explicit DirectoryRun(const RunCommand& command) : command_(command), observer_(command.observer) {}
+
+  void open_directory() {
+    text_ = command_.text ? *command_.text : read_script(command_.script);
+    const RunSetup setup = setup_of(command_, text_);
+    stored_ = result_files(command_);
+    run_ = std::make_shared<RunDirectory>(setup);
+    if (!command_.store) stored_.folder = run_->store();
+    // Now, because the moving aside of an earlier run may have moved this folder, too.
+    if (command_.store) make_folders(*command_.store);
+    stored_.needed = run_->needed_to_resume();
+  }
+
+  void print_notices() const {
+    if (const std::string notice = run_->lock_notice(); !notice.empty() && observer_ == nullptr)
+      std::fprintf(stderr, "asperity: %s\n", notice.c_str());
+    for (const std::string& damage : command_.damages)
+      std::fprintf(stderr, "asperity: %s; the run is made again from its script and its store\n",
+                   damage.c_str());
+    if (observer_ == nullptr) tell_of_few_handles();
+  }
+
+  void open_store() {
+    results_.emplace(std::move(stored_));
+    run_->before_its_end([this] { results_->bring_to_disk(); });
+    until_.emplace(*results_, run_->journal(), command_.afresh_from.value_or(0));
+    ResultStore* store = command_.afresh_from ? static_cast<ResultStore*>(&*until_) : &*results_;
+    if (command_.store_limit == 0) store = nullptr;
+    if (command_.ranks != nullptr) {
+      // Temporary folders of other ranks would lose results.
+      command_.ranks->own_store = command_.ranks->leads() || command_.store ? store : nullptr;
+      store = &of_ranks_.emplace(*command_.ranks);
+    }
+    monitor_.keep_results_in(store);
+  }
+
+  void connect_monitor() {
+    monitor_.keep_warnings_in(run_.get());
+    monitor_.count_alike();
+    if (command_.terminal) monitor_.show_as_on_terminal();
+    if (observer_ == nullptr) return;
+    monitor_.report_to(observer_);
+    run_->journal().watch(
+        [this](std::string_view event, const Json& fields) { observer_->recorded(event, fields); });
+  }
+
+  void set_limits() {
+    watchdog_.emplace(command_.limit_time, [this](StopReason reason) { end_at_once(reason); });
+    if (command_.limit_disk) unlinked_.emplace(*command_.limit_disk);
+    if (command_.limit_memory) lua::limit_memory(*command_.limit_memory);
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not lose the record
+    std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
+  }
+
+  void carry_out(const std::function<std::string(RunContext&)>& work) {
+    RunContext context{command_, text_, run_, monitor_, *watchdog_, *results_, [this] { print_summary(); }};
+    try {
+      if (std::string why = work(context); !why.empty()) fail(std::move(why));
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+
+  void check_limits() {
+    // The limit was exceeded, even if the script caught the error.
+    if (command_.limit_memory && lua::memory_limit_met()) {
+      stop_flag().raise(StopReason::memory_limit);
+      fail(status_ == done ? "the script went on with less" : why_);
+    }
+    if (status_ != done) stopped_ = stop_flag().reason();
+    if (stopped_ == StopReason::none) return;
+    status_ = exit_status(stopped_);
+    if (stopped_ == StopReason::interrupt) ended_ = RunStatus::interrupted;
+    // The position matters for a limit, not for Ctrl-C.
+    const std::string met_at = stopped_ == StopReason::interrupt || why_.empty() ? "" : "\n" + why_;
+    why_ = reason_text(stopped_, command_) + met_at;
+  }
+
+  void check_output() {
+    monitor_.clear();
+    if (const std::string fault = output_fault(); status_ == done && !fault.empty()) fail(fault);
+  }
+
+  // Returns the exit status.
+  int close() {
+    if (!why_.empty() && observer_ == nullptr) std::fprintf(stderr, "asperity: %s\n", why_.c_str());
+    if (command_.ranks != nullptr) command_.ranks->note_failure(why_);
+    try {
+      if (status_ == done && run_->expectations().failed() > 0) fail(run_->expectations().summary());
+      run_->finish(ended_, why_);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "asperity: %s\n", error.what());
+      if (status_ == done) status_ = failed;
+    }
+    print_summary();
+    if (observer_ != nullptr) observer_->ended(status_, stopped_, why_);
+    return status_;
+  }
+
+ private:
+  void fail(std::string why) {
+    status_ = failed;
+    ended_ = RunStatus::failed;
+    why_ = std::move(why);
+  }
+
+  // In the watchdog's thread.
+  void end_at_once(StopReason reason) const {
+    const std::string why = reason_text(reason, command_);
+    try {
+      run_->finish(reason == StopReason::interrupt ? RunStatus::interrupted : RunStatus::killed, why,
+                   std::chrono::milliseconds(500));
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "asperity: %s\n", error.what());
+    }
+    if (observer_ != nullptr)
+      observer_->ended(exit_status(reason), reason, why);
+    else
+      std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run_->path().c_str());
+    remove_case_folder(command_);
+  }
+
+  void print_summary() {
+    monitor_.tell_alike();
+    if (observer_ != nullptr) return;
+    const ResultFiles::Counts counts = results_->counts();
+    const std::string verdicts = run_->expectations().summary();
+    monitor_.clear();
+    if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
+    for (const Verdict& verdict : run_->expectations().verdicts())
+      if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
+    std::string saved;
+    if (counts.seconds_saved >= 1)
+      saved = ", which had cost " + format_quantity(counts.seconds_saved, dimension::time, 3);
+    if (counts.found > 0)
+      std::fprintf(stderr, "%lld %s taken from the store%s\n", static_cast<long long>(counts.found),
+                   counts.found == 1 ? "result was" : "results were", saved.c_str());
+    for (const std::string& notice : results_->notices()) std::fprintf(stderr, "%s\n", notice.c_str());
+    if (const std::string departure = run_->journal().departure(); !departure.empty())
+      std::fprintf(stderr, "%s\n", departure.c_str());
+    if (run_->mended()) std::fprintf(stderr, "every file is again as it was recorded\n");
+    if (!command_.one_case) std::fprintf(stderr, "results in %s\n", run_->path().c_str());
+  }
+
+  const RunCommand& command_;
+  RunObserver* const observer_;
+  std::string text_;  // of the script
+  std::shared_ptr<RunDirectory> run_;
+  ResultFilesSetup stored_;
+  TerminalMonitor monitor_;
+  std::optional<ResultFiles> results_;
+  std::optional<UntilLine> until_;
+  std::optional<RankStore> of_ranks_;
+  std::optional<Watchdog> watchdog_;
+  std::optional<UnlinkedFilesBound> unlinked_;
+  int status_ = done;
+  RunStatus ended_ = RunStatus::done;
+  StopReason stopped_ = StopReason::none;
+  std::string why_;
+};
+
+// The digest of the script, its arguments and its knobs.
+std::string script_digest(const RunContext& context) {
+  Digester script;
+  script.add(context.text);
+  for (const std::string& argument : context.command.arguments) script.add(argument);
+  if (!context.command.knobs.empty()) script.add("knobs").add(RunKnobs(context.command.knobs).given_text());
+  return script.hex();
+}
+
+lua::SharedStore shared_store(RunContext& context) {
+  const RunCommand& command = context.command;
+  lua::SharedStore shared;
+  shared.folder = command.store.value_or("");
+  shared.shard = command.shard;
+  shared.one = command.one_case;
+  shared.merge_only = command.merge_only;
+  shared.takes = [&context](std::int64_t bytes) { return context.results.takes(bytes); };
+  shared.tell = [&context](const std::string& sentence) {
+    context.monitor.clear();
+    if (context.command.observer == nullptr) std::fprintf(stderr, "%s\n", sentence.c_str());
+  };
+  shared.end = [&context, tell = shared.tell](lua::SharedEnd end, const std::string& sentence) {
+    using lua::SharedEnd;
+    tell(sentence);
+    context.run->finish(context.command.merge_only ? RunStatus::failed : RunStatus::shard, sentence);
+    context.summary();
+    remove_case_folder(context.command);
+    std::fflush(nullptr);
+    std::_Exit(end == SharedEnd::stored    ? done
+               : end == SharedEnd::failed  ? failed
+               : end == SharedEnd::missing ? cases_missing
+                                           : bad_usage);
+  };
+  return shared;
+}
+
+// os.exit of the script.
+[[noreturn]] void exit_script(RunContext& context, const lua::Session& session, int code,
+                              const std::function<int(int)>& at_exit) {
+  const RunCommand& command = context.command;
+  std::string unmade = code == 0 ? unmade_knobs(session) : "";
+  if (code == 0 && unmade.empty()) unmade = output_fault();
+  if (!unmade.empty() && command.observer == nullptr) std::fprintf(stderr, "asperity: %s\n", unmade.c_str());
+  if (!unmade.empty() || (code == 0 && context.run->expectations().failed() > 0)) code = failed;
+  const std::string why = unmade.empty() ? "os.exit(" + std::to_string(code) + ")" : unmade;
+  context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed, why);
+  context.summary();
+  if (command.observer != nullptr) command.observer->ended(code, StopReason::none, why);
+  code = at_exit(code);
+  if (command.ranks != nullptr) code = command.ranks->leave(code);
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
+
+bool shares_cases(const RunCommand& command) {
+  return command.shard || command.one_case || command.merge_only;
+}
+
+// The command with its directory, or of the resumed run; none if there is nothing to resume.
+std::optional<RunCommand> prepared(const RunCommand& asked, bool is_rank, bool leads) {
+  std::optional<RunCommand> command = asked.resume ? taken_up(asked, leads) : asked;
+  if (command && !asked.resume && asked.one_case && !is_rank) {
+    command->case_folder = std::make_shared<const TemporaryFolder>("case");
+    command->out = (command->case_folder->path() / "run").string();
+  }
+  if (command) return command;
+  std::fprintf(stderr,
+               "asperity: %s came to its end, and every file is as it was recorded; there is nothing "
+               "to resume\n",
+               asked.resume->c_str());
+  const std::vector<std::string> altered = altered_inputs(read_run(*asked.resume, true));
+  for (const std::string& sentence : altered) std::fprintf(stderr, "%s\n", sentence.c_str());
+  if (!altered.empty())
+    std::fprintf(stderr, "`asperity replay %s` says what follows from that\n", asked.resume->c_str());
+  return {};
+}
+
+int run_as_rank(RunCommand& command, const LaunchedRank& launched,
+                const std::function<std::string(RunContext&)>& work) {
+  std::unique_ptr<MpiRanks> ranks;
+  try {
+    if (shares_cases(command))
+      throw Error(ErrorCode::bad_value,
+                  "`--shard`, `--case` or `--merge-only` was given to one of the ranks of mpirun",
+                  "use one of the two: mpirun spreads the cases itself");
+    if (command.threads == 0) command.threads = threads_of(launched);
+    ranks = std::make_unique<MpiRanks>(launched.size);
+  } catch (const Error& error) {
+    if (launched.rank == 0)
+      std::fprintf(stderr, "asperity: started as %d ranks: %s\n", launched.size, error.what());
+    return bad_usage;
+  }
+  command.ranks = ranks.get();
+  if (!ranks->leads()) {
+    command.out = ranks->scratch_folder();
+    if (command.resume && !command.text) command.text = read_script(command.script);
+    command.resume.reset();
+    command.damages.clear();
+    command.reuse.clear();
+    command.anew = false;
+    command.limit_time.reset();  // rank 0 watches
+  }
+  return ranks->leave(in_run_directory(command, work));
+}
+
 }  // namespace
 
 Command run_command(BehindBarriers<RunCommand> barriers) {
@@ -201,17 +426,6 @@ Command run_command(BehindBarriers<RunCommand> barriers) {
               "asperity run --resume RUN                      go on with a run that was cut off\n",
           .prints = Prints::of_script,
           .declare = [barriers](CLI::App& options) { return declare_run(options, barriers); }};
-}
-
-Json version_json() {
-  Json versions = Json::object();
-  for (const auto& [name, version] : lua::version_facts()) versions.set(name, version);
-  return versions;
-}
-
-void limit_memory(std::int64_t bytes) {
-  memory::set_limit(bytes);
-  limit_address_space(bytes);
 }
 
 std::string read_script(const std::string& path) {
@@ -272,164 +486,21 @@ lua::State make_state(lua::Session& session, const RunCommand& command) {
 }
 
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {
-  std::string text;
-  std::shared_ptr<RunDirectory> run;
-  ResultFilesSetup kept;
   set_thread_count(command.threads);
+  DirectoryRun run(command);
   try {
-    text = command.text ? *command.text : read_script(command.script);
-    RunSetup setup;
-    setup.script_name = command.script;
-    setup.script_text = text;
-    if (command.out) setup.out = *command.out;
-    if (command.resume) setup.resume = *command.resume;
-    setup.anew = command.anew;
-    setup.journal_lost = command.journal_lost;
-    setup.lock = command.lock;
-    // Files of other ranks than 0 are deleted at the end.
-    setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
-    setup.store = command.store.value_or("");
-    if (command.shard) setup.shard = command.shard->text();
-    setup.trusted = command.trust;
-    setup.barriers = command.barriers;
-    setup.arguments = command.arguments;
-    setup.seed = static_cast<std::int64_t>(command.seed);
-    setup.threads = thread_count();
-    if (!command.knobs.empty()) setup.knobs = given_knobs_json(command.knobs);
-    setup.versions = version_json();
-    kept = result_files(command);
-    run = std::make_shared<RunDirectory>(setup);
-    if (!command.store) kept.folder = run->store();
-    // Now, because the moving aside of an earlier run may have moved this folder, too.
-    if (command.store) make_folders(*command.store);
-    kept.needed = run->needed_to_resume();
+    run.open_directory();
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
-
-  if (const std::string notice = run->lock_notice(); !notice.empty() && command.observer == nullptr)
-    std::fprintf(stderr, "asperity: %s\n", notice.c_str());
-  for (const std::string& damage : command.damages)
-    std::fprintf(stderr, "asperity: %s; the run is made again from its script and its store\n",
-                 damage.c_str());
-
-  if (command.observer == nullptr) tell_of_few_handles();
-  TerminalMonitor monitor;
-  monitor.keep_warnings_in(run.get());
-  monitor.count_alike();
-  if (command.terminal) monitor.show_as_on_terminal();
-  ResultFiles results(std::move(kept));
-  run->before_its_end([&results] { results.bring_to_disk(); });
-  UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
-  ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;
-  if (command.store_limit == 0) store = nullptr;
-  std::optional<RankStore> of_ranks;
-  if (command.ranks != nullptr) {
-    // Temporary folders of other ranks would lose results.
-    command.ranks->own_store = command.ranks->leads() || command.store ? store : nullptr;
-    store = &of_ranks.emplace(*command.ranks);
-  }
-  monitor.keep_results_in(store);
-  RunObserver* const observer = command.observer;
-  if (observer != nullptr) {
-    monitor.report_to(observer);
-    run->journal().watch(
-        [observer](std::string_view event, const Json& fields) { observer->recorded(event, fields); });
-  }
-  const auto summary = [&] {
-    monitor.tell_alike();
-    if (observer != nullptr) return;
-    const ResultFiles::Counts counts = results.counts();
-    const std::string verdicts = run->expectations().summary();
-    monitor.clear();
-    if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
-    for (const Verdict& verdict : run->expectations().verdicts())
-      if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
-    const std::string saved =
-        counts.seconds_saved < 1
-            ? ""
-            : ", which had cost " + format_quantity(counts.seconds_saved, dimension::time, 3);
-    if (counts.found > 0)
-      std::fprintf(stderr, "%lld %s taken from the store%s\n", static_cast<long long>(counts.found),
-                   counts.found == 1 ? "result was" : "results were", saved.c_str());
-    for (const std::string& notice : results.notices()) std::fprintf(stderr, "%s\n", notice.c_str());
-    if (const std::string departure = run->journal().departure(); !departure.empty())
-      std::fprintf(stderr, "%s\n", departure.c_str());
-    if (run->mended()) std::fprintf(stderr, "every file is again as it was recorded\n");
-    if (!command.one_case) std::fprintf(stderr, "results in %s\n", run->path().c_str());
-  };
-  Watchdog watchdog(command.limit_time, [&](StopReason reason) {
-    const std::string why = reason_text(reason, command);
-    try {
-      run->finish(reason == StopReason::interrupt ? RunStatus::interrupted : RunStatus::killed, why,
-                  std::chrono::milliseconds(500));
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "asperity: %s\n", error.what());
-    }
-    if (observer != nullptr)
-      observer->ended(exit_status(reason), reason, why);
-    else
-      std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
-    remove_case_folder(command);
-  });
-
-  std::optional<UnlinkedFilesBound> unlinked;
-  if (command.limit_disk) unlinked.emplace(*command.limit_disk);
-
-  if (command.limit_memory) limit_memory(*command.limit_memory);
-
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not lose the record
-  std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
-
-  int status = done;
-  std::string why;
-  RunContext context{command, text, run, monitor, watchdog, results, summary};
-  try {
-    why = work(context);
-    if (!why.empty()) status = failed;
-  } catch (const std::exception& error) {
-    status = failed;
-    why = error.what();
-  }
-
-  RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
-  // The limit was exceeded, even if the script caught the error.
-  if (command.limit_memory && lua::memory_limit_met()) {
-    stop_flag().raise(StopReason::memory_limit);
-    if (status == done) why = "the script went on with less";
-    status = failed;
-  }
-  const StopReason stopped = status == done ? StopReason::none : stop_flag().reason();
-  if (stopped != StopReason::none) {
-    status = exit_status(stopped);
-    ended = stopped == StopReason::interrupt ? RunStatus::interrupted : RunStatus::failed;
-    // The position matters for a limit, not for Ctrl-C.
-    const std::string met_at = stopped == StopReason::interrupt || why.empty() ? "" : "\n" + why;
-    why = reason_text(stopped, command) + met_at;
-  }
-  monitor.clear();
-  if (const std::string fault = output_fault(); status == done && !fault.empty()) {
-    status = failed;
-    ended = RunStatus::failed;
-    why = fault;
-  }
-  if (!why.empty() && observer == nullptr) std::fprintf(stderr, "asperity: %s\n", why.c_str());
-  if (command.ranks != nullptr) command.ranks->note_failure(why);
-  try {
-    if (status == done && run->expectations().failed() > 0) {
-      status = failed;
-      ended = RunStatus::failed;
-      why = run->expectations().summary();
-    }
-    run->finish(ended, why);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    if (status == done) status = failed;
-  }
-  summary();
-  if (observer != nullptr) observer->ended(status, stopped, why);
-  return status;
+  run.print_notices();
+  run.open_store();
+  run.connect_monitor();
+  run.set_limits();
+  run.carry_out(work);
+  run.check_limits();
+  run.check_output();
+  return run.close();
 }
 
 std::string unmade_knobs(const lua::Session& session) {
@@ -446,59 +517,16 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   session.run = context.run;
   session.variation = context.command.variation;
   session.loaded = context.command.loaded;
-  Digester script;
-  script.add(context.text);
-  for (const std::string& argument : context.command.arguments) script.add(argument);
-  if (!context.command.knobs.empty()) script.add("knobs").add(RunKnobs(context.command.knobs).given_text());
-  session.script_digest = script.hex();
-  lua::SharedStore shared;
-  if (context.command.store) {
-    shared = {*context.command.store,
-              context.command.shard,
-              context.command.one_case,
-              context.command.merge_only,
-              [&results = context.results](std::int64_t bytes) { return results.takes(bytes); },
-              {},
-              {}};
-    session.shared = &shared;
-  }
+  session.script_digest = script_digest(context);
+  const lua::SharedStore shared = shared_store(context);
+  if (context.command.store) session.shared = &shared;
   if (RunObserver* observer = context.command.observer; observer != nullptr && observer->looks_at_results())
     session.onlooker = [observer, run = context.run.get()](const std::string& call,
                                                            const lua::Values& results) {
       observer->found(call, run->journal().count(), results);
     };
   session.ranks = context.command.ranks;
-  shared.tell = [&](const std::string& sentence) {
-    context.monitor.clear();
-    if (context.command.observer == nullptr) std::fprintf(stderr, "%s\n", sentence.c_str());
-  };
-  shared.end = [&](lua::SharedEnd end, const std::string& sentence) {
-    using lua::SharedEnd;
-    shared.tell(sentence);
-    context.run->finish(context.command.merge_only ? RunStatus::failed : RunStatus::shard, sentence);
-    context.summary();
-    remove_case_folder(context.command);
-    std::fflush(nullptr);
-    std::_Exit(end == SharedEnd::stored    ? done
-               : end == SharedEnd::failed  ? failed
-               : end == SharedEnd::missing ? cases_missing
-                                           : bad_usage);
-  };
-  session.exit_hook = [&](int code) {
-    std::string unmade = code == 0 ? unmade_knobs(session) : "";
-    if (code == 0 && unmade.empty()) unmade = output_fault();
-    if (!unmade.empty() && context.command.observer == nullptr)
-      std::fprintf(stderr, "asperity: %s\n", unmade.c_str());
-    if (!unmade.empty() || (code == 0 && context.run->expectations().failed() > 0)) code = failed;
-    const std::string why = unmade.empty() ? "os.exit(" + std::to_string(code) + ")" : unmade;
-    context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed, why);
-    context.summary();
-    if (context.command.observer != nullptr) context.command.observer->ended(code, StopReason::none, why);
-    code = at_exit(code);
-    if (context.command.ranks != nullptr) code = context.command.ranks->leave(code);
-    std::fflush(nullptr);
-    std::_Exit(code);
-  };
+  session.exit_hook = [&](int code) { exit_script(context, session, code, at_exit); };
   const lua::State state = make_state(session, context.command);
   const Watchdog::Watching watching(context.watchdog, state.get());
   if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return unmade_knobs(session);
@@ -506,40 +534,16 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
 }
 
 int run(const RunCommand& asked) {
-  RunCommand command = asked;
-  const bool shares = asked.shard || asked.one_case || asked.merge_only;
   std::optional<LaunchedRank> launched;
+  std::optional<RunCommand> command;
   try {
-    launched = launched_rank(shares);
-    if (asked.one_case && !launched) {
-      command.case_folder = std::make_shared<const TemporaryFolder>("case");
-      command.out = (command.case_folder->path() / "run").string();
-    }
+    launched = launched_rank(shares_cases(asked));
+    command = prepared(asked, launched.has_value(), !launched || launched->rank == 0);
   } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return refused(error);
   }
-  if (asked.resume) {
-    try {
-      std::optional<RunCommand> again = taken_up(asked, !launched || launched->rank == 0);
-      if (!again) {
-        std::fprintf(stderr,
-                     "asperity: %s came to its end, and every file is as it was recorded; there is nothing "
-                     "to resume\n",
-                     asked.resume->c_str());
-        const std::vector<std::string> altered = altered_inputs(read_run(*asked.resume, true));
-        for (const std::string& sentence : altered) std::fprintf(stderr, "%s\n", sentence.c_str());
-        if (!altered.empty())
-          std::fprintf(stderr, "`asperity replay %s` says what follows from that\n", asked.resume->c_str());
-        return done;
-      }
-      command = *std::move(again);
-    } catch (const Error& error) {
-      std::fprintf(stderr, "asperity: %s\n", error.what());
-      return bad_usage;
-    }
-  }
-  const auto leave = [&command](int code) {
+  if (!command) return done;
+  const auto leave = [&command = *command](int code) {
     remove_case_folder(command);
     if (!command.one_case || code != done) return code;
     std::fprintf(stderr,
@@ -548,32 +552,7 @@ int run(const RunCommand& asked) {
     return bad_usage;
   };
   const auto work = [&leave](RunContext& context) { return run_script(context, leave); };
-  if (!launched) return leave(in_run_directory(command, work));
-
-  std::unique_ptr<MpiRanks> ranks;
-  try {
-    if (command.shard || shares)
-      throw Error(ErrorCode::bad_value,
-                  "`--shard`, `--case` or `--merge-only` was given to one of the ranks of mpirun",
-                  "use one of the two: mpirun spreads the cases itself");
-    if (command.threads == 0) command.threads = threads_of(*launched);
-    ranks = std::make_unique<MpiRanks>(launched->size);
-  } catch (const Error& error) {
-    if (launched->rank == 0)
-      std::fprintf(stderr, "asperity: started as %d ranks: %s\n", launched->size, error.what());
-    return bad_usage;
-  }
-  command.ranks = ranks.get();
-  if (!ranks->leads()) {
-    command.out = ranks->scratch_folder();
-    if (command.resume && !command.text) command.text = read_script(command.script);
-    command.resume.reset();
-    command.damages.clear();
-    command.reuse.clear();
-    command.anew = false;
-    command.limit_time.reset();  // rank 0 watches
-  }
-  return ranks->leave(in_run_directory(command, work));
+  return launched ? run_as_rank(*command, *launched, work) : leave(in_run_directory(*command, work));
 }
 
 }  // namespace asperity::cli

@@ -118,9 +118,4 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
 // Throws Error{bad_file}.
 std::string read_script(const std::string& path);
 
-// Limits grids and Lua's heap by counting, libraries by the system.
-void limit_memory(std::int64_t bytes);
-// Versions of the program and its libraries, for the manifest.
-Json version_json();
-
 }  // namespace asperity::cli

@@ -58,9 +58,8 @@ void add_confinement(CLI::App& options, RunCommand& run, std::string& limit_disk
   options.add_flag(
       "--confined", run.confined,
       "for a script of somebody else's: it reads no file but those of --read, writes the run directory and "
-      "reaches no "
-      "other file, process or network, by barriers of the operating system; 10 min, half the machine's "
-      "memory and 1 GiB on the disk unless told otherwise");
+      "reaches no other file, process or network, by barriers of the operating system; 10 min, half the "
+      "machine's memory and 1 GiB on the disk unless told otherwise");
   options
       .add_option("--read", run.read,
                   "a folder that a confined script may read, such as its own; may be given again")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/commands/stored_results.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -113,7 +115,77 @@ void require_same_version(const RecordedRun& recorded) {
               "go on with the version that began it, or " + begins_anew);
 }
 
+void require_unchanged(const std::vector<std::string>& changed, const std::string& run) {
+  if (changed.empty()) return;
+  throw Error(ErrorCode::bad_value,
+              joined(changed, " and ") + " of " + asperity::quoted(run) +
+                  (changed.size() > 1 ? " are" : " is") + " not the one given now",
+              "leave it out to go on as recorded, or add `--reuse " + run +
+                  "` to begin anew there with the results that are still the same");
+}
+
+// Damages of a run that is continued, and whether its journal is lost. Returns false for a complete run.
+bool note_damages(RunCommand& command, const RecordedRun& recorded) {
+  const std::filesystem::path journal = recorded.root / run_names::journal;
+  if (recorded.status == "done") {
+    command.damages = damages_of(recorded);
+    command.journal_lost = !recorded.journal_fault.empty();
+    return !command.damages.empty();
+  }
+  // Failed cases may succeed now: rebuild the journal from script and store.
+  const bool rebuilt = !recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty());
+  const bool damaged =
+      !rebuilt &&
+      (!std::filesystem::exists(journal) ||
+       (recorded.ended() && !recorded.journal_fault.empty() && std::filesystem::is_regular_file(journal)));
+  if (damaged) command.damages = {recorded.journal_fault};
+  if (rebuilt || damaged)
+    command.journal_lost = true;
+  else if (!recorded.journal_hint.empty())
+    throw Error(ErrorCode::bad_file, recorded.journal_fault, recorded.journal_hint);
+  return true;
+}
+
 }  // namespace
+
+void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
+                       std::string& one_case) {
+  CLI::Option* resume =
+      options.add_option("--resume", run.resume,
+                         "go on with the run in this directory where it was cut off; its script, arguments "
+                         "and seed are its own (a directory that is not there yet is begun)");
+  resume->excludes(options.get_option("--out"));
+  options
+      .add_option("--reuse", run.reuse,
+                  "take the results of heavy calls that are the same from this run; may be given again")
+      ->allow_extra_args(false);  // the next word may be the script
+  options.add_option("--store-limit", limit,
+                     "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
+  options.add_option(
+      "--store", run.store,
+      "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
+      "machines, may share it at the same time (no limit unless --store-limit is given)");
+  CLI::Option* share = options.add_option(
+      "--shard", shard,
+      "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
+      "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
+      "ensemble once all its cases are there, and else ends. A run without --shard puts all together");
+  CLI::Option* one = options.add_option(
+      "--case", one_case,
+      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by "
+      "--store, and leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 "
+      "cases of an earlier ensemble are missing. `asperity cases` lists the numbers");
+  CLI::Option* merge =
+      options.add_flag("--merge-only", run.merge_only,
+                       "compute no case: take all from the folder given by --store, or end with exit "
+                       "status 3 and the list of the missing cases");
+  for (CLI::Option* option : {share, one, merge})
+    option->needs(options.get_option("--store"))->excludes(options.get_option("--trust"));
+  for (CLI::Option* other :
+       {share, merge, resume, options.get_option("--out"), options.get_option("--reuse")})
+    one->excludes(other);
+  merge->excludes(share);
+}
 
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
   if (recorded.manifest.find("prompt") != nullptr)
@@ -134,6 +206,8 @@ void require_repeatable(const RunCommand& command, const RecordedRun& recorded, 
 }
 
 void load_as_recorded(RunCommand& command, const RecordedRun& recorded, bool tell) {
+  command.script = recorded.script_path;
+  command.text = recorded.script_text;
   command.loaded = std::make_shared<const LoadedFiles>(recorded.loaded);
   if (!tell) return;
   for (const std::string& sentence : altered_originals(recorded))
@@ -154,8 +228,7 @@ ResultFilesSetup result_files(const RunCommand& command) {
 }
 
 std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
-  namespace fs = std::filesystem;
-  const fs::path root(*command.resume);
+  const std::filesystem::path root(*command.resume);
   if (is_not_begun(root)) return begun_there(std::move(command));
   if (holds_earlier_run(root)) {
     if (!leads) return begun_there(std::move(command));
@@ -175,51 +248,17 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     if (command.reuse.empty()) require_same_version(recorded);
   }
   const std::vector<std::string> changed = changes_of(command, recorded);
-  if (!changed.empty() && command.reuse.empty())
-    throw Error(ErrorCode::bad_value,
-                joined(changed, " and ") + " of " + asperity::quoted(*command.resume) +
-                    (changed.size() > 1 ? " are" : " is") + " not the one given now",
-                "leave it out to go on as recorded, or add `--reuse " + *command.resume +
-                    "` to begin anew there with the results that are still the same");
+  if (command.reuse.empty()) require_unchanged(changed, *command.resume);
   take_share(command, recorded);
   command.anew = !changed.empty() || program_version(recorded) != lua::version_text();
-  if (command.anew) {
-    if (!command.script.empty()) return command;
-    require_repeatable(command, recorded, "begin it anew");
-    command.script = recorded.script_path;
-    command.text = recorded.script_text;
-    load_as_recorded(command, recorded, leads);
-    if (command.arguments.empty()) command.arguments = recorded.arguments;
-    if (!command.seed_given) command.seed = static_cast<std::uint64_t>(recorded.seed);
-    GivenKnobs knobs = recorded.knobs;
-    for (const auto& [name, text] : command.knobs) knobs[name] = text;
-    command.knobs = std::move(knobs);
-    return command;
-  }
-  if (recorded.status == "done") {
-    command.damages = damages_of(recorded);
-    if (command.damages.empty()) return {};
-    command.journal_lost = !recorded.journal_fault.empty();
-  } else if (!recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty())) {
-    // Failed cases may succeed now: rebuild the journal from script and store.
-    command.journal_lost = true;
-  } else if (!fs::exists(root / run_names::journal)) {
-    command.damages = {recorded.journal_fault};
-    command.journal_lost = true;
-  } else if (recorded.ended() && !recorded.journal_fault.empty() &&
-             fs::is_regular_file(root / run_names::journal)) {
-    command.damages = {recorded.journal_fault};
-    command.journal_lost = true;
-  } else if (!recorded.journal_hint.empty()) {
-    throw Error(ErrorCode::bad_file, recorded.journal_fault, recorded.journal_hint);
-  }
-  require_repeatable(command, recorded, "go on with");
-  command.script = recorded.script_path;
-  command.text = recorded.script_text;
+  if (command.anew && !command.script.empty()) return command;
+  if (!command.anew && !note_damages(command, recorded)) return {};
+  require_repeatable(command, recorded, command.anew ? "begin it anew" : "go on with");
   load_as_recorded(command, recorded, leads);
-  command.arguments = recorded.arguments;
-  command.seed = static_cast<std::uint64_t>(recorded.seed);
-  command.knobs = recorded.knobs;
+  if (command.arguments.empty()) command.arguments = recorded.arguments;
+  if (!command.seed_given) command.seed = static_cast<std::uint64_t>(recorded.seed);
+  if (!command.anew) command.knobs.clear();
+  command.knobs.insert(recorded.knobs.begin(), recorded.knobs.end());
   return command;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "engine/run/journal.hpp"
@@ -12,6 +13,11 @@
 #include "engine/run/result_files.hpp"
 
 namespace asperity::cli {
+
+// `--resume`, `--reuse`, `--store` and the options of a shared store. `limit`, `shard` and `one_case` are
+// read after parsing.
+void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
+                       std::string& one_case);
 
 // The command that continues the run in `command.resume` with its script, arguments, seed, store and share.
 // Without a manifest, the command begins a new run. None if the run is done and undamaged; a damaged run is

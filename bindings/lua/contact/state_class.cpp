@@ -162,6 +162,7 @@ std::vector<RecordField<Certificate>> certificate_fields() {
           {"cap", &C::cap, "greatest excess of the pressure over its cap, over the cap; 0 without one"}};
 }
 
+// data table
 template <>
 const Class& class_of<asperity::State>() {
   using S = Contacting;

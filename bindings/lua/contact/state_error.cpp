@@ -2,7 +2,6 @@
 // The classes of st.error: the parts of the error, and the bound of each quantity.
 #include "bindings/lua/contact/state_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,7 +13,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
@@ -128,15 +126,13 @@ const Class& class_of<StateError>() {
         "How far a state is from exact, in parts that are never mixed. A part is found when it is read.";
     c.describe = describe_errors;
     c.fields = {
-        {"algebraic",
-         "AlgebraicError",
-         "bounds against the exact solution on the same grid",
-         {},
-         [](Call& call) -> Values {
-           StateBounds found{call.self<StateError>().state};
-           found.state.algebraic_error();  // must not wait until the contact is closed
-           return {object(std::move(found))};
-         }},
+        getter<StateError>("algebraic", "AlgebraicError",
+                           "bounds against the exact solution on the same grid",
+                           [](const StateError& of) {
+                             StateBounds found{of.state};
+                             found.state.algebraic_error();  // must not wait until the contact is closed
+                             return object(std::move(found));
+                           }),
         getter<StateError>(
             "discretisation", "DiscretisationError",
             "estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }",

@@ -9,7 +9,6 @@
 #include "bindings/lua/ensemble/transfer.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/knob.hpp"
@@ -419,9 +418,8 @@ Function ensemble_function() {
   f.sentence =
       "Runs a function for every case of a study, on all threads, and returns one row a case: the case's own "
       "values and what the function returned. Order and values do not depend on the number of threads. A "
-      "case "
-      "that fails is told on standard error and the others run on; then `on_failure` says what becomes of "
-      "it.";
+      "case that fails is told on standard error and the others run on; then `on_failure` says what becomes "
+      "of it.";
   f.options = &ensemble_block();
   f.returns = "table[]";
   f.example =

@@ -13,7 +13,6 @@
 #include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/ranks.hpp"
-#include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {
 

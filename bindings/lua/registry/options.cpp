@@ -155,6 +155,52 @@ std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& 
   return {};
 }
 
+namespace {
+// Marks the options that are keys of the table as seen; returns the other keys.
+Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*>& options,
+                      std::vector<bool>& seen) {
+  Problems unknown;
+  if (!table.is_table()) return unknown;
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const OptionInfo* option : options) all.push_back(option->name);
+    return all;
+  };
+  table.each([&](const Argument& key, const Argument&) {
+    if (!key.is_text()) {
+      unknown.push_back(key.is_number() ? "position " + format_short(key.number()) +
+                                              " holds a value without a key; write `key = value`"
+                                        : "a key is " + key.describe() + "; keys are names");
+      return;
+    }
+    const auto found = std::ranges::find(options, key.text(), &OptionInfo::name);
+    if (found == options.end())
+      unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names()));
+    else
+      seen[static_cast<std::size_t>(found - options.begin())] = true;
+  });
+  std::sort(unknown.begin(), unknown.end());
+  constexpr std::size_t enough = 12;
+  if (unknown.size() > enough) {
+    const std::size_t more = unknown.size() - enough;
+    unknown.resize(enough);
+    unknown.push_back("and " + std::to_string(more) + " more unknown keys");
+  }
+  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names(), " and "));
+  return unknown;
+}
+
+[[noreturn]] void throw_problems(const std::string& caller, const Problems& problems, bool unknown) {
+  const std::size_t count = problems.size() - (unknown ? 1 : 0);
+  if (count == 1)
+    throw Error(unknown ? ErrorCode::unknown_name : ErrorCode::bad_value, caller + ": " + problems.front(),
+                unknown ? problems.back() : "");
+  std::string sentence = caller + ": " + std::to_string(count) + " problems";
+  for (const std::string& problem : problems) sentence += "\n  " + problem;
+  throw Error(ErrorCode::bad_value, sentence);
+}
+}  // namespace
+
 void read_table(const Argument& table, const std::string& caller,
                 const std::vector<const OptionInfo*>& options,
                 const std::function<void(std::size_t, const Argument&, Problems&)>& read,
@@ -163,37 +209,10 @@ void read_table(const Argument& table, const std::string& caller,
     throw Error(ErrorCode::bad_value,
                 caller + " takes one table of named keys, and was given " + table.describe(),
                 "write " + caller + "{ ... }");
-  Problems unknown, problems;
-  const auto names = [&] {
-    std::vector<std::string> all;
-    for (const OptionInfo* option : options) all.push_back(option->name);
-    return all;
-  };
   std::vector<bool> seen(options.size(), false);
   // Lua's key order varies; values are read in the order of the block.
-  if (table.is_table()) {
-    table.each([&](const Argument& key, const Argument&) {
-      if (!key.is_text()) {
-        unknown.push_back(key.is_number() ? "position " + format_short(key.number()) +
-                                                " holds a value without a key; write `key = value`"
-                                          : "a key is " + key.describe() + "; keys are names");
-        return;
-      }
-      const auto found = std::ranges::find(options, key.text(), &OptionInfo::name);
-      if (found == options.end())
-        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names()));
-      else
-        seen[static_cast<std::size_t>(found - options.begin())] = true;
-    });
-    std::sort(unknown.begin(), unknown.end());
-    constexpr std::size_t enough = 12;
-    if (unknown.size() > enough) {
-      const std::size_t more = unknown.size() - enough;
-      unknown.resize(enough);
-      unknown.push_back("and " + std::to_string(more) + " more unknown keys");
-    }
-  }
-  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names(), " and "));
+  const Problems unknown = unknown_keys(table, options, seen);
+  Problems problems;
   Variation* variation = variation_of(table.state());
   for (std::size_t k = 0; k < options.size(); ++k) {
     const Argument::StackGuard guard(table.state());
@@ -220,16 +239,7 @@ void read_table(const Argument& table, const std::string& caller,
   }
   if (problems.empty() && unknown.empty()) finish(problems);
   problems.insert(problems.end(), unknown.begin(), unknown.end());
-  if (problems.empty()) return;
-  const std::size_t count = problems.size() - (unknown.empty() ? 0 : 1);
-  if (count == 1) {
-    std::string hint = unknown.empty() ? "" : problems.back();
-    throw Error(unknown.empty() ? ErrorCode::bad_value : ErrorCode::unknown_name,
-                caller + ": " + problems.front(), hint);
-  }
-  std::string sentence = caller + ": " + std::to_string(count) + " problems";
-  for (const std::string& problem : problems) sentence += "\n  " + problem;
-  throw Error(ErrorCode::bad_value, sentence);
+  if (!problems.empty()) throw_problems(caller, problems, !unknown.empty());
 }
 
 }  // namespace detail

@@ -140,13 +140,7 @@ const RecordType<CalibratedSpecimen>& calibrated_specimen_type() {
   return type;
 }
 
-template <auto read>
-Values of_calibration(Call& call) {
-  return {detail::value_of_held(read(call.self<CalibrationReport>()))};
-}
-
-Values told_parameters(Call& call) {
-  const CalibrationReport& report = call.self<CalibrationReport>();
+Record told_parameters(const CalibrationReport& report) {
   Record record;
   record.name = "parameters";
   for (std::size_t p = 0; p < report.found.parameters.size(); ++p) {
@@ -155,25 +149,28 @@ Values told_parameters(Call& call) {
     one.name = of.name;
     record.add(of.name, std::move(one));
   }
-  return {std::move(record)};
+  return record;
 }
 
-Values told_values(Call& call) {
+Map told_values(const CalibrationReport& report) {
   Map map;
-  for (const CalibratedParameter& of : call.self<CalibrationReport>().found.parameters)
+  for (const CalibratedParameter& of : report.found.parameters)
     if (of.value) map.items.emplace_back(of.name, *of.value);
-  return {std::move(map)};
+  return map;
 }
 
-Values told_correlation(Call& call) {
+std::vector<double> known_numbers(const std::vector<std::optional<double>>& values) {
+  std::vector<double> numbers;
+  for (const std::optional<double>& value : values)
+    numbers.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  return numbers;
+}
+
+List told_correlation(const CalibrationReport& report) {
   List rows;
-  for (const auto& row : call.self<CalibrationReport>().found.correlation) {
-    auto numbers = std::make_shared<Array<double>>();
-    for (const std::optional<double>& value : row)
-      numbers->push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-    rows.items.emplace_back(Value::Numbers(std::move(numbers)));
-  }
-  return {std::move(rows)};
+  for (const auto& row : report.found.correlation)
+    rows.items.push_back(detail::value_of_held(known_numbers(row)));
+  return rows;
 }
 
 using Curve = std::vector<CurvePoint>;
@@ -198,25 +195,9 @@ const RecordType<Curve>& curve_type() {
   return type;
 }
 
-Values told_curve(Call& call) {
-  const auto& curve = call.self<CalibrationReport>().curve;
-  return {curve ? Value(curve_type()(curve->curve)) : Value()};
-}
-
-Values told_specimens(Call& call) {
-  return {calibrated_specimen_type().list(call.self<CalibrationReport>().found.specimens)};
-}
-
-std::vector<double> known_numbers(const std::vector<std::optional<double>>& values) {
-  std::vector<double> numbers;
-  for (const std::optional<double>& value : values)
-    numbers.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-  return numbers;
-}
-
 template <auto read>
 Getter field(const char* name, const char* type, const char* sentence) {
-  return {name, type, sentence, {}, of_calibration<read>};
+  return getter<read, CalibrationReport>(name, type, sentence);
 }
 
 struct CalibrationChartKeys {
@@ -381,6 +362,7 @@ CalibrationReport calibration_report(Call& call, const CalibrationKeys& keys, Ca
   return report;
 }
 
+// data table
 template <>
 const Class& class_of<CalibrationReport>() {
   using R = CalibrationReport;
@@ -395,16 +377,10 @@ const Class& class_of<CalibrationReport>() {
     c.digest = [](const void* self) { return calibration_digest(*static_cast<const R*>(self)); };
     c.results = {&calibrated_parameter_type(), &calibrated_specimen_type(), &curve_type()};
     c.fields = {
-        {"parameters",
-         "table<string, CalibratedParameter>",
-         "each parameter under its name",
-         {},
-         told_parameters},
-        {"values",
-         "table<string, number>",
-         "the estimates by name in SI, without those that are not determined",
-         {},
-         told_values},
+        field<told_parameters>("parameters", "table<string, CalibratedParameter>",
+                               "each parameter under its name"),
+        field<told_values>("values", "table<string, number>",
+                           "the estimates by name in SI, without those that are not determined"),
         field<[](const R& r) {
           std::vector<std::string> names;
           for (const CalibratedParameter& of : r.found.parameters) names.push_back(of.name);
@@ -416,7 +392,8 @@ const Class& class_of<CalibrationReport>() {
         field<[](const R& r) {
           return r.curve && !r.curve->name.empty() ? std::optional(r.curve->name) : std::nullopt;
         }>("name", "string?", "of t:fit: its name in charts"),
-        {"curve", "FitCurve?", "of t:fit: the curve with its band, for drawing", {}, told_curve},
+        field<[](const R& r) { return r.curve ? Value(curve_type()(r.curve->curve)) : Value(); }>(
+            "curve", "FitCurve?", "of t:fit: the curve with its band, for drawing"),
         field<[](const R& r) { return r.r_squared; }>(
             "r_squared", "number?", "of t:fit: explained share of the scatter of y; nil if all y are equal"),
         field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
@@ -426,11 +403,9 @@ const Class& class_of<CalibrationReport>() {
         field<[](const R& r) { return r.found.combinations; }>(
             "combinations", "string[]",
             "what the rows determine in the place of parameters that they do not tell apart"),
-        {"correlation",
-         "number[][]",
-         "of the estimates; nan beside parameters that are not determined or stand at a bound",
-         {},
-         told_correlation},
+        field<told_correlation>(
+            "correlation", "number[][]",
+            "of the estimates; nan beside parameters that are not determined or stand at a bound"),
         field<[](const R& r) { return r.found.condition; }>(
             "condition", "number?",
             "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
@@ -458,11 +433,9 @@ const Class& class_of<CalibrationReport>() {
             "degrees", "integer", "degrees of freedom: observations less parameters that they determine"),
         field<[](const R& r) { return r.found.by_specimens; }>("by_specimens", "boolean",
                                                                "whether the means of specimens were fitted"),
-        {"specimens",
-         "CalibratedSpecimen[]",
-         "in the order of their first rows; empty without `specimen`",
-         {},
-         told_specimens},
+        field<[](const R& r) { return calibrated_specimen_type().list(r.found.specimens); }>(
+            "specimens", "CalibratedSpecimen[]",
+            "in the order of their first rows; empty without `specimen`"),
         field<[](const R& r) {
           return r.found.specimen_scatter ? std::optional(r.found.specimen_scatter->f) : std::nullopt;
         }>("specimen_f", "number?",

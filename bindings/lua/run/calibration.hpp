@@ -2,7 +2,6 @@
 // Common part of t:fit and lab.calibrate: keys, selection of rows, native class.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

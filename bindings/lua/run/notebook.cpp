@@ -208,6 +208,7 @@ Function notebook_function() {
       .example = "local book = lab.notebook \"stiffness\""};
 }
 
+// data table
 template <>
 const Class& class_of<Notebook>() {
   static const Class type = [] {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:fit: a line, a power law or a script function. The function receives x and one table of parameters by
-// name, reused in all calls. x, y and weights are in the units of their columns.
-#include <algorithm>
 #include <map>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_values.hpp"
-#include "bindings/lua/runtime/files.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/study/curve_fit.hpp"
 

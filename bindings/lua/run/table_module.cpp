@@ -103,12 +103,11 @@ const Module& table_module() {
         {.name = "read",
          .body = read_table_file,
          .sentence =
-             "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line "
-             "of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points "
-             "or commas. Units stand in the heads, load [N], load (N), load / N, or in the line "
-             "below, or in the cells; numbers with a unit come in SI. Dates and times of day become "
-             "seconds, ISO 8601 and local forms; columns of words are texts. An ambiguous value is an error "
-             "with the key to give.",
+             "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Windows-1252): a line of "
+             "heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
+             "Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; "
+             "numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local "
+             "forms; columns of words are texts. An ambiguous value is an error with the key to give.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_table_block(),
          .options_optional = true,

@@ -10,7 +10,6 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include "bindings/lua/registry/case_input.hpp"
 #include "bindings/lua/registry/embedded.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/runtime/state_heap.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +19,15 @@ namespace asperity::lua {
 
 namespace {
 
+// Uncounted memory (a library's heap) still ends in bad_alloc.
+void limit_address_space(std::int64_t bytes) {
+  if (sanitized) return;
+  constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
+  ::setrlimit(RLIMIT_DATA, &limit);
+}
 // The last refused request of this thread. Lua collects and retries; the next request shows whether the
 // refusal was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
@@ -170,6 +181,11 @@ void* StateHeap::change(void* block, std::size_t old_size, std::size_t new_size)
     small_.give(block, old_size);
   }
   return fresh;
+}
+
+void limit_memory(std::int64_t bytes) {
+  memory::set_limit(bytes);
+  limit_address_space(bytes);
 }
 
 bool memory_limit_met() { return memory::exceeded() || refused.has_value(); }

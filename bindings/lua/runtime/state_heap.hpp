@@ -67,6 +67,8 @@ class StateHeap {
   SmallBlocks small_;
 };
 
+// Limits grids and Lua's heap by counting, libraries by the system.
+void limit_memory(std::int64_t bytes);
 // Whether a refusal to this thread's states or the engine was final since the limit was set, even if the
 // script caught the error.
 bool memory_limit_met();

@@ -21,4 +21,10 @@ std::vector<std::pair<std::string, std::string>> version_facts() {
           {"eigen", ASPERITY_EIGEN_VERSION}};
 }
 
+Json version_json() {
+  Json versions = Json::object();
+  for (const auto& [name, version] : version_facts()) versions.set(name, version);
+  return versions;
+}
+
 }  // namespace asperity::lua

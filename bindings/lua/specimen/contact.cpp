@@ -286,6 +286,7 @@ Function contact_function() {
           .look = look_at_scene};
 }
 
+// data table
 template <>
 const Class& class_of<SpecimenPair>() {
   static const Class type = [] {

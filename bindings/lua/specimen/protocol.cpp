@@ -8,7 +8,6 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/recording/protocol_chart.hpp"
@@ -174,9 +173,9 @@ const RecordType<Detection>& recording_type() {
   return type;
 }
 
-Values recording(Call& call) {
-  const Detection* found = call.self<Protocol>().recording().get();
-  return {found != nullptr ? Value(recording_type()(*found)) : Value()};
+Value recording(const Protocol& of) {
+  const Detection* found = of.recording().get();
+  return found != nullptr ? Value(recording_type()(*found)) : Value();
 }
 
 struct ChartKeys {
@@ -232,6 +231,7 @@ std::size_t bytes_of_protocol(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<Protocol>() {
   static const Class type = [] {
@@ -246,25 +246,23 @@ const Class& class_of<Protocol>() {
     c.native_bytes = bytes_of_protocol;
     c.equal = have_one_digest<Protocol>;
     c.digest = text_of<&Protocol::digest>;
-    c.fields = {getter<Protocol>("count", "integer", "number of events",
-                                 [](const Protocol& of) { return length(&of); }),
-                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
-                {"recording",
-                 "Recording?",
-                 "what was found in the recording that it was detected in, and by which thresholds; nil if "
-                 "there is none",
-                 {},
-                 recording},
-                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
+    c.fields = {
+        getter<Protocol>("count", "integer", "number of events",
+                         [](const Protocol& of) { return length(&of); }),
+        getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+        getter<recording, Protocol>(
+            "recording", "Recording?",
+            "what was found in the recording that it was detected in, and by which thresholds; nil if "
+            "there is none"),
+        getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
     c.methods = {
         {.name = "on",
          .body = on,
          .sentence =
              "Does one event after another to a contact, one a turn of a for loop, which is given the event "
              "and the state of a press, nil after any other. A turn or a load that the contact cannot take "
-             "is "
-             "an error before the first event. An event that fails raises an error, and leaves "
-             "the contact as it was before that event; a loop that is broken off leaves the rest undone.",
+             "is an error before the first event. An event that fails raises an error, and leaves the "
+             "contact as it was before that event; a loop that is broken off leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},
          .returns = "iterator<ProtocolEvent and State?>",
          .example =

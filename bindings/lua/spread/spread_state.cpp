@@ -79,6 +79,7 @@ std::size_t spread_state_bytes(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<SpreadState>() {
   using A = SlabContactAnswer;

@@ -123,12 +123,6 @@ std::size_t bytes(const void* self) {
   return static_cast<const SlabSurface*>(self)->heights->size() * sizeof(double);
 }
 
-List pair_of(const Value& x, const Value& y) {
-  List list;
-  list.items = {x, y};
-  return list;
-}
-
 }  // namespace
 
 Team& team_of(const Call& call) {
@@ -206,19 +200,16 @@ const Class& class_of<SlabSurface>() {
     c.native_bytes = bytes;
     c.digest = text_of<&SlabSurface::digest>;
     c.fields = {
-        {"cells",
-         "integer[]",
-         "cells along x and y",
-         {},
-         [](Call& call) -> Values {
-           const Grid& grid = call.self<S>().grid;
-           return {pair_of(std::int64_t{grid.nx}, std::int64_t{grid.ny})};
-         }},
-        {"size", "number[]", "length of the sides", dimension::length,
-         [](Call& call) -> Values {
-           const Grid& grid = call.self<S>().grid;
-           return {pair_of(grid.size_x, grid.size_y)};
-         }},
+        getter<S>("cells", "integer[]", "cells along x and y",
+                  [](const S& of) {
+                    return List{{of.grid.nx, of.grid.ny}};
+                  }),
+        getter<S>(
+            "size", "number[]", "length of the sides",
+            [](const S& of) {
+              return List{{of.grid.size_x, of.grid.size_y}};
+            },
+            dimension::length),
         getter<&S::rms>("rms_height", "number", "root mean square height about the mean", dimension::length),
         getter<&S::mean>("mean", "number", "mean height", dimension::length),
         getter<&S::peak>("peak", "number", "greatest height", dimension::length),

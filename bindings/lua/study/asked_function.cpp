@@ -45,6 +45,37 @@ std::optional<Quantity> quantity_of(const Argument& value, const std::string& pa
 
 constexpr const char* input_example = "give { value=, u= }, such as { value=\"1.1 GPa\", u=\"0.1 GPa\" }";
 
+InputShape read_shape(const Argument& given, const std::string& place, Problems& problems) {
+  const auto shapes = input_shapes().first(4);
+  const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
+  if (found == shapes.end())
+    problems.push_back(quoted(place) + " is " + given.describe() +
+                       "; give \"normal\", \"uniform\", \"lognormal\" or \"triangular\"");
+  return static_cast<InputShape>(found - shapes.begin());
+}
+
+std::vector<Quantity> read_sample(const Argument& given, const std::string& place, Problems& problems) {
+  std::vector<Quantity> sample;
+  for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
+    given.element(k, [&](const Argument& item) {
+      if (const auto read = quantity_of(item, place + "[" + std::to_string(k) + "]", problems))
+        sample.push_back(*read);
+    });
+  if (sample.size() < 10)
+    problems.push_back(quoted(place) + " has fewer than 10 numbers; of a few readings give their mean, " +
+                       "u = s / sqrt(n) and degrees = n - 1");
+  return sample;
+}
+
+// A share of the value, which may not be read yet.
+void resolve_share(const Argument& table, const std::string& path, Quantity& share) {
+  with_key(table, "value", [&](const Argument& of) {
+    Problems ignored;
+    if (const auto whole = quantity_of(of, path, ignored))
+      share = Quantity{std::abs(whole->value) * share.value, whole->dimension};
+  });
+}
+
 void read_input(const std::string& name, const std::string& path, const Argument& table, InputKeys& keys,
                 Problems& problems) {
   if (!table.is_table()) {
@@ -67,33 +98,16 @@ void read_input(const std::string& name, const std::string& path, const Argument
     } else if (given.is_unknown()) {
       unknown = true;
     } else if (text == "shape") {
-      const auto shapes = input_shapes().first(4);
-      const auto found = std::ranges::find(shapes, given.is_text() ? given.text() : "");
-      if (found == shapes.end())
-        problems.push_back(quoted(place) + " is " + given.describe() +
-                           "; give \"normal\", \"uniform\", \"lognormal\" or \"triangular\"");
-      input.shape = static_cast<InputShape>(found - shapes.begin());
+      input.shape = read_shape(given, place, problems);
     } else if (text == "degrees") {
       input.degrees = given.is_number() ? given.number() : 0;
     } else if (text == "sample") {
-      for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
-        given.element(k, [&](const Argument& item) {
-          if (const auto read = quantity_of(item, place + "[" + std::to_string(k) + "]", problems))
-            sample.push_back(*read);
-        });
-      if (sample.size() < 10)
-        problems.push_back(quoted(place) + " has fewer than 10 numbers; of a few readings give their mean, " +
-                           "u = s / sqrt(n) and degrees = n - 1");
+      sample = read_sample(given, place, problems);
     } else {
       auto read = quantity_of(given, place, problems);
-      if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read) {
+      if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read)
         // The share may be read before the value.
-        with_key(table, "value", [&](const Argument& of) {
-          Problems ignored;
-          if (const auto whole = quantity_of(of, path, ignored))
-            read = Quantity{std::abs(whole->value) * read->value, whole->dimension};
-        });
-      }
+        resolve_share(table, path, *read);
       (text == "u" ? u : value) = read;
     }
   });

@@ -164,17 +164,15 @@ const Block<BudgetKeys>& budget_block() {
                  read_correlation),
        custom<K>(
            "replicate", "table",
-           "gives other specimens of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
-           "is the share of sampling; several lists go along together. With a list `specimen`, runs of one "
-           "are "
-           "its repeats: the means of the specimens are the sample, and their number gives the degrees",
+           "gives other specimens of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the "
+           "share of sampling; several lists go along together. With a list `specimen`, runs of one are its "
+           "repeats: the means of the specimens are the sample, and their number gives the degrees",
            read_replicate),
        custom<K>("cells", "integer|integer[]",
                  "cells a side, coarse to fine: the change between two grids shows the error of the cells, "
-                 "three show "
-                 "its order too. With two and no `replicate`, `ask` gets up to two numbers of cells between "
-                 "them as "
-                 "well, since two answers may agree by chance. The inputs are varied on the coarsest",
+                 "three show its order too. With two and no `replicate`, `ask` gets up to two numbers of "
+                 "cells between them as well, since two answers may agree by chance. The inputs are varied "
+                 "on the coarsest",
                  read_cells),
        pair_option<K>("order", &K::order_low, &K::order_high, dimension::number, between(0.1, 10),
                       "of the error of the cells, the least and the greatest that are possible")
@@ -362,11 +360,10 @@ Function budget_function() {
       .name = "budget",
       .body = make_budget,
       .sentence =
-          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
-          "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
-          "share of each part, what halving each costs, and the cheapest way to an interval. print() adds a "
-          "sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its "
-          "store.",
+          "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser "
+          "tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of "
+          "each part, what halving each costs, and the cheapest way to an interval. print() adds a sheet of "
+          "the inputs as the GUM has it. Presses computed before in the run are taken from its store.",
       .options = &budget_block(),
       .returns = "Budget",
       .example =
@@ -407,14 +404,10 @@ const Class& class_of<Budget>() {
         getter<&Budget::seconds>("seconds", "number", "time inside `ask`", dimension::time),
         getter<Budget>("parts", "BudgetPart[]", "the parts of its error, greatest share first",
                        [](const Budget& of) { return part_type().list(of.parts); }),
-        {"plan",
-         "BudgetPlan?",
-         "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
-         {},
-         [](Call& call) -> Values {
-           const auto& plan = call.self<Budget>().plan;
-           return {plan ? Value(plan_type()(*plan)) : Value()};
-         }},
+        getter<Budget>(
+            "plan", "BudgetPlan?",
+            "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
+            [](const Budget& of) { return of.plan ? Value(plan_type()(*of.plan)) : Value(); }),
         getter<Budget>("warnings", "string[]", "what to be wary of: few replicates, skewed ones, a rough fit",
                        [](const Budget& of) { return text_list(of.warnings); }),
     };

@@ -295,9 +295,7 @@ const Module& exact_module() {
             .example = "print(lab.exact.weierstrass_mandelbrot{ cells=150, D=2.5, phases=\"golden\", "
                        "node={75, 40} })",
             .heavy = true}},
-      .constants = {},
       .results = {&hertz_type(), &wavy_type(), &persson_type(), &box_paraboloid_type()},
-      .call = {},
   };
   return module;
 }

@@ -215,22 +215,11 @@ const Class& class_of<StudyChoice>() {
     c.sentence = "A setting that a study chose. print() shows its knobs as Lua source, to be pasted.";
     c.describe = describe_choice;
     c.fields = {
-        {"knobs",
-         "table",
-         "its knobs, as `ask` was given them",
-         {},
-         [](Call& call) -> Values {
-           const auto& choice = call.self<StudyChoice>();
-           return {knobs_map(choice.study->result.knobs_of(choice.found()))};
-         }},
-        {"way",
-         "string",
-         "the name of its way",
-         {},
-         [](Call& call) -> Values {
-           const auto& choice = call.self<StudyChoice>();
-           return {choice.study->result.way_of(choice.found()).name};
-         }},
+        getter<StudyChoice>(
+            "knobs", "table", "its knobs, as `ask` was given them",
+            [](const StudyChoice& of) { return knobs_map(of.study->result.knobs_of(of.found())); }),
+        getter<StudyChoice>("way", "string", "the name of its way",
+                            [](const StudyChoice& of) { return of.study->result.way_of(of.found()).name; }),
         of_row<&StudyRow::seconds>("seconds", "number", "median of its runs", dimension::time),
         of_row<&StudyRow::value>("value", "number", "its answer"),
         of_row<&StudyRow::error>("error", "number", "its error, relative to the truth"),

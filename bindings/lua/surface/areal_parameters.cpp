@@ -40,6 +40,7 @@ Number of_hills(const Parameters& p, Number value) {
   return p.has_inside() ? unless_flat(p, value) : Number();
 }
 
+// data table
 const std::vector<ArealRow>& areal_rows() {
   using P = Parameters;
   static const Dimension length = dimension::length, number = dimension::number, angle = dimension::angle;
@@ -471,14 +472,11 @@ const Class& class_of<Autocorrelation>() {
     c.sentence = "The autocorrelation of a surface at lags of whole cells, 1 at the origin.";
     c.describe = describe_correlation;
     c.native_bytes = bytes_of_correlation;
-    c.fields = {{"lags",
-                 "{integer, integer}",
-                 "the longest lags along x and y, in cells",
-                 {},
-                 [](Call& call) -> Values {
-                   const auto& f = call.self<Autocorrelation>();
-                   return {List{{f.lags_x(), f.lags_y()}}};
-                 }}};
+    c.fields = {getter<Autocorrelation>("lags", "{integer, integer}",
+                                        "the longest lags along x and y, in cells",
+                                        [](const Autocorrelation& of) {
+                                          return List{{of.lags_x(), of.lags_y()}};
+                                        })};
     c.methods = {
         {.name = "at",
          .body = correlation_at,

@@ -307,10 +307,8 @@ std::vector<Getter> missing_point_fields_of_surface() {
   return {
       getter<&Surface::measured>("measured", "integer",
                                  "how many points were measured; all of them where the surface has no holes"),
-      {"mask", "Field", "1 where a point was measured, 0 where not", {}, [](Call& call) -> Values {
-         const Surface& s = call.self<Surface>();
-         return {mask_field(s.grid(), mask_of(s))};
-       }}};
+      getter<Surface>("mask", "Field", "1 where a point was measured, 0 where not",
+                      [](const Surface& of) { return mask_field(of.grid(), mask_of(of)); })};
 }
 
 std::vector<Getter> missing_point_fields_of_profile() {

@@ -124,6 +124,7 @@ std::size_t bytes_of_profile(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<Profile>() {
   static const Class type = [] {

@@ -85,6 +85,7 @@ std::size_t bytes_of_surface(const void* self) {
 
 }  // namespace
 
+// data table
 template <>
 const Class& class_of<Surface>() {
   static const Class type = [] {
@@ -98,27 +99,19 @@ const Class& class_of<Surface>() {
     c.digest = text_of<&Surface::digest>;
     c.known = known_result;
     c.fields = {
-        {"cells",
-         "{nx, ny}",
-         "cells along x and y",
-         {},
-         [](Call& call) -> Values {
-           const Grid& g = call.self<Surface>().grid();
-           return {List{{g.nx, g.ny}}};
-         }},
-        {"size", "{number, number}", "length along x and y", dimension::length,
-         [](Call& call) -> Values {
-           const Grid& g = call.self<Surface>().grid();
-           return {List{{g.size_x, g.size_y}}};
-         }},
-        {"material",
-         "Material",
-         "what the body is made of, or nil",
-         {},
-         [](Call& call) -> Values {
-           const auto& m = call.self<Surface>().material();
-           return {m ? object(*m) : Value()};
-         }},
+        getter<Surface>("cells", "{nx, ny}", "cells along x and y",
+                        [](const Surface& of) {
+                          return List{{of.grid().nx, of.grid().ny}};
+                        }),
+        getter<Surface>(
+            "size", "{number, number}", "length along x and y",
+            [](const Surface& of) {
+              return List{{of.grid().size_x, of.grid().size_y}};
+            },
+            dimension::length),
+        getter<Surface>(
+            "material", "Material", "what the body is made of, or nil",
+            [](const Surface& of) { return of.material() ? Value(object(*of.material())) : Value(); }),
         getter<Surface>("periodic", "boolean", "whether the heights continue smoothly across the rim",
                         [](const Surface& of) { return of.traits().periodic; }),
         getter<Surface>("aliased_share", "number",

@@ -329,6 +329,7 @@ Values read_body(Call& call) {
 
 }  // namespace
 
+// data table
 const Module& surface_module() {
   static const Module module = [] {
     Module m;
@@ -339,7 +340,6 @@ const Module& surface_module() {
       m.functions.push_back({.name = name,
                              .body = body,
                              .sentence = sentence,
-                             .parameters = {},
                              .options = &block,
                              .returns = returns,
                              .example = example,
@@ -387,9 +387,8 @@ const Module& surface_module() {
          .sentence = "A measured surface from a file: " + format_names() +
                      ", known by its content, then by its extension, as it is or packed with gzip. Points "
                      "marked as not measured stay missing. y runs upwards: j = 0 is the lowest line, "
-                     "whichever a "
-                     "format stores first. Over x y z triples a line such as \"x "
-                     "[mm];y [mm];z [um]\" says their units.",
+                     "whichever a format stores first. Over x y z triples a line such as \"x [mm];y [mm];z "
+                     "[um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

@@ -228,6 +228,7 @@ Values all_profiles(Call& call) {
 
 }  // namespace
 
+// data table
 std::vector<Function> surface_operations() {
   return {
       {.name = "scaled",

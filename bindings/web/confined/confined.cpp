@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/web/confined/command_request.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/confined/drawing.hpp"
@@ -29,7 +30,6 @@ namespace asperity::web {
 
 namespace {
 
-constexpr int failed = 1, bad_usage = 2;
 constexpr std::array<const char*, 6> works{"run", "check", "draw", "probe", "command", "live"};
 
 const Json& request_member(const Json& json, const char* name) {
@@ -206,10 +206,9 @@ int confined_main() {
         return carry_out(request.command, request.lock);
     }
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return cli::refused(error);
   }
-  return failed;
+  return cli::failed;
 }
 
 }  // namespace asperity::web

@@ -4,7 +4,6 @@
 // or gnuplot, or tries the barriers.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -382,8 +381,7 @@ int carried_through(const cli::RunCommand& run, const cli::ReplayCommand* replay
   try {
     return Undertaking(run, replay).carry_through();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return cli::bad_usage;
+    return cli::refused(error);
   }
 }
 

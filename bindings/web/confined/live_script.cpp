@@ -25,6 +25,7 @@
 #include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/digest.hpp"
@@ -217,7 +218,7 @@ class LiveScript {
         unlinked_(request.confinement.file_bytes),
         questions_(socket) {
     set_thread_count(request.threads);
-    cli::limit_memory(request.confinement.memory_bytes);
+    lua::limit_memory(request.confinement.memory_bytes);
     draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
       return GnuplotResult{"not drawn while a knob moves", ""};
     });
@@ -267,6 +268,7 @@ class LiveScript {
 
   // True if an answer was sent.
   bool pass(const Question& question, const Pass& pass);
+  std::shared_ptr<RunDirectory> make_run(const Question& question) const;
   std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
                          Json& knobs);
   void say(const Question& question, const Pass& pass, Found found, Json answer);
@@ -345,9 +347,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   return true;
 }
 
-// Returns the reason of a failure, or "".
-std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
-                                   Found& found, Json& knobs) {
+std::shared_ptr<RunDirectory> LiveScript::make_run(const Question& question) const {
   std::error_code ignored;
   fs::remove_all("run", ignored);
   RunSetup setup;
@@ -358,7 +358,12 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
   setup.seed = request_.seed;
   setup.threads = thread_count();
   if (!question.knobs.empty()) setup.knobs = given_knobs_json(question.knobs);
+  return std::make_shared<RunDirectory>(setup);
+}
 
+// Returns the reason of a failure, or "".
+std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
+                                   Found& found, Json& knobs) {
   cli::RunCommand command;
   command.script = request_.name;
   command.seed = static_cast<std::uint64_t>(request_.seed);
@@ -366,7 +371,7 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
   command.limit_time = request_.seconds;
 
   lua::Session session(monitor);
-  session.run = std::make_shared<RunDirectory>(setup);
+  session.run = make_run(question);
   session.run->journal().watch([&found, &monitor](std::string_view event, const Json& fields) {
     std::optional<Json> told = told_of(event, fields);
     if (!told) return;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/files/disk.hpp"

@@ -3,7 +3,6 @@
 //   a² = R δ,  F = (4/3) E* √R δ^(3/2),  p0 = 3F/(2πa²),  U = (2/5) F δ.
 #include "engine/study/exact/closed_forms.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
