@@ -90,10 +90,8 @@ Lines lines_of(const SourceFile& file, std::size_t characters, std::string_view&
 }
 
 Lines read_lines(const SourceFile& file, std::string_view& data) {
-  if (!recognises_bcr(file))
-    refuse_file(file,
-                "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
-                "if it is another format, name it with `format`");
+  require_format(file, recognises_bcr(file),
+                 "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`");
   Lines lines = lines_of(file, header_characters, data);
   if (lines.count("headersize") == 0) return lines;
   const std::uint64_t said = count_of(file, lines, "headersize");
