@@ -315,18 +315,59 @@ std::string count_text(std::size_t n, const std::string& what) {
   return (n == 0 ? "no " : std::to_string(n) + " ") + what + (n == 1 ? "" : "s");
 }
 
-FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& options) {
-  const DimensionMethod method = options.method;
+// Throws for methods that need every point.
+void require_pairs(const ProfileSet& set, DimensionMethod method) {
   const bool is_psd = method == DimensionMethod::psd;
-  const std::vector<int> steps = chosen_steps(options, set.shortest, set.wrap);
-  const bool holes = set.measured < set.points;
-  if (holes && (is_psd || method == DimensionMethod::box))
+  if (is_psd || method == DimensionMethod::box)
     throw Error(
         ErrorCode::bad_value,
         "the method `" + std::string(is_psd ? "psd" : "box") + "` needs every point, and " +
             std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
             " were not measured",
         "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
+}
+
+// Needs D, its error, steps and profiles of `found`. Returns a reason, or an empty string.
+std::string reason_against(const FractalDimension& found, const ProfileSet& set,
+                           const FractalDimensionOptions& options, std::span<const int> steps, bool wrap,
+                           const Tables& tables, std::span<const double> log_steps,
+                           std::span<const double> statistics, const LineFit& line) {
+  const DimensionMethod method = options.method;
+  const bool is_psd = method == DimensionMethod::psd;
+  const std::size_t width = statistics.size(), profiles = static_cast<std::size_t>(found.profiles);
+  const auto gappy = static_cast<std::size_t>(std::ranges::count(tables.gappy, 1));
+  if (profiles + gappy < tables.D.size())
+    return std::to_string(tables.D.size() - profiles - gappy) + " of " +
+           count_text(tables.D.size(), "profile") + " have equal heights";
+  if (width < 3)
+    return "2 " + std::string(is_psd ? "bands" : "steps") + " always lie on a line; 3 or more are needed";
+  std::string reason;
+  if (method == DimensionMethod::length) {
+    std::vector<double> squares(width);
+    for (std::size_t k = 0; k < width; ++k)
+      squares[k] = column_mean(tables, tables.mean_square_slopes, width, k);
+    reason = too_flat(squares, steps);
+  }
+  for (std::size_t k = 0; k < width && reason.empty(); ++k)
+    if (!has_logarithm(method, statistics[k]))
+      reason = "heights a step of " + format_short(found.steps[k]) + " apart never differ: they repeat";
+  if (reason.empty()) reason = made_by_jumps(set);
+  if (reason.empty() && (found.D < 1 - found.error || found.D > 2 + found.error))
+    reason = "D = " + format_short(found.D, 4) + " is outside 1 … 2: the heights do not scale over these " +
+             (is_psd ? "bands" : "steps");
+  if (reason.empty() && is_psd) reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, line);
+  if (reason.empty() && options.tip) reason = shown_by_tip(set, *options.tip, found.steps, is_psd);
+  if (reason.empty() && !is_psd)
+    reason = lack_of_scaling(method, found.steps, statistics, found, options.offsets, set.shortest);
+  return reason;
+}
+
+FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& options) {
+  const DimensionMethod method = options.method;
+  const bool is_psd = method == DimensionMethod::psd;
+  const std::vector<int> steps = chosen_steps(options, set.shortest, set.wrap);
+  const bool holes = set.measured < set.points;
+  if (holes) require_pairs(set, method);
   // A cut profile is not periodic.
   const bool wrap = set.wrap && !(is_psd && set.shortest < set.longest);
   const std::vector<double> step_values =
@@ -377,32 +418,8 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.error = std::sqrt(result.error * result.error + bias * bias);
   }
 
-  if (D.size() + gappy < tables.D.size())
-    result.reason = std::to_string(tables.D.size() - D.size() - gappy) + " of " +
-                    count_text(tables.D.size(), "profile") + " have equal heights";
-  else if (width < 3)
-    result.reason =
-        "2 " + std::string(is_psd ? "bands" : "steps") + " always lie on a line; 3 or more are needed";
-  else if (method == DimensionMethod::length) {
-    std::vector<double> squares(width);
-    for (std::size_t k = 0; k < width; ++k)
-      squares[k] = column_mean(tables, tables.mean_square_slopes, width, k);
-    result.reason = too_flat(squares, steps);
-  }
-  for (std::size_t k = 0; k < width && result.reason.empty(); ++k)
-    if (!has_logarithm(method, statistics[k]))
-      result.reason =
-          "heights a step of " + format_short(step_values[k]) + " apart never differ: they repeat";
-  if (result.reason.empty()) result.reason = made_by_jumps(set);
-  if (result.reason.empty() && (result.D < 1 - result.error || result.D > 2 + result.error))
-    result.reason = "D = " + format_short(result.D, 4) +
-                    " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
-  if (result.reason.empty() && is_psd)
-    result.reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, pooled.line);
-  if (result.reason.empty() && options.tip)
-    result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
-  if (result.reason.empty() && !is_psd)
-    result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
+  result.reason =
+      reason_against(result, set, options, steps, wrap, tables, log_steps, statistics, pooled.line);
   // Biased box counts rarely detect missing scaling.
   if (result.reason.empty() && method == DimensionMethod::box)
     if (const FractalDimension other = measure(

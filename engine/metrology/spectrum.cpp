@@ -87,17 +87,9 @@ Shells shells_of(const Grid& grid, int bins) {
   return {least, elementary::hypot(x * (grid.nx / 2), y * (grid.ny / 2)), bins};
 }
 
-// `measure`: area (surface) or length (profile).
-Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
-  if (bins < 0)
-    throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
-                "give 0 for a shell per mode number, or the number of shells of equal ratio");
-  Spectrum result;
-  result.window = window;
-  if (z.size() < 2) return result;
-
-  const Array<double> wx = window_samples(window, grid.nx), wy = window_samples(window, grid.ny);
-  const double window_power = mean_square(wx) * mean_square(wy);
+// Subtracts the mean, multiplies by the window, and divides by a power of two against overflow: returns the
+// exponent.
+int apply_window(Field& z, std::span<const double> wx, std::span<const double> wy, bool holes) {
   const Range r = holes ? known_range(z.values()) : range(z.values());
   if (r.min == r.max) {
     std::fill(z.values().begin(), z.values().end(), 0.0);
@@ -116,7 +108,21 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
   for (int j = 0; j < z.ny(); ++j)
     for (int i = 0; i < z.nx(); ++i)
       z(i, j) *= up * wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
+  return coarse + fine;
+}
 
+// `measure`: area (surface) or length (profile).
+Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
+  if (bins < 0)
+    throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
+                "give 0 for a shell per mode number, or the number of shells of equal ratio");
+  Spectrum result;
+  result.window = window;
+  if (z.size() < 2) return result;
+
+  const Array<double> wx = window_samples(window, grid.nx), wy = window_samples(window, grid.ny);
+  const double window_power = mean_square(wx) * mean_square(wy);
+  const int exponent = apply_window(z, wx, wy, holes);
   const HalfSpectrum waves = fourier_forward(z);
   z = Field();
   const Shells shells = shells_of(grid, bins);
@@ -144,7 +150,6 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
     height_sums[static_cast<std::size_t>(b)] = heights;
     slope_sums[static_cast<std::size_t>(b)] = slopes;
   }
-  const int exponent = coarse + fine;
   result.rms_height = std::ldexp(std::sqrt(block_sum(height_sums)), exponent);
   result.rms_slope = std::ldexp(std::sqrt(block_sum(slope_sums)), exponent);
   for (std::size_t k = 0; k < count.size(); ++k) {
