@@ -11,19 +11,14 @@
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
 namespace {
 
 Array<double> window_samples(Window window, int n) {
-  Array<double> samples(static_cast<std::size_t>(n), 1.0);
-  if (window == Window::hann && n > 1)
-    for (int i = 0; i < n; ++i) {
-      const double s = elementary::sin(pi * (i + 0.5) / n);
-      samples[static_cast<std::size_t>(i)] = s * s;
-    }
-  return samples;
+  return window == Window::hann && n > 1 ? hann_window(n) : Array<double>(static_cast<std::size_t>(n), 1.0);
 }
 
 double mean_square(std::span<const double> samples) {
@@ -169,6 +164,15 @@ Window chosen(Window asked, bool periodic) {
 
 }  // namespace
 
+Array<double> hann_window(int n) {
+  Array<double> samples(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double s = elementary::sin(pi * (i + 0.5) / n);
+    samples[static_cast<std::size_t>(i)] = s * s;
+  }
+  return samples;
+}
+
 Spectrum spectrum(const Surface& surface, const SpectrumOptions& options) {
   Spectrum result =
       measure_spectrum(surface.measured_heights(), surface.grid(), surface.grid().area(),
@@ -178,11 +182,9 @@ Spectrum spectrum(const Surface& surface, const SpectrumOptions& options) {
 }
 
 Spectrum spectrum(const Profile& profile, const SpectrumOptions& options) {
-  Field z(profile.size(), 1);
-  std::ranges::copy(profile.measured_heights(), z.values().begin());
   const Grid grid{profile.size(), 1, profile.length(), profile.spacing()};
   Spectrum result =
-      measure_spectrum(std::move(z), grid, profile.length(), chosen(options.window, profile.closed()),
+      measure_spectrum(line_of(profile), grid, profile.length(), chosen(options.window, profile.closed()),
                        options.bins, !profile.complete());
   if (!profile.complete()) result.measured = static_cast<std::int64_t>(profile.measured());
   return result;

@@ -12,6 +12,7 @@
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -320,15 +321,13 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
 
   constexpr double least = 1e-280;  // of the hardness
   if (request.value > 0 && pressure < least * law.cap)
-    throw Error(ErrorCode::bad_value,
-                asked + ", a pressure under 1e-280 of the hardness: too small to mean anything",
-                "give zero for no load, or check its unit");
+    refuse(asked + ", a pressure under 1e-280 of the hardness: too small to mean anything",
+           "give zero for no load, or check its unit");
   auto solution = std::make_shared<const UnderLoad>(ready_, elements, law, plane, pressure, load, factor);
   if (!std::isfinite(plane.high * plane.high * static_cast<double>(elements->size())) ||
       !std::isfinite(load) || !std::isfinite(solution->peak_pressure()) || !std::isfinite(solution->energy()))
-    throw Error(ErrorCode::bad_value,
-                asked + ", so large that the numbers of the solution leave the range of a double",
-                "check its unit");
+    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
+           "check its unit");
   const State state(std::move(solution), plan_, elasticity_alone(scope.so_far()));
   check_rounding(state, plan_.accuracy);
   return state;

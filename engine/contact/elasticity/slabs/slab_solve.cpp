@@ -27,13 +27,12 @@ std::string pascals(double p) { return format_quantity(p, dimension::pressure); 
 
 void check(const SlabContactProblem& problem, double mean_pressure) {
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
-                "a mean pressure is finite and not negative: nothing here pulls");
+    refuse("`pressure` is " + pascals(mean_pressure),
+           "a mean pressure is finite and not negative: nothing here pulls");
   if (mean_pressure > 0 && mean_pressure < 1e-60 * problem.modulus)
-    throw Error(ErrorCode::bad_value,
-                "`pressure` is " + format_short(mean_pressure) +
-                    " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
-                "give a larger pressure, or none");
+    refuse("`pressure` is " + format_short(mean_pressure) +
+               " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
+           "give a larger pressure, or none");
   if (mean_pressure >= problem.cap)
     throw Error(ErrorCode::infeasible,
                 "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
@@ -205,10 +204,9 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
   terms.cap = std::numeric_limits<double>::infinity();
   if (const Plan plan = make_plan(scene, geometry); plan.yield) {
     if (plan.yield->hardens())
-      throw Error(ErrorCode::bad_value,
-                  "`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
-                      ".hardening` is not computed over ranks",
-                  "leave it out, so that the pressure stays at the hardness, or use lab.contact");
+      refuse("`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
+                 ".hardening` is not computed over ranks",
+             "leave it out, so that the pressure stays at the hardness, or use lab.contact");
     terms.cap = plan.yield->hardness();
   }
   return terms;
@@ -304,7 +302,7 @@ Found search(Team& team, const SlabContactProblem& problem, double target, doubl
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach), "give zero or a length above it");
+    refuse("`approach` is " + metres(approach), "give zero or a length above it");
   if (approach == 0) return solve_slabs_at_pressure(team, problem, 0, nullptr, monitor);
   const SlabSurface& surface = problem.surface;
   const double full = surface.peak - surface.mean;

@@ -373,8 +373,7 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
 AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
                                   const AdhesiveAnswer* start, Monitor& monitor) {
   if (!std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "the mean pressure is " + format_short(mean_pressure) + " Pa",
-                "give a finite pressure");
+    refuse("the mean pressure is " + format_short(mean_pressure) + " Pa", "give a finite pressure");
   AdhesiveDescent descent(problem, mean_pressure, 0, monitor);
   if (start != nullptr)
     descent.begin_from(*start);

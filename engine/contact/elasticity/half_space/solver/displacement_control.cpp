@@ -97,14 +97,13 @@ std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem
 
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach),
-                "an approach is finite and not negative, measured from first touch");
+    refuse("`approach` is " + metres(approach),
+           "an approach is finite and not negative, measured from first touch");
   if (approach == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
-    throw Error(ErrorCode::bad_value,
-                "`approach` is " + format_short(approach) +
-                    " m, less than 1e-280 of the tile: no double holds the pressures it takes",
-                "give a larger approach, or none");
+    refuse("`approach` is " + format_short(approach) +
+               " m, less than 1e-280 of the tile: no double holds the pressures it takes",
+           "give a larger approach, or none");
   check_approach_within_full_contact(problem, approach);
   if (const auto pressure = pressure_past_full_contact(problem, approach)) {
     HalfSpaceAnswer answer = solve_at_pressure(problem, *pressure, nullptr, monitor);

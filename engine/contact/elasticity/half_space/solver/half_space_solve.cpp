@@ -12,6 +12,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -68,13 +69,12 @@ void check_fields(const HalfSpaceProblem& problem) {
 void check(const HalfSpaceProblem& problem, double mean_pressure) {
   check_fields(problem);
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
-                "a mean pressure is finite and not negative: nothing here pulls");
+    refuse("`pressure` is " + pascals(mean_pressure),
+           "a mean pressure is finite and not negative: nothing here pulls");
   if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
-    throw Error(ErrorCode::bad_value,
-                "`pressure` is " + format_short(mean_pressure) +
-                    " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
-                "give a larger pressure, or none");
+    refuse("`pressure` is " + format_short(mean_pressure) +
+               " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
+           "give a larger pressure, or none");
   const YieldLaw& law = problem.yield;
   const double facing = facing_share(problem);
   if (law.caps() && mean_pressure >= law.cap * facing) {
@@ -174,9 +174,8 @@ double peak_of(const HalfSpaceProblem& problem) {
 Field with_missing_ground_at(const HalfSpaceProblem& problem, double there, const std::string& asked) {
   Field heights = *problem.heights;
   if (!std::isfinite(there))
-    throw Error(ErrorCode::bad_value,
-                asked + ", so large that the numbers of the solution leave the range of a double",
-                "check its unit");
+    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
+           "check its unit");
   for (double& h : heights.values())
     if (std::isnan(h)) h = there;
   return heights;
