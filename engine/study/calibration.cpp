@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
@@ -245,7 +244,8 @@ class CalibrationWork {
   }
 
   void describe_place() {
-    held_ = problem_.pushed(at_.place, at_.rows_jacobian, std::vector<bool>(problem_.parameters(), false));
+    const std::vector<bool> none(problem_.parameters(), false);
+    held_ = problem_.pushed(at_.place, at_.rows_jacobian, none);
     let_go(problem_.tangent(at_.place, at_.rows_jacobian, none, at_.hidden));
     tangent_ = problem_.tangent(at_.place, at_.rows_jacobian, held_, at_.hidden);
     // Undetermined directions involve all parameters except fixed ones.
