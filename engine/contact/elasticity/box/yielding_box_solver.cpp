@@ -302,15 +302,14 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
     load = request.by == PressBy::load ? request.value : request.value * tile;
     const double greatest = elements->greatest_mean_pressure();
     if (pressure / overlap >= greatest)
-      throw Error(ErrorCode::infeasible,
-                  "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
-                      " cannot be carried: the elements carry " +
-                      format_quantity(greatest * overlap, dimension::pressure) +
-                      " at most, their `hardness`" +
-                      (overlap < 1 ? " on the " + format_short(100 * overlap, 3) +
-                                         " % of the tile where the bodies face each other"
-                                   : std::string()),
-                  "press with less than the hardness, or give `hardening`");
+      refuse_infeasible("a mean pressure of " + format_quantity(pressure, dimension::pressure) +
+                            " cannot be carried: the elements carry " +
+                            format_quantity(greatest * overlap, dimension::pressure) +
+                            " at most, their `hardness`" +
+                            (overlap < 1 ? " on the " + format_short(100 * overlap, 3) +
+                                               " % of the tile where the bodies face each other"
+                                         : std::string()),
+                        "press with less than the hardness, or give `hardening`");
     plane = elements->plane_under(pressure / overlap);
   } else if (request.value > 0) {
     const double depth = request.by == PressBy::approach ? request.value : request.value * height;

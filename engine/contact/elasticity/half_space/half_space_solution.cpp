@@ -63,7 +63,6 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   // The pyramid ignores constants; the longest wave approximates them.
   const double constant = stiffness_of_wave(multiplier, longest) / std::max(counts[0], 1.0);
   const double yielded_factor = 1 / (give + 4 / std::numbers::pi);
-
   Array<double> x(nodes), r(nodes), z(nodes), d(nodes), image(nodes);
   for_nodes(nodes, [&](std::size_t k) { r[k] = in(k) ? 1.0 : 0.0; });
   double squares = free, old_rz = 0;

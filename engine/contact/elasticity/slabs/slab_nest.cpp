@@ -153,7 +153,6 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
   Array<double> carried;  // level-set field
   double all_work = 0, work_done = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
-
   for (std::size_t l = steps.size(); l-- > 0;) {
     Step& step = steps[l];
     const bool finest = l == 0;
@@ -180,7 +179,6 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
       carried = Array<double>();
     }
     project_slabs_to_load(level, p, nullptr, p);
-
     DescentEnd end =
         descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.converged) level.gap(p, fields.gap);

@@ -34,10 +34,9 @@ void check(const SlabContactProblem& problem, double mean_pressure) {
                " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
            "give a larger pressure, or none");
   if (mean_pressure >= problem.cap)
-    throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
-                    pascals(problem.cap) + ", and every node would have to carry as much or more",
-                "press with less than the hardness");
+    refuse_infeasible("a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
+                          pascals(problem.cap) + ", and every node would have to carry as much or more",
+                      "press with less than the hardness");
 }
 
 double punch_length(const SlabContactProblem& problem, double mean_pressure) {
@@ -147,7 +146,6 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   if (flat) cell.length = std::sqrt(surface.slab.all_nodes() * cell.shape.aspect);
   // Margin for rounding in the conversion to pascals.
   cell.tolerance = 0.99 * problem.tolerance;
-
   SlabCellAnswer found;
   if (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(team, surface))
     found = full_contact_in_slabs(team, cell, monitor);
@@ -167,7 +165,6 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
     found = nested_descent_in_slabs(team, cell, pressure, gap, monitor);
     found.applications += before;
   }
-
   SlabContactAnswer answer;
   answer.mean_pressure = mean_pressure;
   for (double& p : found.pressure) p = p >= cell.cap ? problem.cap : std::min(p * unit, problem.cap);
@@ -307,10 +304,9 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
   const SlabSurface& surface = problem.surface;
   const double full = surface.peak - surface.mean;
   if (!std::isfinite(problem.cap) && approach >= full)
-    throw Error(ErrorCode::infeasible,
-                "`approach` is " + metres(approach) + ", and all of the tile touches at " + metres(full) +
-                    ": past full contact no load brings a periodic tile closer",
-                "give less, or `pressure`");
+    refuse_infeasible("`approach` is " + metres(approach) + ", and all of the tile touches at " +
+                          metres(full) + ": past full contact no load brings a periodic tile closer",
+                      "give less, or `pressure`");
   Root root;
   root.logarithm =
       elementary::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
@@ -323,10 +319,10 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
   answer.certificate.load = std::abs(answer.approach - approach) / approach;
   answer.converged = answer.certificate.worst() <= problem.tolerance;
   if (!found.reached && answer.approach < approach && std::isfinite(problem.cap))
-    throw Error(ErrorCode::infeasible,
-                "`approach` is " + metres(approach) +
-                    ", and under the greatest load that `hardness` allows it is " + metres(answer.approach),
-                "give less, or `pressure`");
+    refuse_infeasible("`approach` is " + metres(approach) +
+                          ", and under the greatest load that `hardness` allows it is " +
+                          metres(answer.approach),
+                      "give less, or `pressure`");
   if (!answer.converged && !problem.best_effort)
     throw Error(ErrorCode::not_converged,
                 "the approach of " + metres(approach) + " was missed by " +

@@ -203,9 +203,9 @@ double AdhesiveDescent::contact(double close, double target) {
     });
     worst = -found[3];
     if (!std::isfinite(worst))
-      throw Error(ErrorCode::infeasible,
-                  "the numbers of this contact overflow: load, attraction, range and cells are too far apart",
-                  "check the units of `work`, `range`, the load and the size");
+      refuse_infeasible(
+          "the numbers of this contact overflow: load, attraction, range and cells are too far apart",
+          "check the units of `work`, `range`, the load and the size");
     if (worst <= close || found[1] == 0) break;
     const double middle = fixed ? found[2] / found[1] : 0.0;
     for_nodes(nodes_, [&](std::size_t k) { r_[k] = free[k] ? middle - g_[k] : 0.0; });
@@ -371,11 +371,10 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
     const auto h = contact.heights->values();
     const double most = range(h).max - mean(h);
     if (approach >= most)
-      throw Error(ErrorCode::infeasible,
-                  "an approach of " + format_quantity(approach, dimension::length) +
-                      " cannot be reached: this periodic tile is in full contact at " +
-                      format_quantity(most, dimension::length) + ", and more load brings it no nearer",
-                  "ask for a smaller `approach`, or press by `pressure`");
+      refuse_infeasible("an approach of " + format_quantity(approach, dimension::length) +
+                            " cannot be reached: this periodic tile is in full contact at " +
+                            format_quantity(most, dimension::length) + ", and more load brings it no nearer",
+                        "ask for a smaller `approach`, or press by `pressure`");
   }
   AdhesiveDescent descent(problem, 0, approach, monitor);
   if (start != nullptr) descent.begin_from(*start);
@@ -398,11 +397,10 @@ AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pr
   descent.load = mean_pressure / problem.contact.modulus;
   descent.run(problem.contact.tolerance);
   if (descent.separates)
-    throw Error(ErrorCode::infeasible,
-                "the bodies separate under a mean pressure of " +
-                    format_quantity(mean_pressure, dimension::pressure) +
-                    ": past the pull-off no contact carries the pull",
-                "pull by less, or prescribe the `approach`");
+    refuse_infeasible("the bodies separate under a mean pressure of " +
+                          format_quantity(mean_pressure, dimension::pressure) +
+                          ": past the pull-off no contact carries the pull",
+                      "pull by less, or prescribe the `approach`");
   AdhesiveAnswer answer = descent.answer();
   finish(problem, answer, mean_pressure);
   return answer;

@@ -82,15 +82,13 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     if (facing < 1)
-      throw Error(ErrorCode::infeasible,
-                  "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
-                      shown(law.cap) + ", and the bodies face each other on " +
-                      format_short(100 * facing, 3) + " % of the tile",
-                  "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
-    throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
-                    shown(law.cap) + ", and every node would have to carry as much or more",
-                "press with less than the hardness, or give `hardening`");
+      refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                            shown(law.cap) + ", and the bodies face each other on " +
+                            format_short(100 * facing, 3) + " % of the tile",
+                        "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
+    refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                          shown(law.cap) + ", and every node would have to carry as much or more",
+                      "press with less than the hardness, or give `hardening`");
   }
 }
 
