@@ -50,8 +50,7 @@ void plan_box(const std::any& given, const ContactGeometry& geometry, Plan& plan
              "give `stiffness` in Pa/m");
     box.stiffness = modulus / height;
     box.reference_pressure = modulus;
-    origin = "E*/peak-to-valley, " + format_quantity(modulus, dimension::pressure) + " / " +
-             format_quantity(height, dimension::length);
+    origin = "E*/peak-to-valley, " + format_quantity(modulus, dimension::pressure) + " / " + metres(height);
   }
   if (!std::isfinite(box.stiffness) || !std::isfinite(box.reference_pressure) || !(box.stiffness > 0))
     refuse("the stiffness of the box elements comes to " + format_short(box.stiffness) + " Pa/m",

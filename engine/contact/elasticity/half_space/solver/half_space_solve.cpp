@@ -425,9 +425,8 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   if (problem.overhangs) {
     // Pressure lifts no node of a free tile, so deeper nodes never touch.
     cell.lowest = ends.min;
-    out_of_the_way =
-        with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
-                               "the approach is " + format_quantity(approach, dimension::length));
+    out_of_the_way = with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
+                                            "the approach is " + metres(approach));
   }
   cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
   cell.origin = units.origin;
