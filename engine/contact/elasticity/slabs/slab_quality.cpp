@@ -100,7 +100,7 @@ bool project_slabs_to_load(SlabLevel& level, std::span<const double> y_values, c
       v[2] = inside ? value : 0.0;
       v[3] = (here(k) & (x >= upper)) ? upper : 0.0;
     });
-    return CarriedLoad{sums[0], sums[1], sums[2], sums[3]};
+    return LoadAtShift{sums[0], sums[1], sums[2], sums[3]};
   };
   const auto [low, high, at, found] = find_load_shift(
       origin - greatest, std::min(upper, load) - (moved[2] - origin), origin, load, fixed, false, carried);

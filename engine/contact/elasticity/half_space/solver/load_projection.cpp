@@ -21,7 +21,7 @@ struct Somewhere {
 };
 
 template <class Where>
-CarriedLoad carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
+LoadAtShift carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
   const auto sums = over_nodes<4>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
     const bool here = where(k);
     const double value = y[k] - (here ? origin : 0.0), x = value + (here ? shift : 0.0);

@@ -21,7 +21,7 @@ namespace asperity {
 bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> shift_where, double upper,
                      double load, std::span<double> target);
 
-struct CarriedLoad {
+struct LoadAtShift {
   double load;      // Σ clip(y + λ)
   double interior;  // moved nodes strictly between the bounds
   double values;    // Σ y over them
@@ -35,7 +35,7 @@ struct LoadShift {
 };
 
 // Safeguarded Newton steps for λ within `low` … `high`. `fixed`: load of unmoved nodes. `carried(λ)`: a
-// CarriedLoad. `by_excess`: also steps that resolve finer shifts than the sums.
+// LoadAtShift. `by_excess`: also steps that resolve finer shifts than the sums.
 template <class Of>
 LoadShift find_load_shift(double low, double high, double origin, double load, double fixed, bool by_excess,
                           const Of& carried) {
@@ -43,7 +43,7 @@ LoadShift find_load_shift(double low, double high, double origin, double load, d
   double shift = std::clamp(origin, low, std::max(low, high));
   double best = std::numeric_limits<double>::infinity(), best_shift = shift;
   for (int step = 0; step < 200; ++step) {
-    const CarriedLoad at = carried(shift);
+    const LoadAtShift at = carried(shift);
     const double excess = at.load - load;
     if (std::abs(excess) < best) {
       best = std::abs(excess);
