@@ -284,7 +284,7 @@ State outlined(State state, const Plan& plan, const AskedError& asked) {
       .with_outline(modulus, boxes);
 }
 
-[[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {
+[[noreturn]] void refuse_accuracy(const ChosenAccuracy& reached, const std::string& where) {
   const bool endless = !std::isfinite(reached.error);
   const std::string& note = reached.tried.back().note;
   throw Error(
@@ -335,7 +335,7 @@ class Choice {
       step = next(*step);
     }
     if (!chosen_.met() && scene_.accuracy.on_failure == Accuracy::OnFailure::error)
-      refuse(chosen_, "on " + cells_text(chosen_.nx, chosen_.ny));
+      refuse_accuracy(chosen_, "on " + cells_text(chosen_.nx, chosen_.ny));
     return result();
   }
 
@@ -525,7 +525,8 @@ State held_to(const State& given, const ChosenAccuracy& chosen, const Scene& sce
   for (const std::string& quantity : now.asked.of)
     now.values.push_back(discretisation_estimate(state, quantity).value);
   if (!now.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
-    refuse(now, "on the " + cells_text(now.nx, now.ny) + " that the first press of this contact chose");
+    refuse_accuracy(now,
+                    "on the " + cells_text(now.nx, now.ny) + " that the first press of this contact chose");
   return state.chosen_as(std::make_shared<const ChosenAccuracy>(std::move(now)));
 }
 

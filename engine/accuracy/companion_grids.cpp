@@ -16,7 +16,7 @@
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
@@ -171,11 +171,10 @@ std::vector<Grid> coarser_grids(const Grid& grid) {
 
 void check_estimate(const Grid& grid) {
   if (coarser_grids(grid).empty())
-    throw Error(ErrorCode::bad_value,
-                "`estimate` was asked for a tile of " + std::to_string(grid.nx) + " x " +
-                    std::to_string(grid.ny) + " cells",
-                "an estimate compares with half the cells: give at least " +
-                    std::to_string(2 * fewest_cells) + " along x or y, or leave `estimate` out");
+    refuse("`estimate` was asked for a tile of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+               " cells",
+           "an estimate compares with half the cells: give at least " + std::to_string(2 * fewest_cells) +
+               " along x or y, or leave `estimate` out");
 }
 
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,

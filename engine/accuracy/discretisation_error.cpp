@@ -108,6 +108,61 @@ void estimate_by_finer(const State& state, const StateQuantity& quantity, bool b
   result.extrapolated = better;
 }
 
+void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
+                         DiscretisationEstimate& result) {
+  const CellError& cells = *quantity.cells;
+  if (follows_touch(state, quantity)) {
+    const double lacks = lacks_by_touch(state, quantity);
+    constexpr double order = 2;
+    result.error = std::abs(lacks) + share_beside_touch * differences(state, quantity, order, true).error;
+    result.extrapolated += lacks;
+    return;
+  }
+  // At a prescribed approach, errors follow the highest node.
+  const Differences d = differences(state, quantity, by_approach ? std::min(cells.order, 1.0) : cells.order);
+  switch (cells.kind) {
+    case Kind::grid:
+      result.error = d.error;
+      break;
+    case Kind::steady:
+      result.error = d.error;
+      result.extrapolated += d.correction;
+      break;
+    case Kind::raw_area: {
+      const double area = area_unit(state, quantity);
+      const double corrected = area * state.corrected_area_fraction();
+      const double rest = differences(state, quantity_of("corrected_area_fraction"), cells.order).error;
+      result.error = std::max(std::abs(result.value - corrected), area * rest);
+      result.extrapolated = corrected;
+      break;
+    }
+    case Kind::corrected:
+      if (state.outline()) {
+        result.error = state.outline()->doubt * result.value / result.margin;
+        break;
+      }
+      result.error = std::max(share_beside_outline * d.error,
+                              share_of_outline * std::abs(state.area_fraction() - result.value));
+      break;
+    case Kind::approach: {
+      if (by_approach) {
+        result.error = d.error;
+        break;
+      }
+      const Differences rest = differences(state, quantity_of("separation"), cells.order);
+      const double rise = rise_between_nodes(state.geometry().combined(), wraps);
+      result.error = rise + share_beside_touch * rest.error;
+      result.extrapolated += rise;
+      break;
+    }
+    case Kind::peak:
+      result.error = d.diverges ? std::numeric_limits<double>::infinity() : d.error;
+      if (d.error > 0)
+        result.error = std::max(result.error, rise_between_nodes(*state.field("pressure"), wraps));
+      break;
+  }
+}
+
 bool prescribes_approach(PressBy by) { return by == PressBy::approach || by == PressBy::indentation; }
 
 }  // namespace
@@ -132,9 +187,7 @@ namespace {
 void check(const AskedError& asked, const Effects& named) {
   require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
           "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
-  if (asked.of.empty())
-    throw Error(ErrorCode::bad_value, "`of` names no quantity",
-                "give one, such as \"corrected_area_fraction\"");
+  if (asked.of.empty()) refuse("`of` names no quantity", "give one, such as \"corrected_area_fraction\"");
   const std::span<const std::string> known = estimated_quantities();
   for (const std::string& quantity : asked.of) {
     if (std::find(known.begin(), known.end(), quantity) == known.end())
@@ -143,10 +196,9 @@ void check(const AskedError& asked, const Effects& named) {
           "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
           "give one of " + joined(known, " and "));
     if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !named.names(effect))
-      throw Error(ErrorCode::bad_value,
-                  "`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
-                      "; this scene does not name it",
-                  "name " + quoted(effect) + ", or ask for the error of another quantity");
+      refuse("`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
+                 "; this scene does not name it",
+             "name " + quoted(effect) + ", or ask for the error of another quantity");
   }
 }
 
@@ -156,9 +208,9 @@ void check_accuracy(const Scene& scene) {
   const Accuracy& accuracy = scene.accuracy;
   const Grid& grid = scene.lower.grid();
   if (accuracy.estimate == Accuracy::Estimate::finer && accuracy.asked)
-    throw Error(ErrorCode::bad_value, "`estimate` = \"finer\" and `error` are both given",
-                "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
-                "both out");
+    refuse("`estimate` = \"finer\" and `error` are both given",
+           "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
+           "both out");
   if (accuracy.estimate == Accuracy::Estimate::finer) finer_grid(grid);
   if (accuracy.estimate == Accuracy::Estimate::coarser || accuracy.asked) check_estimate(grid);
   if (accuracy.asked) check(*accuracy.asked, scene.effects);
@@ -199,60 +251,8 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
   result.margin = cells.margin;
   result.value = found->of(state);
   result.extrapolated = result.value;
-  if (state.companion_grids()->finer()) {
-    estimate_by_finer(state, *found, by_approach, wraps, result);
-    return result;
-  }
-  if (follows_touch(state, *found)) {
-    const double lacks = lacks_by_touch(state, *found);
-    constexpr double order = 2;
-    result.error = std::abs(lacks) + share_beside_touch * differences(state, *found, order, true).error;
-    result.extrapolated += lacks;
-    return result;
-  }
-  // At a prescribed approach, errors follow the highest node.
-  const Differences d = differences(state, *found, by_approach ? std::min(cells.order, 1.0) : cells.order);
-  switch (cells.kind) {
-    case Kind::grid:
-      result.error = d.error;
-      break;
-    case Kind::steady:
-      result.error = d.error;
-      result.extrapolated += d.correction;
-      break;
-    case Kind::raw_area: {
-      const double area = area_unit(state, *found);
-      const double corrected = area * state.corrected_area_fraction();
-      const double rest = differences(state, quantity_of("corrected_area_fraction"), cells.order).error;
-      result.error = std::max(std::abs(result.value - corrected), area * rest);
-      result.extrapolated = corrected;
-      break;
-    }
-    case Kind::corrected:
-      if (state.outline()) {
-        result.error = state.outline()->doubt * result.value / result.margin;
-        break;
-      }
-      result.error = std::max(share_beside_outline * d.error,
-                              share_of_outline * std::abs(state.area_fraction() - result.value));
-      break;
-    case Kind::approach: {
-      if (by_approach) {
-        result.error = d.error;
-        break;
-      }
-      const Differences rest = differences(state, quantity_of("separation"), cells.order);
-      const double rise = rise_between_nodes(state.geometry().combined(), wraps);
-      result.error = rise + share_beside_touch * rest.error;
-      result.extrapolated += rise;
-      break;
-    }
-    case Kind::peak:
-      result.error = d.diverges ? std::numeric_limits<double>::infinity() : d.error;
-      if (d.error > 0)
-        result.error = std::max(result.error, rise_between_nodes(*state.field("pressure"), wraps));
-      break;
-  }
+  const auto estimate = state.companion_grids()->finer() ? estimate_by_finer : estimate_by_coarser;
+  estimate(state, *found, by_approach, wraps, result);
   return result;
 }
 

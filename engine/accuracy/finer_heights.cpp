@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
 namespace asperity {
@@ -98,13 +98,11 @@ Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary bo
 Grid finer_grid(const Grid& grid) {
   const std::string asked = "`estimate` = \"finer\" was asked for a tile of " + std::to_string(grid.nx) +
                             " x " + std::to_string(grid.ny) + " cells";
-  if (std::max(grid.nx, grid.ny) < 2)
-    throw Error(ErrorCode::bad_value, asked, "give at least 2 along x or y");
+  if (std::max(grid.nx, grid.ny) < 2) refuse(asked, "give at least 2 along x or y");
   if (std::max(grid.nx, grid.ny) > max_cells / times_finer)
-    throw Error(ErrorCode::bad_value, asked,
-                "it needs " + std::to_string(times_finer) +
-                    " times the cells a side, and a tile has at most " + std::to_string(max_cells) +
-                    ": estimate=true compares with coarser ones");
+    refuse(asked, "it needs " + std::to_string(times_finer) +
+                      " times the cells a side, and a tile has at most " + std::to_string(max_cells) +
+                      ": estimate=true compares with coarser ones");
   const auto times = [](int cells) { return cells > 1 ? times_finer * cells : cells; };
   return {times(grid.nx), times(grid.ny), grid.size_x, grid.size_y};
 }

@@ -39,21 +39,9 @@ bool Plan::attracts() const {
   return std::any_of(attraction.begin(), attraction.end(), [](const GapTerm& term) { return term.work > 0; });
 }
 
-std::int64_t Plan::bytes_kept() const {
+std::int64_t Plan::bytes_of(bool PlannedBuffer::*which) const {
   std::int64_t sum = 0;
-  for (const PlannedBuffer& buffer : buffers) sum += buffer.kept ? buffer.bytes : 0;
-  return sum;
-}
-
-std::int64_t Plan::bytes_peak() const {
-  std::int64_t sum = 0;
-  for (const PlannedBuffer& buffer : buffers) sum += buffer.bytes;
-  return sum;
-}
-
-std::int64_t Plan::bytes_grown() const {
-  std::int64_t sum = 0;
-  for (const PlannedBuffer& buffer : buffers) sum += buffer.grows ? buffer.bytes : 0;
+  for (const PlannedBuffer& buffer : buffers) sum += which == nullptr || buffer.*which ? buffer.bytes : 0;
   return sum;
 }
 

@@ -72,10 +72,12 @@ struct Plan {
 
   // If so, bodies may be pulled.
   bool attracts() const;
-  std::int64_t bytes_kept() const;
-  std::int64_t bytes_peak() const;   // with temporary buffers
-  std::int64_t bytes_grown() const;  // the part in proportion to the nodes
-  std::string text() const;          // lines, each terminated
+  // Of buffers with `which`; null: of all.
+  std::int64_t bytes_of(bool PlannedBuffer::*which) const;
+  std::int64_t bytes_kept() const { return bytes_of(&PlannedBuffer::kept); }
+  std::int64_t bytes_peak() const { return bytes_of(nullptr); }                 // with temporary buffers
+  std::int64_t bytes_grown() const { return bytes_of(&PlannedBuffer::grows); }  // in proportion to the nodes
+  std::string text() const;                                                     // lines, each terminated
 };
 
 // Adds the buffers of a press by `flatten`.

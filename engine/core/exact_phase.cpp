@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -83,24 +83,23 @@ std::uint64_t fraction_of_turn(mpfr_ptr turns, mpz_ptr whole) {
 
 void check(double gamma, double span, int cells, int directions, int n_max) {
   if (!(std::isfinite(gamma) && gamma > 1))
-    throw Error(ErrorCode::bad_value, "`gamma` is " + format_exact(gamma), "give a finite number above 1");
+    refuse("`gamma` is " + format_exact(gamma), "give a finite number above 1");
   if (!(std::isfinite(span) && span > 0))
-    throw Error(ErrorCode::bad_value, "`span` is " + format_exact(span), "give a finite number above 0");
+    refuse("`span` is " + format_exact(span), "give a finite number above 0");
   if (cells < 1 || cells > max_cells)
-    throw Error(ErrorCode::bad_value, "`cells` is " + std::to_string(cells) + " a side",
-                "give a whole number from 1 to " + std::to_string(max_cells));
+    refuse("`cells` is " + std::to_string(cells) + " a side",
+           "give a whole number from 1 to " + std::to_string(max_cells));
   if (const int greatest = greatest_wave_order(gamma); n_max < 0 || n_max > greatest)
-    throw Error(ErrorCode::bad_value, "`n_max` is " + std::to_string(n_max),
-                "with gamma = " + format_exact(gamma) + " give a whole number from 0 to " +
-                    std::to_string(greatest) + ": n_max*log2(gamma) may not exceed 2048, nor n_max 4096");
+    refuse("`n_max` is " + std::to_string(n_max),
+           "with gamma = " + format_exact(gamma) + " give a whole number from 0 to " +
+               std::to_string(greatest) + ": n_max*log2(gamma) may not exceed 2048, nor n_max 4096");
   if (directions < 1 || directions > max_wave_directions)
-    throw Error(ErrorCode::bad_value, "`M` is " + std::to_string(directions),
-                "give a whole number from 1 to " + std::to_string(max_wave_directions));
+    refuse("`M` is " + std::to_string(directions),
+           "give a whole number from 1 to " + std::to_string(max_wave_directions));
   if (const std::int64_t waves = std::int64_t{directions} * (n_max + 1); waves > max_waves)
-    throw Error(ErrorCode::bad_value,
-                "`M` of " + std::to_string(directions) + " and `n_max` of " + std::to_string(n_max) +
-                    " make " + std::to_string(waves) + " waves",
-                "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
+    refuse("`M` of " + std::to_string(directions) + " and `n_max` of " + std::to_string(n_max) + " make " +
+               std::to_string(waves) + " waves",
+           "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
 }
 
 // For fewer turns per grid step, the grain of the fractions would show in the heights.
@@ -188,8 +187,7 @@ PhaseIncrements phase_increments(double gamma, double span, int cells, int direc
       table.y[k] = fraction_of_turn(turns, whole);
     }
     if (n == n_max && mpfr_cmp_d(step, smallest_step) < 0)
-      throw Error(
-          ErrorCode::bad_value,
+      refuse(
           "`span` is " + format_exact(span) + ": even the shortest wave turns less than 2^-32 times a cell",
           "give a longer span or a larger n_max");
     mpfr_mul(step, step, ratio, MPFR_RNDN);

@@ -15,16 +15,15 @@ namespace asperity {
 Grid make_grid(double nx, double ny, double size_x, double size_y) {
   for (const double n : {nx, ny}) {
     if (!(n >= 1 && n <= max_cells && n == std::floor(n)))
-      throw Error(ErrorCode::bad_value, "`cells` is " + format_short(n) + " a side",
-                  "give a whole number from 1 to " + std::to_string(max_cells));
+      refuse("`cells` is " + format_short(n) + " a side",
+             "give a whole number from 1 to " + std::to_string(max_cells));
   }
   for (const double size : {size_x, size_y}) {
     require_positive("size", size, "m", "give a finite length above zero");
   }
   for (const auto& [size, n] : {std::pair{size_x, nx}, std::pair{size_y, ny}})
     if (!(size / n > 0))
-      throw Error(
-          ErrorCode::bad_value,
+      refuse(
           "`size` is " + format_short(size) + " m, which leaves its " + format_short(n) + " cells no width",
           "check its unit");
   return Grid{static_cast<int>(nx), static_cast<int>(ny), size_x, size_y};
@@ -118,10 +117,9 @@ double node_value(const Field& field, double i, double j) {
   const bool inside =
       i >= 0 && i < field.nx() && i == std::floor(i) && j >= 0 && j < field.ny() && j == std::floor(j);
   if (!inside)
-    throw Error(ErrorCode::bad_value,
-                "there is no node (" + format_short(i, 17) + ", " + format_short(j, 17) + ")",
-                "i runs from 0 to " + std::to_string(field.nx() - 1) + ", j from 0 to " +
-                    std::to_string(field.ny() - 1));
+    refuse("there is no node (" + format_short(i, 17) + ", " + format_short(j, 17) + ")",
+           "i runs from 0 to " + std::to_string(field.nx() - 1) + ", j from 0 to " +
+               std::to_string(field.ny() - 1));
   return field(static_cast<int>(i), static_cast<int>(j));
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -52,10 +52,8 @@ void check_options(std::span<const OptionRow> rows, const std::any& options, con
     const std::optional<double> value = row.get(options);
     if (!value || row.range.contains(*value)) continue;
     const std::string unit = si_unit(row.dimension);
-    throw Error(
-        ErrorCode::bad_value,
-        quoted(row.name) + " of " + of + " is " + format_short(*value) + (unit.empty() ? "" : " " + unit),
-        "give " + row.range.wanted(row.dimension, std::isinf(*value)));
+    refuse(quoted(row.name) + " of " + of + " is " + format_short(*value) + (unit.empty() ? "" : " " + unit),
+           "give " + row.range.wanted(row.dimension, std::isinf(*value)));
   }
 }
 

@@ -22,6 +22,9 @@ inline std::string metres(double length) { return format_quantity(length, dimens
   throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
 }
 
+[[noreturn]] inline void refuse_infeasible(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::infeasible, std::move(sentence), std::move(hint));
+}
 // Throws Error{bad_value} "`key` is VALUE UNIT" with the hint.
 template <class Number>
 void require(bool holds, std::string_view key, Number value, const char* unit, const char* hint) {

@@ -8,9 +8,9 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/length_ratio.hpp"
@@ -18,6 +18,7 @@
 #include "engine/metrology/profile_statistics.hpp"
 #include "engine/metrology/scale_dependence.hpp"
 #include "engine/metrology/spectral_bands.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -44,8 +45,8 @@ struct ProfileSet {
 std::vector<int> chosen_steps(const FractalDimensionOptions& options, int samples, bool wrap) {
   if (options.method == DimensionMethod::psd) {
     if (!options.steps.empty())
-      throw Error(ErrorCode::bad_value, "`steps` were given for the method `psd`",
-                  "it fits bands of wavelengths of its own; leave `steps` out");
+      refuse("`steps` were given for the method `psd`",
+             "it fits bands of wavelengths of its own; leave `steps` out");
     return {};
   }
   const int longest = wrap ? samples : samples - 1;
@@ -59,16 +60,13 @@ std::vector<int> chosen_steps(const FractalDimensionOptions& options, int sample
   }
   for (const int s : options.steps) {
     if (s < 1 || s >= samples)
-      throw Error(
-          ErrorCode::bad_value,
+      refuse(
           "`steps` holds " + std::to_string(s) + " for profiles of " + std::to_string(samples) + " samples",
           "a step is a whole number of samples from 1 to " + std::to_string(std::max(samples - 1, 1)));
     if (std::count(options.steps.begin(), options.steps.end(), s) > 1)
-      throw Error(ErrorCode::bad_value, "`steps` holds " + std::to_string(s) + " more than once",
-                  "give each step once");
+      refuse("`steps` holds " + std::to_string(s) + " more than once", "give each step once");
   }
-  if (options.steps.size() < 2)
-    throw Error(ErrorCode::bad_value, "`steps` holds one step", "a slope needs two steps or more");
+  if (options.steps.size() < 2) refuse("`steps` holds one step", "a slope needs two steps or more");
   return options.steps;
 }
 
@@ -315,18 +313,63 @@ std::string count_text(std::size_t n, const std::string& what) {
   return (n == 0 ? "no " : std::to_string(n) + " ") + what + (n == 1 ? "" : "s");
 }
 
+// Throws for methods that need every point.
+void require_pairs(const ProfileSet& set, DimensionMethod method) {
+  const bool is_psd = method == DimensionMethod::psd;
+  if (is_psd || method == DimensionMethod::box)
+    refuse("the method `" + std::string(is_psd ? "psd" : "box") + "` needs every point, and " +
+               std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
+               " were not measured",
+           "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
+}
+
+// Needs D, its error, steps and profiles of `found`. Returns a reason, or an empty string.
+std::string reason_against(const FractalDimension& found, const ProfileSet& set,
+                           const FractalDimensionOptions& options, std::span<const int> steps, bool wrap,
+                           const Tables& tables, std::span<const double> log_steps,
+                           std::span<const double> statistics, const LineFit& line) {
+  const DimensionMethod method = options.method;
+  const bool is_psd = method == DimensionMethod::psd;
+  const std::size_t width = statistics.size(), profiles = static_cast<std::size_t>(found.profiles);
+  const auto gappy = static_cast<std::size_t>(std::ranges::count(tables.gappy, 1));
+  if (profiles + gappy < tables.D.size())
+    return std::to_string(tables.D.size() - profiles - gappy) + " of " +
+           count_text(tables.D.size(), "profile") + " have equal heights";
+  if (width < 3)
+    return "2 " + std::string(is_psd ? "bands" : "steps") + " always lie on a line; 3 or more are needed";
+  std::string reason;
+  if (method == DimensionMethod::length) {
+    std::vector<double> squares(width);
+    for (std::size_t k = 0; k < width; ++k)
+      squares[k] = column_mean(tables, tables.mean_square_slopes, width, k);
+    reason = too_flat(squares, steps);
+  }
+  for (std::size_t k = 0; k < width && reason.empty(); ++k)
+    if (!has_logarithm(method, statistics[k]))
+      reason = "heights a step of " + format_short(found.steps[k]) + " apart never differ: they repeat";
+  if (reason.empty()) reason = made_by_jumps(set);
+  if (reason.empty() && (found.D < 1 - found.error || found.D > 2 + found.error))
+    reason = "D = " + format_short(found.D, 4) + " is outside 1 … 2: the heights do not scale over these " +
+             (is_psd ? "bands" : "steps");
+  if (reason.empty() && is_psd) reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, line);
+  if (reason.empty() && options.tip) reason = shown_by_tip(set, *options.tip, found.steps, is_psd);
+  if (reason.empty() && !is_psd)
+    reason = lack_of_scaling(method, found.steps, statistics, found, options.offsets, set.shortest);
+  return reason;
+}
+
+double standard_deviation(Array<double> values) {
+  const double centre = mean(values);
+  for (double& one : values) one = (one - centre) * (one - centre);
+  return std::sqrt(block_sum(values) / static_cast<double>(values.size() - 1));
+}
+
 FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& options) {
   const DimensionMethod method = options.method;
   const bool is_psd = method == DimensionMethod::psd;
   const std::vector<int> steps = chosen_steps(options, set.shortest, set.wrap);
   const bool holes = set.measured < set.points;
-  if (holes && (is_psd || method == DimensionMethod::box))
-    throw Error(
-        ErrorCode::bad_value,
-        "the method `" + std::string(is_psd ? "psd" : "box") + "` needs every point, and " +
-            std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
-            " were not measured",
-        "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
+  if (holes) require_pairs(set, method);
   // A cut profile is not periodic.
   const bool wrap = set.wrap && !(is_psd && set.shortest < set.longest);
   const std::vector<double> step_values =
@@ -350,10 +393,10 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   for (const double one : tables.D)
     if (!std::isnan(one)) D.push_back(one);
   result.profiles = static_cast<int>(D.size());
-  const auto gappy = static_cast<std::size_t>(std::ranges::count(tables.gappy, 1));
   if (D.empty())
-    return unresolved(gappy > 0 ? "no profile has measured points a step apart at every step"
-                                : "all heights of a profile are equal");
+    return unresolved(std::ranges::count(tables.gappy, 1) > 0
+                          ? "no profile has measured points a step apart at every step"
+                          : "all heights of a profile are equal");
   if (holes) result.measured = set.measured;
 
   std::vector<double> statistics(width);
@@ -364,45 +407,14 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   const Fitted pooled = fit_dimension(method, log_steps, statistics);
   result.r_squared = pooled.r_squared;
   result.D = options.pooled ? pooled.D : mean(D);
-  if (D.size() == 1) {
-    result.error = pooled.error;
-  } else {
-    const double centre = mean(D);
-    for (double& one : D) one = (one - centre) * (one - centre);
-    result.error = std::sqrt(block_sum(D) / static_cast<double>(D.size() - 1));
-  }
-
+  result.error = D.size() == 1 ? pooled.error : standard_deviation(D);
   if (method == DimensionMethod::box) {
     const double bias = box_counting_bias(result.D, set.shortest);
     result.error = std::sqrt(result.error * result.error + bias * bias);
   }
 
-  if (D.size() + gappy < tables.D.size())
-    result.reason = std::to_string(tables.D.size() - D.size() - gappy) + " of " +
-                    count_text(tables.D.size(), "profile") + " have equal heights";
-  else if (width < 3)
-    result.reason =
-        "2 " + std::string(is_psd ? "bands" : "steps") + " always lie on a line; 3 or more are needed";
-  else if (method == DimensionMethod::length) {
-    std::vector<double> squares(width);
-    for (std::size_t k = 0; k < width; ++k)
-      squares[k] = column_mean(tables, tables.mean_square_slopes, width, k);
-    result.reason = too_flat(squares, steps);
-  }
-  for (std::size_t k = 0; k < width && result.reason.empty(); ++k)
-    if (!has_logarithm(method, statistics[k]))
-      result.reason =
-          "heights a step of " + format_short(step_values[k]) + " apart never differ: they repeat";
-  if (result.reason.empty()) result.reason = made_by_jumps(set);
-  if (result.reason.empty() && (result.D < 1 - result.error || result.D > 2 + result.error))
-    result.reason = "D = " + format_short(result.D, 4) +
-                    " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
-  if (result.reason.empty() && is_psd)
-    result.reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, pooled.line);
-  if (result.reason.empty() && options.tip)
-    result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
-  if (result.reason.empty() && !is_psd)
-    result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
+  result.reason =
+      reason_against(result, set, options, steps, wrap, tables, log_steps, statistics, pooled.line);
   // Biased box counts rarely detect missing scaling.
   if (result.reason.empty() && method == DimensionMethod::box)
     if (const FractalDimension other = measure(
@@ -415,13 +427,10 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
 }
 
 double cut_off_of_trace(const Profile& profile, double radius) {
-  const std::span<const double> z = profile.measured_heights();
-  Field row(profile.size(), 1);
-  std::ranges::copy(z, row.values().begin());
   SurfaceTraits traits;
   traits.periodic = profile.closed();
   const Grid grid = make_grid(profile.size(), 1, profile.size() * profile.spacing(), profile.spacing());
-  return tip_cut_off(Surface(grid, std::move(row), std::move(traits)), ScaleAxis::x, radius);
+  return tip_cut_off(Surface(grid, line_of(profile), std::move(traits)), ScaleAxis::x, radius);
 }
 
 }  // namespace
@@ -431,11 +440,9 @@ FractalDimension fractal_dimension(const Surface& surface, const FractalDimensio
   const Grid& grid = surface.grid();
   const bool along_x = options.along != Along::y, along_y = options.along != Along::x;
   if (along_x && along_y && options.pooled && std::abs(grid.hx() - grid.hy()) > 1e-9 * grid.hx())
-    throw Error(
-        ErrorCode::bad_value,
-        "`pooled` over both directions of cells of " + format_short(grid.hx()) + " m x " +
-            format_short(grid.hy()) + " m",
-        "one step must be one length in both; use `along=\"x\"`, `along=\"y\"` or leave `pooled` out");
+    refuse("`pooled` over both directions of cells of " + format_short(grid.hx()) + " m x " +
+               format_short(grid.hy()) + " m",
+           "one step must be one length in both; use `along=\"x\"`, `along=\"y\"` or leave `pooled` out");
   ProfileSet set;
   const std::int64_t rows = along_x ? grid.ny : 0;
   set.count = rows + (along_y ? grid.nx : 0);
@@ -475,8 +482,7 @@ FractalDimension fractal_dimension(const Profile& profile, const FractalDimensio
 FractalDimension fractal_dimension(std::span<const Profile> profiles,
                                    const FractalDimensionOptions& options) {
   if (profiles.empty())
-    throw Error(ErrorCode::bad_value, "the fractal dimension of no profiles was asked for",
-                "give one profile or more");
+    refuse("the fractal dimension of no profiles was asked for", "give one profile or more");
   ProfileSet set;
   set.count = static_cast<std::int64_t>(profiles.size());
   set.shortest = profiles.front().size();

@@ -31,22 +31,21 @@ constexpr double kernel_reach = 1.62;
 // Drops an infinite `long_wave`.
 GaussianFilter checked(const GaussianFilter& filter) {
   if (!filter.short_wave && !filter.long_wave)
-    throw Error(ErrorCode::bad_value, "a filter was asked for without `short_wave` or `long_wave`",
-                "give one or both, as in `short_wave=\"2.5 um\", long_wave=\"0.8 mm\"`");
+    refuse("a filter was asked for without `short_wave` or `long_wave`",
+           "give one or both, as in `short_wave=\"2.5 um\", long_wave=\"0.8 mm\"`");
   require_positive("short_wave", filter.short_wave, "m", "give a finite length above zero");
   if (filter.long_wave)
     require(*filter.long_wave > 0, "long_wave", *filter.long_wave, "m", "give a length above zero");
   if (filter.short_wave && filter.long_wave && !(*filter.short_wave < *filter.long_wave))
-    throw Error(ErrorCode::bad_value,
-                "`short_wave` " + format_short(*filter.short_wave) + " m is not below `long_wave` " +
-                    format_short(*filter.long_wave) + " m",
-                "waves between the two are kept, so `short_wave` must be the smaller");
+    refuse("`short_wave` " + format_short(*filter.short_wave) + " m is not below `long_wave` " +
+               format_short(*filter.long_wave) + " m",
+           "waves between the two are kept, so `short_wave` must be the smaller");
   GaussianFilter result = filter;
   if (result.long_wave && std::isinf(*result.long_wave)) result.long_wave.reset();
   if (result.robust && !result.long_wave)
-    throw Error(ErrorCode::bad_value, "`robust` is given without a finite `long_wave`",
-                "it is the mean line of `long_wave` that is robust; leave it out where only short waves are "
-                "attenuated");
+    refuse("`robust` is given without a finite `long_wave`",
+           "it is the mean line of `long_wave` that is robust; leave it out where only short waves are "
+           "attenuated");
   return result;
 }
 
@@ -283,13 +282,10 @@ Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter) 
 Profile gaussian_filtered(const Profile& profile, const GaussianFilter& filter) {
   const GaussianFilter needed = checked(filter);
   if (!needed.short_wave && !needed.long_wave) return profile;
-  Field z(profile.size(), 1);
-  std::ranges::copy(profile.measured_heights(), z.values().begin());
   const Grid grid{profile.size(), 1, profile.length(), profile.spacing()};
   const bool holes = !profile.complete();
-  z = filtered(std::move(z), grid, profile.closed(), holes, needed);
-  return remade_with(holes, profile.spacing(), Array<double>(z.values().begin(), z.values().end()),
-                     profile.closed_radius());
+  const Field z = filtered(line_of(profile), grid, profile.closed(), holes, needed);
+  return remade_with(holes, profile.spacing(), samples_of(z), profile.closed_radius());
 }
 
 }  // namespace asperity

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
@@ -51,8 +51,8 @@ class OrthonormalPolynomials {
 
 void check_degree(int degree) {
   if (degree < 0 || degree > max_levelling_degree)
-    throw Error(ErrorCode::bad_value, "`degree` of levelling is " + std::to_string(degree),
-                "give 0 (mean), 1 (plane), 2 (quadratic) … " + std::to_string(max_levelling_degree));
+    refuse("`degree` of levelling is " + std::to_string(degree),
+           "give 0 (mean), 1 (plane), 2 (quadratic) … " + std::to_string(max_levelling_degree));
 }
 
 // In blocks against rounding on long lines.
@@ -259,17 +259,14 @@ Surface levelled(const Surface& surface, int degree) {
 Profile levelled(const Profile& profile, int degree) {
   check_degree(degree);
   if (profile.closed() && degree > 0)
-    throw Error(ErrorCode::bad_value,
-                "a closed outline was to be levelled with `degree` " + std::to_string(degree),
-                "an outline has no ends between which to tilt; use `degree` 0");
-  Field z(profile.size(), 1);
-  std::ranges::copy(profile.measured_heights(), z.values().begin());
+    refuse("a closed outline was to be levelled with `degree` " + std::to_string(degree),
+           "an outline has no ends between which to tilt; use `degree` 0");
+  Field z = line_of(profile);
   if (profile.complete())
     level(z, degree);
   else
     level_measured(z, degree);
-  return remade_with(!profile.complete(), profile.spacing(),
-                     Array<double>(z.values().begin(), z.values().end()), profile.closed_radius());
+  return remade_with(!profile.complete(), profile.spacing(), samples_of(z), profile.closed_radius());
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/metrology/spectrum.hpp"
 
 namespace asperity {
 
@@ -47,15 +48,10 @@ std::vector<double> band_wavelengths(int n, bool wrap) {
 namespace {
 
 // Cached for the last length.
-const Array<double>& hann_window(int n) {
+const Array<double>& cached_hann_window(int n) {
   thread_local Array<double> window;
   if (window.size() == static_cast<std::size_t>(n)) return window;
-  window.resize(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    const double s = elementary::sin(std::numbers::pi * (i + 0.5) / n);
-    window[static_cast<std::size_t>(i)] = s * s;
-  }
-  return window;
+  return window = hann_window(n);
 }
 
 }  // namespace
@@ -64,7 +60,7 @@ void band_log_powers(std::span<const double> heights, double unit, bool wrap, st
   const auto n = static_cast<int>(heights.size());
   Array<double> samples(heights.begin(), heights.end());
   const double centre = mean(samples);
-  const double* const window = wrap ? nullptr : hann_window(n).data();
+  const double* const window = wrap ? nullptr : cached_hann_window(n).data();
   double total = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     double& value = samples[i];

@@ -11,19 +11,14 @@
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
 namespace {
 
 Array<double> window_samples(Window window, int n) {
-  Array<double> samples(static_cast<std::size_t>(n), 1.0);
-  if (window == Window::hann && n > 1)
-    for (int i = 0; i < n; ++i) {
-      const double s = elementary::sin(pi * (i + 0.5) / n);
-      samples[static_cast<std::size_t>(i)] = s * s;
-    }
-  return samples;
+  return window == Window::hann && n > 1 ? hann_window(n) : Array<double>(static_cast<std::size_t>(n), 1.0);
 }
 
 double mean_square(std::span<const double> samples) {
@@ -87,17 +82,9 @@ Shells shells_of(const Grid& grid, int bins) {
   return {least, elementary::hypot(x * (grid.nx / 2), y * (grid.ny / 2)), bins};
 }
 
-// `measure`: area (surface) or length (profile).
-Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
-  if (bins < 0)
-    throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
-                "give 0 for a shell per mode number, or the number of shells of equal ratio");
-  Spectrum result;
-  result.window = window;
-  if (z.size() < 2) return result;
-
-  const Array<double> wx = window_samples(window, grid.nx), wy = window_samples(window, grid.ny);
-  const double window_power = mean_square(wx) * mean_square(wy);
+// Subtracts the mean, multiplies by the window, and divides by a power of two against overflow: returns the
+// exponent.
+int apply_window(Field& z, std::span<const double> wx, std::span<const double> wy, bool holes) {
   const Range r = holes ? known_range(z.values()) : range(z.values());
   if (r.min == r.max) {
     std::fill(z.values().begin(), z.values().end(), 0.0);
@@ -116,7 +103,21 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
   for (int j = 0; j < z.ny(); ++j)
     for (int i = 0; i < z.nx(); ++i)
       z(i, j) *= up * wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
+  return coarse + fine;
+}
 
+// `measure`: area (surface) or length (profile).
+Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
+  if (bins < 0)
+    throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
+                "give 0 for a shell per mode number, or the number of shells of equal ratio");
+  Spectrum result;
+  result.window = window;
+  if (z.size() < 2) return result;
+
+  const Array<double> wx = window_samples(window, grid.nx), wy = window_samples(window, grid.ny);
+  const double window_power = mean_square(wx) * mean_square(wy);
+  const int exponent = apply_window(z, wx, wy, holes);
   const HalfSpectrum waves = fourier_forward(z);
   z = Field();
   const Shells shells = shells_of(grid, bins);
@@ -144,7 +145,6 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
     height_sums[static_cast<std::size_t>(b)] = heights;
     slope_sums[static_cast<std::size_t>(b)] = slopes;
   }
-  const int exponent = coarse + fine;
   result.rms_height = std::ldexp(std::sqrt(block_sum(height_sums)), exponent);
   result.rms_slope = std::ldexp(std::sqrt(block_sum(slope_sums)), exponent);
   for (std::size_t k = 0; k < count.size(); ++k) {
@@ -164,6 +164,15 @@ Window chosen(Window asked, bool periodic) {
 
 }  // namespace
 
+Array<double> hann_window(int n) {
+  Array<double> samples(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double s = elementary::sin(pi * (i + 0.5) / n);
+    samples[static_cast<std::size_t>(i)] = s * s;
+  }
+  return samples;
+}
+
 Spectrum spectrum(const Surface& surface, const SpectrumOptions& options) {
   Spectrum result =
       measure_spectrum(surface.measured_heights(), surface.grid(), surface.grid().area(),
@@ -173,11 +182,9 @@ Spectrum spectrum(const Surface& surface, const SpectrumOptions& options) {
 }
 
 Spectrum spectrum(const Profile& profile, const SpectrumOptions& options) {
-  Field z(profile.size(), 1);
-  std::ranges::copy(profile.measured_heights(), z.values().begin());
   const Grid grid{profile.size(), 1, profile.length(), profile.spacing()};
   Spectrum result =
-      measure_spectrum(std::move(z), grid, profile.length(), chosen(options.window, profile.closed()),
+      measure_spectrum(line_of(profile), grid, profile.length(), chosen(options.window, profile.closed()),
                        options.bins, !profile.complete());
   if (!profile.complete()) result.measured = static_cast<std::int64_t>(profile.measured());
   return result;

@@ -20,6 +20,7 @@ namespace asperity {
 
 // Hann window, sin² towards every rim, on heights about their weighted mean. Division by mean window²
 // preserves the level; waves near the size are smeared.
+Array<double> hann_window(int n);
 enum class Window {
   automatic,  // periodic surface or closed outline: none; else hann
   none,

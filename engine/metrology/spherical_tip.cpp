@@ -251,12 +251,11 @@ SphericalTip::SphericalTip(const Surface& surface, double radius)
     : surface_(surface), exponent_(0), top_(surface.height_range().max) {
   radius_ = std::frexp(checked_radius(radius), &exponent_);
   if (radius > 0 && !surface.complete())
-    throw Error(ErrorCode::bad_value,
-                std::to_string(surface.grid().nodes() - surface.measured()) + " of the " +
-                    std::to_string(surface.grid().nodes()) +
-                    " points of the surface were not measured, and a tip may rest on any of them",
-                "fill them first, `surface:filled{ by=\"interpolate\" }`, or give `tip` = 0, a needle, whose "
-                "traces have holes where they cross those of the surface");
+    refuse(std::to_string(surface.grid().nodes() - surface.measured()) + " of the " +
+               std::to_string(surface.grid().nodes()) +
+               " points of the surface were not measured, and a tip may rest on any of them",
+           "fill them first, `surface:filled{ by=\"interpolate\" }`, or give `tip` = 0, a needle, whose "
+           "traces have holes where they cross those of the surface");
   hx_ = std::ldexp(surface.grid().hx(), -exponent_);
   hy_ = std::ldexp(surface.grid().hy(), -exponent_);
 }

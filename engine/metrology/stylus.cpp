@@ -140,10 +140,9 @@ Profile Stylus::trace(const Surface& surface, const Traverse& line) const {
       heights[k] = tip.height(at(line, k));
   });
   if (!surface.complete() && known_count(heights) == 0)
-    throw Error(ErrorCode::bad_value,
-                "the trace from (" + metres(line.start.x) + ", " + metres(line.start.y) +
-                    ") goes over points alone that were not measured",
-                "take another `seed`, a longer trace, or fill the holes first");
+    refuse("the trace from (" + metres(line.start.x) + ", " + metres(line.start.y) +
+               ") goes over points alone that were not measured",
+           "take another `seed`, a longer trace, or fill the holes first");
   return remade_with(!surface.complete(), spacing_, std::move(heights));
 }
 

@@ -10,6 +10,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/statistics/least_squares.hpp"
@@ -23,19 +24,15 @@ void add_costs(Budget& budget, double order, double solver_seconds);
 
 namespace {
 
-[[noreturn]] void refuse_request(const std::string& sentence, const std::string& hint) {
-  throw Error(ErrorCode::bad_value, sentence, hint);
-}
-
 void check_ascent(const std::vector<double>& list, const char* key, bool ascending) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (!std::isfinite(list[k]) || list[k] <= 0)
-      refuse_request(quoted(key) + " holds " + format_short(list[k]), "give numbers above 0");
+      refuse(quoted(key) + " holds " + format_short(list[k]), "give numbers above 0");
     if (k > 0 && (ascending ? list[k] <= list[k - 1] : list[k] >= list[k - 1]))
-      refuse_request(quoted(key) + " goes from " + format_short(list[k - 1]) + " to " + format_short(list[k]),
-                     ascending                        ? "give each grid once, coarse ones first"
-                     : std::string_view(key) == "tip" ? "give each radius once, blunt ones first"
-                                                      : "give each tolerance once, loose ones first");
+      refuse(quoted(key) + " goes from " + format_short(list[k - 1]) + " to " + format_short(list[k]),
+             ascending                        ? "give each grid once, coarse ones first"
+             : std::string_view(key) == "tip" ? "give each radius once, blunt ones first"
+                                              : "give each tolerance once, loose ones first");
   }
 }
 
@@ -93,8 +90,8 @@ class BudgetRuns {
               Error(ErrorCode::bad_value, run + "not finite", "a budget needs a finite number of every run");
         if (!some_may_be_lost) throw *lost;
       } else if (!has_square(answers[k].value)) {
-        refuse_request(run + format_short(answers[k].value) + ", whose square leaves the range of numbers",
-                       "return it in another unit");
+        refuse(run + format_short(answers[k].value) + ", whose square leaves the range of numbers",
+               "return it in another unit");
       }
       sum += answers[k].seconds;
       if (of.part == "solver")
@@ -197,8 +194,7 @@ void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
   budget.repeats = static_cast<double>(all - lost.size()) / static_cast<double>(repeats.size());
   if (request.replicates == 0) return;
   budget.replicates = repeats.size();
-  if (repeats.size() < 2)
-    refuse_request("`replicate` has one specimen", "scatter takes two or more, better five");
+  if (repeats.size() < 2) refuse("`replicate` has one specimen", "scatter takes two or more, better five");
 }
 
 // Fits a drift of this order with scatter proportional to cell width. Returns its value at width 0 relative
@@ -517,25 +513,23 @@ std::vector<double> budget_grids(const BudgetRequest& request) {
 
 void check_request(const BudgetRequest& request) {
   if (!request.inputs.empty()) check_inputs(request.inputs);
-  if (request.replicates == 1)
-    refuse_request("`replicate` has one value", "scatter takes two or more, better five");
+  if (request.replicates == 1) refuse("`replicate` has one value", "scatter takes two or more, better five");
   check_ascent(request.cells, "cells", true);
   check_ascent(request.tolerances, "tolerance", false);
   check_ascent(request.tips, "tip", false);
-  if (request.noises == 1) refuse_request("`noise` has one draw", "scatter takes two or more, better five");
+  if (request.noises == 1) refuse("`noise` has one draw", "scatter takes two or more, better five");
   if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
-    refuse_request(
-        "`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
-        "give the least and the greatest order of the error of the cells, above 0 and at most 10");
+    refuse("`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
+           "give the least and the greatest order of the error of the cells, above 0 and at most 10");
   if (!(request.confidence > 0 && request.confidence < 1))
-    refuse_request("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
+    refuse("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
   if (request.half_width && !(*request.half_width > 0 && std::isfinite(*request.half_width)))
-    refuse_request("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
-  if (request.draws < 100) refuse_request("there are fewer than 100 draws", "give more");
+    refuse("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
+  if (request.draws < 100) refuse("there are fewer than 100 draws", "give more");
   if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
       request.tolerances.size() < 2 && request.tips.size() < 2 && request.noises == 0)
-    refuse_request("there is nothing to vary",
-                   "give `inputs`, `replicate`, `noise`, or two or more `cells`, `tolerance` or `tip`");
+    refuse("there is nothing to vary",
+           "give `inputs`, `replicate`, `noise`, or two or more `cells`, `tolerance` or `tip`");
 }
 
 std::size_t budget_runs(const BudgetRequest& request) {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/statistics/polynomial_chaos.hpp"
@@ -30,56 +30,49 @@ std::string row_name(const CalibrationRows& rows, std::size_t k) {
   return "row " + std::to_string(rows.numbers.empty() ? k + 1 : rows.numbers[k]);
 }
 
-[[noreturn]] void refuse_calibration(std::string sentence, std::string hint) {
-  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
-}
-
 void check_rows(const CalibrationRows& rows) {
   const std::size_t n = rows.y.size();
   for (const std::size_t length : {rows.u.size(), rows.specimens.size(), rows.numbers.size()})
     if (length != 0 && length != n)
-      refuse_calibration("the calibration has " + std::to_string(n) + " values of y and " +
-                             std::to_string(length) + " of what goes with them",
-                         "give one for each row");
+      refuse("the calibration has " + std::to_string(n) + " values of y and " + std::to_string(length) +
+                 " of what goes with them",
+             "give one for each row");
   for (std::size_t k = 0; k < n; ++k) {
-    if (!std::isfinite(rows.y[k]))
-      refuse_calibration("y is not finite in " + row_name(rows, k), "leave the row out");
+    if (!std::isfinite(rows.y[k])) refuse("y is not finite in " + row_name(rows, k), "leave the row out");
     if (!has_square(rows.y[k]))
-      refuse_calibration("y is " + format_short(rows.y[k]) + " in " + row_name(rows, k) +
-                             ", and its square leaves the range of numbers",
-                         "give it in another unit");
+      refuse("y is " + format_short(rows.y[k]) + " in " + row_name(rows, k) +
+                 ", and its square leaves the range of numbers",
+             "give it in another unit");
     if (!rows.u.empty() && !(std::isfinite(rows.u[k]) && rows.u[k] > 0))
-      refuse_calibration("the uncertainty `u` is " + format_short(rows.u[k]) + " in " + row_name(rows, k),
-                         "give a finite value above 0, or leave the row out");
+      refuse("the uncertainty `u` is " + format_short(rows.u[k]) + " in " + row_name(rows, k),
+             "give a finite value above 0, or leave the row out");
   }
 }
 
 void check_parameters(std::span<const CalibrationParameter> parameters) {
   if (parameters.empty())
-    refuse_calibration("the calibration has no parameters",
-                       "name them with the values to begin from, as in { tau0={ start=0.3 } }");
+    refuse("the calibration has no parameters",
+           "name them with the values to begin from, as in { tau0={ start=0.3 } }");
   for (const CalibrationParameter& of : parameters) {
     const auto finite = [](const std::optional<double>& value) { return !value || std::isfinite(*value); };
     if (!std::isfinite(of.start) || !finite(of.lower) || !finite(of.upper))
-      refuse_calibration("parameter " + quoted(of.name) + " has a start or a bound that is not finite",
-                         "give finite values, and leave out a bound that is not there");
+      refuse("parameter " + quoted(of.name) + " has a start or a bound that is not finite",
+             "give finite values, and leave out a bound that is not there");
     if (of.lower && of.upper && !(*of.lower < *of.upper))
-      refuse_calibration("parameter " + quoted(of.name) + " has `lower` " + format_short(*of.lower) +
-                             " and `upper` " + format_short(*of.upper),
-                         "`lower` must be below `upper`; to fix a parameter, write its value into the model");
+      refuse("parameter " + quoted(of.name) + " has `lower` " + format_short(*of.lower) + " and `upper` " +
+                 format_short(*of.upper),
+             "`lower` must be below `upper`; to fix a parameter, write its value into the model");
     if ((of.lower && of.start < *of.lower) || (of.upper && of.start > *of.upper))
-      refuse_calibration(
-          "parameter " + quoted(of.name) + " starts at " + format_short(of.start) + ", outside its bounds",
-          "start between `lower` and `upper`");
+      refuse("parameter " + quoted(of.name) + " starts at " + format_short(of.start) + ", outside its bounds",
+             "start between `lower` and `upper`");
     if (!(of.step > 1e-9 && of.step <= 0.5))
-      refuse_calibration("parameter " + quoted(of.name) + " has a `step` of " + format_short(of.step),
-                         "give a share of the parameter from 1e-9 to 0.5, such as 1e-3");
+      refuse("parameter " + quoted(of.name) + " has a `step` of " + format_short(of.step),
+             "give a share of the parameter from 1e-9 to 0.5, such as 1e-3");
   }
   for (std::size_t a = 0; a < parameters.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       if (parameters[a].name == parameters[b].name)
-        refuse_calibration("two parameters are called " + quoted(parameters[a].name),
-                           "give each its own name");
+        refuse("two parameters are called " + quoted(parameters[a].name), "give each its own name");
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
@@ -551,17 +544,16 @@ void check_calibration(const CalibrationRows& rows, std::span<const CalibrationP
   check_rows(rows);
   check_parameters(parameters);
   if (!(options.confidence > 0 && options.confidence < 1))
-    refuse_calibration("`confidence` is " + format_short(options.confidence), "give a share between 0 and 1");
+    refuse("`confidence` is " + format_short(options.confidence), "give a share between 0 and 1");
   if (rows.y.size() < parameters.size())
-    refuse_calibration("the calibration has " + counted(rows.y.size(), "row", "rows") + " for " +
-                           counted(parameters.size(), "parameter", "parameters"),
-                       "measure more rows, or write values of some parameters into the model");
+    refuse("the calibration has " + counted(rows.y.size(), "row", "rows") + " for " +
+               counted(parameters.size(), "parameter", "parameters"),
+           "measure more rows, or write values of some parameters into the model");
   if (options.scatter == CalibrationScatter::relative && !rows.u.empty())
-    refuse_calibration("`u` says how far each row scatters, and so does scatter=\"relative\"",
-                       "give one of them");
+    refuse("`u` says how far each row scatters, and so does scatter=\"relative\"", "give one of them");
   if (options.basis == CalibrationBasis::specimens && rows.specimens.empty())
-    refuse_calibration("basis=\"specimens\" needs to know the specimen of each row",
-                       "name the column that tells it, as in specimen=\"specimen\"");
+    refuse("basis=\"specimens\" needs to know the specimen of each row",
+           "name the column that tells it, as in specimen=\"specimen\"");
 }
 
 Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,

@@ -9,6 +9,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/least_squares.hpp"
 
@@ -180,11 +181,9 @@ std::optional<CalibrationPlace> CalibrationProblem::place(const std::vector<doub
 
 void CalibrationProblem::refuse_place(const std::string& where) const {
   const std::size_t number = rows_.numbers.empty() ? without_value_ + 1 : rows_.numbers[without_value_];
-  throw Error(
-      ErrorCode::bad_value,
-      "the model has no finite value for row " + std::to_string(number) + " " + where + ", with " +
-          parameters_text(without_value_at_),
-      "begin from other values, set `lower` and `upper`, or write the model so that it has a value there");
+  refuse("the model has no finite value for row " + std::to_string(number) + " " + where + ", with " +
+             parameters_text(without_value_at_),
+         "begin from other values, set `lower` and `upper`, or write the model so that it has a value there");
 }
 
 void CalibrationProblem::throw_no_lower(const std::vector<double>& q) const {
@@ -393,21 +392,20 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
 
 CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
                                                const CalibrationMinimum& before) {
-  if (sparing_) return sparing_minimum(start, before);
   auto begin = place(start, nullptr);
   if (!begin) refuse_place("at the start");
   CalibrationMinimum found;
   found.place = *std::move(begin);
-  const std::vector<double> natural = before.scales.empty() ? natural_scales(found.place) : before.scales;
-  found.scales = natural;
-  const std::vector<bool> none(parameters(), false);
+  found.scales = before.scales.empty() ? natural_scales(found.place) : before.scales;
+  if (sparing_) return sparing_minimum(std::move(found), before);
+  const std::vector<double> natural = found.scales;
   double damping = 1e-4;
   bool central = false;
   for (found.iterations = 0;; ++found.iterations) {
-    found.rows_jacobian = jacobian(found.place, found.scales, none, central);
+    found.rows_jacobian =
+        jacobian(found.place, found.scales, std::vector<bool>(parameters(), false), central);
     if (found.iterations == 0 && before.scales.empty()) refuse_still(found);
-    const CalibrationTangent at =
-        tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
+    const CalibrationTangent at = free_tangent(found.place, found.rows_jacobian);
     const double length = length_of(found.place.residual),
                  floor = calibration_rounding * size_of(found.place);
     const auto offset_within = [&](double share) {

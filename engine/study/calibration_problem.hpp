@@ -88,6 +88,10 @@ class CalibrationProblem {
                         const std::vector<bool>& held, bool central);
   CalibrationTangent tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                              const std::vector<bool>& held, double hidden = 0) const;
+  // Of all parameters but those pushed against a bound.
+  CalibrationTangent free_tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian) const {
+    return tangent(at, rows_jacobian, pushed(at, rows_jacobian, std::vector<bool>(parameters(), false)));
+  }
   // By replicate: the model minus its mean over replicates.
   std::vector<std::vector<double>> replicate_deviations(const CalibrationPlace& at);
   // Throws Error{not_converged} if a parameter changes rows only by wide differences, or no parameter changes
@@ -129,7 +133,12 @@ class CalibrationProblem {
                                          const std::vector<double>* roots, double& damping);
 
   // --- sparing fits
-  CalibrationMinimum sparing_minimum(const std::vector<double>& start, const CalibrationMinimum& before);
+  CalibrationMinimum sparing_minimum(CalibrationMinimum found, const CalibrationMinimum& before);
+  void take_derivatives(CalibrationMinimum& found, double scatter);
+  bool take_first_derivatives(CalibrationMinimum& found, const CalibrationMinimum& before);
+  // Returns whether another step is worth while.
+  bool full_step(CalibrationMinimum& found, const CalibrationTangent& at, double scatter);
+  void move_to(CalibrationPlace next, CalibrationMinimum& found, double scatter, bool scaled);
   std::optional<CalibrationPlace> sparing_beside(const CalibrationPlace& start, std::size_t p,
                                                  const CalibrationMinimum& beside, double gain);
   double scatter_at(const CalibrationPlace& at, const CalibrationTangent& tangent) const;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -74,10 +74,9 @@ std::vector<double> numbers_of_column(const CalibrationReport& report, const std
   for (std::size_t row = 0; row < report.rows.rows(); ++row) {
     const Cell& cell = report.rows.cell(row, column);
     if (!is_number(cell) || !std::isfinite(*number_in(cell)))
-      throw Error(ErrorCode::bad_value,
-                  "column " + quoted(name) + " holds " + short_text(cell) + " in row " +
-                      std::to_string(report.numbers[row]) + ", and is no axis of a chart",
-                  "give a column that holds a number in each row that was fitted");
+      refuse("column " + quoted(name) + " holds " + short_text(cell) + " in row " +
+                 std::to_string(report.numbers[row]) + ", and is no axis of a chart",
+             "give a column that holds a number in each row that was fitted");
     values.push_back(*number_in(cell));
   }
   return values;
@@ -229,8 +228,8 @@ std::vector<LineChart> likelihood_charts(const CalibrationReport& report) {
     panels.push_back(std::move(chart));
   }
   if (panels.empty())
-    throw Error(
-        ErrorCode::bad_value, "the calibration has no profile likelihood to draw",
+    refuse(
+        "the calibration has no profile likelihood to draw",
         "it has none with profile=false, without degrees of freedom, and of parameters that the rows do not "
         "determine");
   return panels;

@@ -160,10 +160,8 @@ CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& fr
 // A failed step corrects the derivatives for the next one.
 std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& from, double& damping,
                                                           int& tries) {
-  const std::vector<bool> none(parameters(), false);
   for (tries = 1; tries <= 6; ++tries) {
-    const CalibrationTangent at =
-        tangent(from.place, from.rows_jacobian, pushed(from.place, from.rows_jacobian, none));
+    const CalibrationTangent at = free_tangent(from.place, from.rows_jacobian);
     const std::vector<double> q = stepped(from.place, at, damping);
     if (q == from.place.q) return {};
     auto there = place(q, &from.place.roots);
@@ -177,39 +175,64 @@ std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& fr
   return {};
 }
 
-CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>& start,
-                                                       const CalibrationMinimum& before) {
-  auto begin = place(start, nullptr);
-  if (!begin) refuse_place("at the start");
-  CalibrationMinimum found;
-  found.place = *std::move(begin);
-  found.scales = before.scales.empty() ? natural_scales(found.place) : before.scales;
-  const std::vector<bool> none(parameters(), false);
-  // Derivatives of an earlier fit that began or ended here.
-  bool first = before.differenced_at.empty() || before.place.q != start;
+void CalibrationProblem::take_derivatives(CalibrationMinimum& found, double scatter) {
+  found.rows_jacobian =
+      sparing_jacobian(found.place, sparing_steps(found.place, found.rows_jacobian, found.scales, scatter),
+                       std::vector<bool>(parameters(), false));
+  found.differenced_at = found.place.q;
+}
+bool CalibrationProblem::take_first_derivatives(CalibrationMinimum& found, const CalibrationMinimum& before) {
+  const bool first = before.differenced_at.empty() || before.place.q != found.place.q;
   if (first) {
-    found.rows_jacobian =
-        sparing_jacobian(found.place, sparing_steps(found.place, {}, found.scales, 0), none);
-    found.differenced_at = found.place.q;
+    take_derivatives(found, 0);
     if (before.scales.empty()) refuse_still(found);
   } else {
     found.rows_jacobian = before.rows_jacobian;
     found.differenced_at = before.differenced_at;
   }
+  return first;
+}
+
+bool CalibrationProblem::full_step(CalibrationMinimum& found, const CalibrationTangent& at, double scatter) {
+  // So near the end the noise of the model hides which sum is lower; the offset it moves far less.
+  auto last = place(stepped(found.place, at, 0), nullptr);
+  if (!last) {
+    found.noisy = at.offset > noise_tells * scatter;
+    return false;
+  }
+  const CalibrationTangent there = free_tangent(*last, found.rows_jacobian);
+  see_noise(found, at, *last, scatter);
+  if (there.offset < at.offset) found.place = *std::move(last);
+  if (there.offset <= comes_nearer_by * at.offset) return true;
+  found.noisy = std::min(there.offset, at.offset) > noise_tells * scatter;
+  return false;
+}
+
+void CalibrationProblem::move_to(CalibrationPlace next, CalibrationMinimum& found, double scatter,
+                                 bool scaled) {
+  if (length_of(foretold(found.place, found.rows_jacobian, found.place.q, next.q)) > end_is_near * scatter)
+    correct(found.rows_jacobian, found.place, next, found.scales);
+  found.place = std::move(next);
+  weigh(found.place, nullptr);
+  for (std::size_t p = 0; p < parameters(); ++p)
+    if (found.place.q[p] != 0 && !scaled)
+      found.scales[p] = std::max(std::abs(found.place.q[p]), 1e-3 * found.scales[p]);
+}
+
+CalibrationMinimum CalibrationProblem::sparing_minimum(CalibrationMinimum found,
+                                                       const CalibrationMinimum& before) {
+  bool first = take_first_derivatives(found, before);
   double damping = 1e-6;
   int steps = 0;  // since the last differences
   for (found.iterations = 0;; ++found.iterations) {
-    const CalibrationTangent at =
-        tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
+    const CalibrationTangent at = free_tangent(found.place, found.rows_jacobian);
     const double scatter = scatter_at(found.place, at);
     const double moved =
         length_of(foretold(found.place, found.rows_jacobian, found.differenced_at, found.place.q));
     const bool fresh = !first && moved <= end_is_near * scatter;
     const double noise = noise_ * std::sqrt(static_cast<double>(std::max<std::size_t>(at.rank, 1)));
     const auto take_anew = [&] {
-      found.rows_jacobian = sparing_jacobian(
-          found.place, sparing_steps(found.place, found.rows_jacobian, found.scales, scatter), none);
-      found.differenced_at = found.place.q;
+      take_derivatives(found, scatter);
       differences_ = moves_by * scatter;
       first = false;
       damping = 1e-6;
@@ -236,17 +259,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     }
     if (fresh && at.offset <= full_steps_within * scatter) {
       // Near the minimum, noise hides the smaller sum but hardly changes the offset.
-      auto last = place(stepped(found.place, at, 0), nullptr);
-      if (!last) {
-        found.noisy = at.offset > noise_tells * scatter;
-        return found;
-      }
-      const CalibrationTangent there =
-          tangent(*last, found.rows_jacobian, pushed(*last, found.rows_jacobian, none));
-      see_noise(found, at, *last, scatter);
-      if (there.offset < at.offset) found.place = *std::move(last);
-      if (there.offset <= comes_nearer_by * at.offset) continue;
-      found.noisy = std::min(there.offset, at.offset) > noise_tells * scatter;
+      if (full_step(found, at, scatter)) continue;
       return found;
     }
     int tries = 0;
@@ -260,14 +273,8 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
       take_anew();
       continue;
     }
-    if (length_of(foretold(found.place, found.rows_jacobian, found.place.q, next->q)) > end_is_near * scatter)
-      correct(found.rows_jacobian, found.place, *next, found.scales);
-    found.place = *std::move(next);
-    weigh(found.place, nullptr);
+    move_to(*std::move(next), found, scatter, !before.scales.empty());
     damping *= 1e-2;
-    for (std::size_t p = 0; p < parameters(); ++p)
-      if (found.place.q[p] != 0 && before.scales.empty())
-        found.scales[p] = std::max(std::abs(found.place.q[p]), 1e-3 * found.scales[p]);
     // Corrected derivatives lose accuracy.
     if (tries > 2 || ++steps > 5) take_anew();
   }

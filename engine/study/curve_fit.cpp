@@ -8,6 +8,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -19,17 +20,15 @@ constexpr int curve_steps = 100;
 
 void check_points(const CalibrationRows& rows, std::size_t parameters, const CalibrationOptions& options) {
   if (rows.x.size() != rows.y.size())
-    throw Error(ErrorCode::bad_value,
-                "the points of a fit have " + std::to_string(rows.x.size()) + " x and " +
-                    std::to_string(rows.y.size()) + " y",
-                "give as many of one as of the other");
+    refuse("the points of a fit have " + std::to_string(rows.x.size()) + " x and " +
+               std::to_string(rows.y.size()) + " y",
+           "give as many of one as of the other");
   for (std::size_t k = 0; k < rows.x.size(); ++k)
     if (!std::isfinite(rows.x[k]))
       throw Error(ErrorCode::bad_value, "x of point " + std::to_string(k + 1) + " of the fit is not finite");
   const std::size_t least = parameters + (rows.u.empty() || options.relative_u ? 1 : 0);
   if (rows.x.size() < least)
-    throw Error(
-        ErrorCode::bad_value,
+    refuse(
         std::to_string(parameters) + (parameters == 1 ? " parameter" : " parameters") +
             " cannot be fitted with intervals to " + std::to_string(rows.x.size()) +
             (rows.x.size() == 1 ? " point" : " points"),
@@ -174,8 +173,8 @@ CurveFit fit_power(const CalibrationRows& rows, const CalibrationOptions& option
   CalibrationRows logs[2];
   for (std::size_t k = 0; k < rows.x.size(); ++k) {
     if (rows.x[k] < 0)
-      throw Error(ErrorCode::bad_value, "the power law has no value at x = " + format_short(rows.x[k]),
-                  "it is fitted for x of 0 and above; leave other rows out, or give a function as the model");
+      refuse("the power law has no value at x = " + format_short(rows.x[k]),
+             "it is fitted for x of 0 and above; leave other rows out, or give a function as the model");
     if (!(rows.x[k] > 0) || rows.y[k] == 0) continue;
     CalibrationRows& of = logs[rows.y[k] > 0 ? 0 : 1];
     of.x.push_back(elementary::log(rows.x[k]));

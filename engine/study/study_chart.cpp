@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity {
 
@@ -30,6 +30,16 @@ void add(ChartSeries& series, double x, double y) {
   series.y.push_back(y);
 }
 
+LineChart chart_of_times(const std::string& title, bool relative) {
+  LineChart chart;
+  chart.title = title;
+  chart.x.label = "time of one run";
+  chart.x.unit = "s";
+  chart.y.label = relative ? "error, relative to the truth" : "error, absolute (the truth is 0)";
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  return chart;
+}
+
 }  // namespace
 
 LineChart study_chart(const StudyResult& result, const std::string& title) {
@@ -45,8 +55,7 @@ LineChart study_chart(const StudyResult& result, const std::string& title) {
     }
   }
   if (error.high == 0 && !bottom)
-    throw Error(ErrorCode::bad_value, "the chart of the study has nothing to draw",
-                "no setting was measured against the truth");
+    refuse("the chart of the study has nothing to draw", "no setting was measured against the truth");
   if (error.high == 0) error.take(std::numeric_limits<double>::epsilon());  // every answer is the truth
   if (seconds.high == 0) seconds.take(1e-9);                                // a clock that did not move
   // A distant mark would squeeze the lines.
@@ -58,12 +67,7 @@ LineChart study_chart(const StudyResult& result, const std::string& title) {
   for (const StudyRow& row : result.rows)
     if (row.end != StudyRow::End::measured && time_of(row) > 0) seconds.take(at_rim(row));
 
-  LineChart chart;
-  chart.title = title;
-  chart.x.label = "time of one run";
-  chart.x.unit = "s";
-  chart.y.label = result.relative() ? "error, relative to the truth" : "error, absolute (the truth is 0)";
-  chart.x.logarithmic = chart.y.logarithmic = true;
+  LineChart chart = chart_of_times(title, result.relative());
   chart.x.range = seconds.range(1.4, 1.4);
   chart.y.range = error.range(bottom ? 4 : 1.6, top ? 4 : 1.6);
   const double high = chart.y.range->max / 1.2, low = chart.y.range->min * 1.2;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -93,23 +94,20 @@ StudyWay make_way(std::string name, std::vector<KnobSweep> knobs) {
     if (knob.name.empty())
       throw Error(ErrorCode::bad_value, "the way " + quoted(name) + " has a knob with an empty name");
     if (std::find(row_fields().begin(), row_fields().end(), knob.name) != row_fields().end())
-      throw Error(ErrorCode::bad_value,
-                  "the way " + quoted(name) + " has a knob " + quoted(knob.name) +
-                      ", and the rows of a study have a column of that name",
-                  "call the knob something else");
+      refuse("the way " + quoted(name) + " has a knob " + quoted(knob.name) +
+                 ", and the rows of a study have a column of that name",
+             "call the knob something else");
     if (knob.values.empty())
-      throw Error(ErrorCode::bad_value,
-                  "the way " + quoted(name) + " gives an empty list for " + quoted(knob.name),
-                  "list at least one value, from coarse to fine");
+      refuse("the way " + quoted(name) + " gives an empty list for " + quoted(knob.name),
+             "list at least one value, from coarse to fine");
     if (!knob.swept) continue;
     if (first == nullptr) {
       first = &knob;
     } else if (first->values.size() != knob.values.size()) {
-      throw Error(ErrorCode::bad_value,
-                  "the way " + quoted(name) + " lists " + std::to_string(first->values.size()) +
-                      " values of " + quoted(first->name) + " and " + std::to_string(knob.values.size()) +
-                      " of " + quoted(knob.name),
-                  "lists of one way go along together: give equally many, or make two ways of it");
+      refuse("the way " + quoted(name) + " lists " + std::to_string(first->values.size()) + " values of " +
+                 quoted(first->name) + " and " + std::to_string(knob.values.size()) + " of " +
+                 quoted(knob.name),
+             "lists of one way go along together: give equally many, or make two ways of it");
     }
   }
   StudyWay way{std::move(name), {}};

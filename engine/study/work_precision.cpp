@@ -28,19 +28,18 @@ bool same_bits(double a, double b) {
 void check(const StudyRequest& request) {
   require(request.repeats >= 1, "repeats", request.repeats, "", "give at least 1");
   if (const auto* value = std::get_if<double>(&request.truth); value != nullptr && !std::isfinite(*value))
-    throw Error(ErrorCode::bad_value, "`truth` is " + format_short(*value),
-                "give a finite number, or the knobs of a setting to be taken for it");
+    refuse("`truth` is " + format_short(*value),
+           "give a finite number, or the knobs of a setting to be taken for it");
   std::set<std::string> names;
   std::size_t settings = 0;
   for (const StudyWay& way : request.ways) {
     settings += way.settings.size();
     if (!names.insert(way.name).second)
-      throw Error(ErrorCode::bad_value, "two ways are called " + quoted(way.name),
-                  "give each a name of its own");
+      refuse("two ways are called " + quoted(way.name), "give each a name of its own");
   }
   if (settings == 0)
-    throw Error(ErrorCode::bad_value, "there is no setting to try",
-                "give `try` at least one way, such as { name=\"finer grid\", cells={128, 256} }");
+    refuse("there is no setting to try",
+           "give `try` at least one way, such as { name=\"finer grid\", cells={128, 256} }");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -34,22 +34,18 @@ Profile Profile::with_holes(double spacing, Array<double> heights, std::optional
 
 Profile::Profile(double spacing, Array<double> heights, std::optional<double> closed_radius, bool holes) {
   if (!(std::isfinite(spacing) && spacing > 0))
-    throw Error(ErrorCode::bad_value, "the spacing of a profile is " + format_short(spacing) + " m",
-                "give a finite length above zero");
-  if (heights.empty())
-    throw Error(ErrorCode::bad_value, "a profile has no samples", "give at least one height");
+    refuse("the spacing of a profile is " + format_short(spacing) + " m", "give a finite length above zero");
+  if (heights.empty()) refuse("a profile has no samples", "give at least one height");
   std::size_t missing = 0;
   for (std::size_t k = 0; k < heights.size(); ++k) {
     if (std::isfinite(heights[k])) continue;
     if (!holes || !std::isnan(heights[k]))
-      throw Error(ErrorCode::bad_value,
-                  "the height of sample " + std::to_string(k) + " is " + format_short(heights[k]),
-                  "every height must be a finite number of metres");
+      refuse("the height of sample " + std::to_string(k) + " is " + format_short(heights[k]),
+             "every height must be a finite number of metres");
     heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern for the digest
     ++missing;
   }
-  if (missing == heights.size())
-    throw Error(ErrorCode::bad_value, "no point of the profile was measured", "give at least one height");
+  if (missing == heights.size()) refuse("no point of the profile was measured", "give at least one height");
   const std::size_t measured = heights.size() - missing;
   data_ = std::make_shared<const Data>(spacing, std::move(heights), closed_radius, measured);
 }
@@ -62,11 +58,10 @@ std::span<const double> Profile::heights() const {
   const std::span<const double> values = data_->heights;
   if (complete()) return values;
   const auto first = std::find_if(values.begin(), values.end(), [](double z) { return std::isnan(z); });
-  throw Error(ErrorCode::bad_value,
-              std::to_string(values.size() - measured()) + " of the " + std::to_string(values.size()) +
-                  " samples of the profile were not measured, the first is sample " +
-                  std::to_string(first - values.begin()) + ", and this needs every sample",
-              "fill them first, `profile:filled{ by=\"interpolate\" }`, or take a part without holes");
+  refuse(std::to_string(values.size() - measured()) + " of the " + std::to_string(values.size()) +
+             " samples of the profile were not measured, the first is sample " +
+             std::to_string(first - values.begin()) + ", and this needs every sample",
+         "fill them first, `profile:filled{ by=\"interpolate\" }`, or take a part without holes");
 }
 
 std::optional<double> Profile::closed_radius() const { return data_->radius; }

@@ -11,6 +11,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -53,14 +54,12 @@ Surface::Surface(const Grid& grid, Field heights, SurfaceTraits traits, bool hol
   for (std::size_t k = 0; k < heights.size(); ++k) {
     if (std::isfinite(heights[k])) continue;
     if (!holes || !std::isnan(heights[k]))
-      throw Error(ErrorCode::bad_value,
-                  "the height at node " + at_node(k, grid) + " is " + format_short(heights[k]),
-                  "every height must be a finite number of metres");
+      refuse("the height at node " + at_node(k, grid) + " is " + format_short(heights[k]),
+             "every height must be a finite number of metres");
     heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern for the digest
     ++missing;
   }
-  if (missing == heights.size())
-    throw Error(ErrorCode::bad_value, "no point of the surface was measured", "give at least one height");
+  if (missing == heights.size()) refuse("no point of the surface was measured", "give at least one height");
   const std::size_t measured = heights.size() - missing;
   data_ = std::make_shared<const Heights>(grid, std::move(heights), measured);
 }
@@ -76,12 +75,11 @@ const Field& Surface::heights() const {
   if (complete()) return data_->field;
   const std::span<const double> values = data_->field.values();
   const auto first = std::find_if(values.begin(), values.end(), [](double z) { return std::isnan(z); });
-  throw Error(ErrorCode::bad_value,
-              std::to_string(values.size() - measured()) + " of the " + std::to_string(values.size()) +
-                  " points of the surface were not measured, the first at node " +
-                  at_node(static_cast<std::size_t>(first - values.begin()), grid()) +
-                  ", and this needs every point",
-              "fill them first, `surface:filled{ by=\"interpolate\" }`, or crop to a part without holes");
+  refuse(std::to_string(values.size() - measured()) + " of the " + std::to_string(values.size()) +
+             " points of the surface were not measured, the first at node " +
+             at_node(static_cast<std::size_t>(first - values.begin()), grid()) +
+             ", and this needs every point",
+         "fill them first, `surface:filled{ by=\"interpolate\" }`, or crop to a part without holes");
 }
 
 double Surface::height(double i, double j) const { return node_value(measured_heights(), i, j); }

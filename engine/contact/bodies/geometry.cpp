@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -72,9 +72,8 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemor
     facing_ = pose_.on_lattice() && uncovered.empty() ? static_cast<std::int64_t>(sum.size())
                                                       : mark_missing(sum, uncovered);
     if (facing_ == 0)
-      throw Error(ErrorCode::bad_value,
-                  "turned and shifted like this, no node of one body lies over the other",
-                  "turn or shift it less");
+      refuse("turned and shifted like this, no node of one body lies over the other",
+             "turn or shift it less");
     combined_ = std::make_shared<const Field>(std::move(sum));
     range_ = overhangs() ? known_range(combined_->values()) : range(combined_->values());
   } else {
@@ -83,10 +82,9 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemor
   }
   const double squares = range_.span() * range_.span() * static_cast<double>(facing_);
   if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(squares))
-    throw Error(ErrorCode::bad_value,
-                "the combined heights run from " + format_short(range_.min) + " m to " +
-                    format_short(range_.max) + " m",
-                "heights this large leave the range of a double; check the unit of the surfaces");
+    refuse("the combined heights run from " + format_short(range_.min) + " m to " + format_short(range_.max) +
+               " m",
+           "heights this large leave the range of a double; check the unit of the surfaces");
 }
 
 ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,

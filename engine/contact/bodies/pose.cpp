@@ -8,8 +8,8 @@
 #include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity {
 
@@ -38,10 +38,9 @@ LatticeIsometry::Node LatticeIsometry::turn(Node node, int quarters) const {
 LatticeIsometry LatticeIsometry::turned(int quarters) const {
   const int turns = modulo(quarters, 4);
   if (turns % 2 != 0 && nx_ != ny_)
-    throw Error(ErrorCode::bad_value,
-                "a turn by " + std::to_string(turns * 90) + " deg was asked of a grid of " +
-                    std::to_string(nx_) + " x " + std::to_string(ny_) + " cells",
-                "only a square tile can be turned by 90 deg; this one can be turned by 180 deg");
+    refuse("a turn by " + std::to_string(turns * 90) + " deg was asked of a grid of " + std::to_string(nx_) +
+               " x " + std::to_string(ny_) + " cells",
+           "only a square tile can be turned by 90 deg; this one can be turned by 180 deg");
   LatticeIsometry result = *this;
   result.quarters_ = modulo(quarters_ + turns, 4);
   // turn ∘ shift(s) = shift(R s) ∘ turn

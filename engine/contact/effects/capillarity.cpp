@@ -7,8 +7,8 @@
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -31,15 +31,12 @@ namespace {
 void check_capillarity(const std::any& given, const Scene& scene) {
   const auto& options = std::any_cast<const CapillarityOptions&>(given);
   if (options.pressure.has_value() == options.humidity.has_value())
-    throw Error(
-        ErrorCode::bad_value,
-        std::string("`capillarity` names ") +
-            (options.pressure ? "both `pressure` and `humidity`" : "neither `pressure` nor `humidity`"),
-        "give the one that is known: the humidity sets the pressure");
+    refuse(std::string("`capillarity` names ") +
+               (options.pressure ? "both `pressure` and `humidity`" : "neither `pressure` nor `humidity`"),
+           "give the one that is known: the humidity sets the pressure");
   if (!(options.contact_angle < std::numbers::pi / 2))
-    throw Error(ErrorCode::bad_value,
-                "`contact_angle` is " + format_short(options.contact_angle * 180 / std::numbers::pi) + " deg",
-                "give an angle from 0 to below 90 deg: a liquid that does not wet does not attract");
+    refuse("`contact_angle` is " + format_short(options.contact_angle * 180 / std::numbers::pi) + " deg",
+           "give an angle from 0 to below 90 deg: a liquid that does not wet does not attract");
   if (options.pressure.value_or(1) > 0 && options.humidity.value_or(1) > 0)
     check_attraction(scene, "capillarity");
 }
@@ -51,10 +48,9 @@ void plan_capillarity(const std::any& given, const ContactGeometry& geometry, Pl
     return;
   }
   if (!std::isfinite(liquid.height))
-    throw Error(ErrorCode::bad_value,
-                "the liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
-                    ", so little that its meniscus has no height that a number holds",
-                "give `capillarity` a `pressure` of 0 for no liquid, or check its units");
+    refuse("the liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
+               ", so little that its meniscus has no height that a number holds",
+           "give `capillarity` a `pressure` of 0 for no liquid, or check its units");
   plan_gap_term({"capillarity", GapLaw::dugdale, liquid.pressure * liquid.height, liquid.height, 0.5},
                 "liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
                     " in gaps under " + format_quantity(liquid.height, dimension::length),

@@ -4,7 +4,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -18,9 +18,8 @@ namespace {
 
 void check_creep(const std::any&, const Scene& scene) {
   if (!scene.effects.has<PlasticityOptions>())
-    throw Error(ErrorCode::bad_value,
-                "`creep` softens the hardness that the effect `plasticity` limits pressure by",
-                "name `plasticity` beside it, or leave `creep` out");
+    refuse("`creep` softens the hardness that the effect `plasticity` limits pressure by",
+           "name `plasticity` beside it, or leave `creep` out");
 }
 
 void plan_creep(const std::any& given, const ContactGeometry&, Plan& plan) {

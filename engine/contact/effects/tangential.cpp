@@ -7,7 +7,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -54,12 +54,11 @@ namespace {
 
 void check_tangential(const std::any&, const Scene& scene) {
   if (scene.elasticity.is<LayerOptions>())
-    throw Error(ErrorCode::bad_value, "`tangential` is not computed on a layer by this version",
-                "name elasticity=\"half_space\" beside it, or leave it out");
+    refuse("`tangential` is not computed on a layer by this version",
+           "name elasticity=\"half_space\" beside it, or leave it out");
   if (scene.effects.has<PlasticityOptions>())
-    throw Error(ErrorCode::bad_value,
-                "`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",
-                "copy the pressed bodies into a contact without `plasticity`, or leave one of both out");
+    refuse("`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",
+           "copy the pressed bodies into a contact without `plasticity`, or leave one of both out");
 }
 
 void plan_tangential(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
@@ -68,11 +67,11 @@ void plan_tangential(const std::any& given, const ContactGeometry& geometry, Pla
   std::string sentence;
   if (std::holds_alternative<BoxOperator>(plan.elasticity)) {
     if (!options.compliance_ratio)
-      throw Error(ErrorCode::bad_value,
-                  "`compliance_ratio` of the effect `tangential` is not given, and box elements have no "
-                  "Poisson's ratio to set it by",
-                  "give the tangential over the normal compliance of a box; upright columns of Poisson's "
-                  "ratio zero have 2");
+      refuse(
+          "`compliance_ratio` of the effect `tangential` is not given, and box elements have no "
+          "Poisson's ratio to set it by",
+          "give the tangential over the normal compliance of a box; upright columns of Poisson's "
+          "ratio zero have 2");
   } else {
     if (!options.compliance_ratio) filled.compliance_ratio = mindlin_ratio(geometry);
     constexpr double noticeable = 0.01;

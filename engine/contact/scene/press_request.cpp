@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/contact/scene/effect.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -38,45 +38,40 @@ std::string value_text(const PressRequest& request) {
 }  // namespace
 
 void check_numbers(const PressRequest& request) {
-  if (!std::isfinite(request.value))
-    throw Error(ErrorCode::bad_value, value_text(request), "give a finite value; one below zero pulls");
+  if (!std::isfinite(request.value)) refuse(value_text(request), "give a finite value; one below zero pulls");
   if (request.by == PressBy::flatten && !(request.value >= 0 && request.value <= 1))
-    throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(request.value),
-                "it is a fraction of the peak-to-valley: give a number from 0 to 1");
+    refuse("`flatten` is " + format_short(request.value),
+           "it is a fraction of the peak-to-valley: give a number from 0 to 1");
   for (const double turn : request.preload)
-    if (!std::isfinite(turn))
-      throw Error(ErrorCode::bad_value, "`preload` is " + format_short(turn), "give a finite value");
+    if (!std::isfinite(turn)) refuse("`preload` is " + format_short(turn), "give a finite value");
   if (request.dwell && !(*request.dwell >= 0))
-    throw Error(ErrorCode::bad_value, "`dwell` is " + format_short(*request.dwell) + " s",
-                "give a time from zero up");
+    refuse("`dwell` is " + format_short(*request.dwell) + " s", "give a time from zero up");
 }
 
 void check(const PressRequest& request, bool attracts) {
   if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
-    throw Error(ErrorCode::bad_value, value_text(request),
-                "a contact in which nothing attracts the bodies takes a finite value from zero up");
+    refuse(value_text(request),
+           "a contact in which nothing attracts the bodies takes a finite value from zero up");
   if (attracts && request.by == PressBy::flatten)
-    throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
-                "press by `pressure`, `load`, `approach` or `indentation`");
+    refuse("`flatten` of bodies that attract each other is not computed",
+           "press by `pressure`, `load`, `approach` or `indentation`");
   check_numbers(request);
   const std::vector<double>& turns = request.preload;
   if (!turns.empty() && !attracts)
-    throw Error(ErrorCode::bad_value, "`preload` is given, and nothing attracts the bodies",
-                "name " + effects_that(Effect::Acts::adds_term) +
-                    ", or leave it out: without them a state has no history");
+    refuse("`preload` is given, and nothing attracts the bodies",
+           "name " + effects_that(Effect::Acts::adds_term) +
+               ", or leave it out: without them a state has no history");
   if (turns.size() == 1 && turns.front() < request.value)
-    throw Error(ErrorCode::bad_value,
-                "`preload` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
-                    " of " + format_short(request.value),
-                "bodies are drawn back from a greater value");
+    refuse("`preload` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
+               " of " + format_short(request.value),
+           "bodies are drawn back from a greater value");
 }
 
 void check_fraction(const PressRequest& request, double peak_to_valley) {
   if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(peak_to_valley > 0))
-    throw Error(ErrorCode::bad_value,
-                quoted(name(request.by)) +
-                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
-                "give `pressure`, `load` or `approach`");
+    refuse(quoted(name(request.by)) +
+               " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+           "give `pressure`, `load` or `approach`");
 }
 
 std::vector<double> turns_before(std::span<const double> visited, double value) {

@@ -52,8 +52,7 @@ MaterialRatioCurve::MaterialRatioCurve(std::span<const double> heights) {
   for (const double z : heights)
     if (!std::isnan(z)) heights_.push_back(z);
   if (heights_.empty())
-    throw Error(ErrorCode::bad_value, "there are no heights to make a material ratio curve of",
-                "give at least one measured point");
+    refuse("there are no heights to make a material ratio curve of", "give at least one measured point");
   mean_ = exact_mean(heights_, range(heights_));
   for (double& z : heights_) z -= mean_;
   sort_downwards(heights_);

@@ -140,6 +140,62 @@ void refuse_rounding(const Profile& trace, std::span<const double> left, const s
            "its parameters need heights that differ");
 }
 
+struct Moments {
+  double abs = 0, square = 0;  // about the mean line, or the section's own
+  double high = 0, low = 0;    // from the mean line
+};
+
+Moments moments_of(std::span<const double> v, std::size_t first, std::size_t last, bool about_its_own) {
+  Mean own, abs, square;
+  for (std::size_t k = first; about_its_own && k < last; ++k) own.add(v[k]);
+  const double line = own.value().value_or(0);
+  Moments m{0, 0, -INFINITY, INFINITY};
+  for (std::size_t k = first; k < last; ++k) {
+    abs.add(std::abs(v[k] - line));
+    square.add((v[k] - line) * (v[k] - line));
+    if (v[k] > m.high) m.high = v[k];
+    if (v[k] < m.low) m.low = v[k];
+  }
+  if (abs.count == 0)
+    refuse("no sample of the profile was measured from sample " + std::to_string(first) + " to " +
+               std::to_string(last - 1),
+           "its sections need measured samples each");
+  m.abs = *abs.value();
+  m.square = *square.value();
+  return m;
+}
+
+void take_skewness_and_kurtosis(std::span<const double> v, ProfileParameters& result) {
+  Mean third, fourth;
+  for (const double h : v) {
+    const double u = h / result.Rq.value;
+    third.add(u * u * u);
+    fourth.add(u * u * u * u);
+  }
+  result.Rsk = *third.value();
+  result.Rku = *fourth.value();
+}
+
+void take_slopes(std::span<const double> v, double h, ProfileParameters& result) {
+  Mean edge_squares, edge_slopes, edge_lengths, seven_squares;
+  for (std::size_t k = 0; k + 1 < v.size(); ++k) {
+    const double slope = (v[k + 1] - v[k]) / h;
+    edge_squares.add(slope * slope);
+    edge_slopes.add(std::abs(slope));
+    edge_lengths.add(slope * slope / (1 + std::sqrt(1 + slope * slope)));
+  }
+  for (std::size_t k = 3; k + 3 < v.size(); ++k) {
+    const double slope =
+        (45 * (v[k + 1] - v[k - 1]) - 9 * (v[k + 2] - v[k - 2]) + (v[k + 3] - v[k - 3])) / (60 * h);
+    seven_squares.add(slope * slope + 0 * v[k]);  // NaN if the middle is missing
+  }
+  const auto root = [](std::optional<double> square) { return square ? std::sqrt(*square) : square; };
+  result.Rdq = root(seven_squares.value());
+  result.Rdq_edges = root(edge_squares.value());
+  result.Rda = edge_slopes.value();
+  result.Rdr = edge_lengths.value();
+}
+
 }  // namespace
 
 std::optional<ProfilePreparation> setting_class(std::string_view name) {
@@ -240,32 +296,9 @@ ProfileParameters profile_parameters(const Profile& profile, const ProfileSettin
 
   Array<double> v(z.begin(), z.end());
   for (double& h : v) h -= curve.mean();
-  struct Moments {
-    double abs = 0, square = 0;  // about the mean line, or the section's own
-    double high = 0, low = 0;    // from the mean line
-  };
-  const auto moments = [&](std::size_t first, std::size_t last, bool about_its_own) {
-    Mean own, abs, square;
-    for (std::size_t k = first; about_its_own && k < last; ++k) own.add(v[k]);
-    const double line = own.value().value_or(0);
-    Moments m{0, 0, -INFINITY, INFINITY};
-    for (std::size_t k = first; k < last; ++k) {
-      abs.add(std::abs(v[k] - line));
-      square.add((v[k] - line) * (v[k] - line));
-      if (v[k] > m.high) m.high = v[k];
-      if (v[k] < m.low) m.low = v[k];
-    }
-    if (abs.count == 0)
-      refuse("no sample of the profile was measured from sample " + std::to_string(first) + " to " +
-                 std::to_string(last - 1),
-             "its sections need measured samples each");
-    m.abs = *abs.value();
-    m.square = *square.value();
-    return m;
-  };
   std::vector<Moments> of_section;
   for (std::size_t k = 0; k < sections; ++k)
-    of_section.push_back(moments(n * k / sections, n * (k + 1) / sections, true));
+    of_section.push_back(moments_of(v, n * k / sections, n * (k + 1) / sections, true));
   const auto each = [&](auto of) {
     return over_sections(settings.sections,
                          [&](int k) { return of(of_section[static_cast<std::size_t>(k)]); });
@@ -275,51 +308,21 @@ ProfileParameters profile_parameters(const Profile& profile, const ProfileSettin
   result.Rz = each([](const Moments& m) { return m.high - m.low; });
   result.Ra = each([](const Moments& m) { return m.abs; });
   result.Rq = each([](const Moments& m) { return std::sqrt(m.square); });
-  const Moments all = moments(0, n, false);
+  const Moments all = moments_of(v, 0, n, false);
   result.Ra.value = all.abs;
   result.Rq.value = std::sqrt(all.square);
-  Mean third, fourth;
-  for (const double h : v) {
-    const double u = h / result.Rq.value;
-    third.add(u * u * u);
-    fourth.add(u * u * u * u);
-  }
-  result.Rsk = *third.value();
-  result.Rku = *fourth.value();
+  take_skewness_and_kurtosis(v, result);
   result.Rt = r.span();
-  result.Rpt = std::max_element(of_section.begin(), of_section.end(), [](const Moments& a, const Moments& b) {
-                 return a.high < b.high;
-               })->high;
-  result.Rvt =
-      -std::min_element(of_section.begin(), of_section.end(), [](const Moments& a, const Moments& b) {
-         return a.low < b.low;
-       })->low;
+  result.Rpt = std::ranges::max_element(of_section, {}, &Moments::high)->high;
+  result.Rvt = -std::ranges::min_element(of_section, {}, &Moments::low)->low;
   result.Rzx = greatest_height_in_a_section(v, n / sections);
 
-  const double h = profile.spacing();
-  Mean edge_squares, edge_slopes, edge_lengths, seven_squares;
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    const double slope = (v[k + 1] - v[k]) / h;
-    edge_squares.add(slope * slope);
-    edge_slopes.add(std::abs(slope));
-    edge_lengths.add(slope * slope / (1 + std::sqrt(1 + slope * slope)));
-  }
-  for (std::size_t k = 3; k + 3 < n; ++k) {
-    const double slope =
-        (45 * (v[k + 1] - v[k - 1]) - 9 * (v[k + 2] - v[k - 2]) + (v[k + 3] - v[k - 3])) / (60 * h);
-    seven_squares.add(slope * slope + 0 * v[k]);  // NaN if the middle is missing
-  }
-  const auto root = [](std::optional<double> square) { return square ? std::sqrt(*square) : square; };
-  result.Rdq = root(seven_squares.value());
-  result.Rdq_edges = root(edge_squares.value());
-  result.Rda = edge_slopes.value();
-  result.Rdr = edge_lengths.value();
-
+  take_slopes(v, profile.spacing(), result);
   if (profile.complete()) {
     const Elements elements =
         elements_of(v, settings.threshold * result.Rp.value, settings.threshold * result.Rv.value);
     result.elements = elements.width.count;
-    if (const auto width = elements.width.value()) result.Rsm = *width * h;
+    if (const auto width = elements.width.value()) result.Rsm = *width * profile.spacing();
     result.Rc = elements.height.value();
   }
   return result;

@@ -10,6 +10,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
@@ -18,15 +19,6 @@ namespace {
 
 constexpr int half_degrees = 360;
 constexpr double least_cycles = 3;  // shortest waves along the shorter side
-
-Array<double> hann(int n) {
-  Array<double> window(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    const double s = elementary::sin(std::numbers::pi * (i + 0.5) / n);
-    window[static_cast<std::size_t>(i)] = s * s;
-  }
-  return window;
-}
 
 // Bin of a wave (x, y), y >= 0, by cross products with the borders, without arc tangents.
 class Bins {
@@ -68,7 +60,7 @@ TextureDirection texture_direction(const Surface& surface) {
   const Field& z = surface.measured_heights();
   const double mean = exact_mean(MeasuredValues(surface).values(), r);
   const double unit = std::ldexp(1.0, -scale_exponent(std::max(r.max - mean, mean - r.min)));
-  const Array<double> along_x = hann(grid.nx), along_y = hann(grid.ny);
+  const Array<double> along_x = hann_window(grid.nx), along_y = hann_window(grid.ny);
   Field windowed(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i)

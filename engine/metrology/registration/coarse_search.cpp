@@ -78,6 +78,20 @@ struct Search {
   std::size_t peaks;  // per angle
 };
 
+// The first `most` candidates that differ from all before by more than `turn` or the radius of a peak.
+std::vector<Candidate> apart(const std::vector<Candidate>& sorted, double turn, std::size_t most) {
+  std::vector<Candidate> kept;
+  for (const Candidate& c : sorted) {
+    const bool close = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
+      return std::abs(k.pose.x - c.pose.x) <= peak_radius && std::abs(k.pose.y - c.pose.y) <= peak_radius &&
+             std::abs(std::remainder(k.pose.turn - c.pose.turn, 2 * std::numbers::pi)) <= turn;
+    });
+    if (!close) kept.push_back(c);
+    if (kept.size() == most) break;
+  }
+  return kept;
+}
+
 std::vector<Candidate> peaks(const Search& search, double angle) {
   const int px = search.period_x, py = search.period_y;
   Field turned(px, py);
@@ -117,15 +131,7 @@ std::vector<Candidate> peaks(const Search& search, double angle) {
     if (p.peak != q.peak) return p.peak > q.peak;
     return std::pair(p.pose.y, p.pose.x) < std::pair(q.pose.y, q.pose.x);
   });
-  std::vector<Candidate> kept;
-  for (const Candidate& c : found) {
-    const bool close = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-      return std::abs(k.pose.x - c.pose.x) <= peak_radius && std::abs(k.pose.y - c.pose.y) <= peak_radius;
-    });
-    if (!close) kept.push_back(c);
-    if (kept.size() == search.peaks) break;
-  }
-  return kept;
+  return apart(found, 2 * std::numbers::pi, search.peaks);
 }
 
 std::vector<double> angles(const CoarseOptions& options) {
@@ -193,16 +199,7 @@ std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMa
   for (const std::vector<Candidate>& some : of_angles) all.insert(all.end(), some.begin(), some.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& p, const Candidate& q) { return p.peak > q.peak; });
-  std::vector<Candidate> kept;
-  for (const Candidate& c : all) {
-    const bool close = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-      const double turn = std::remainder(k.pose.turn - c.pose.turn, 2 * std::numbers::pi);
-      return std::abs(turn) <= 2.5 * options.step && std::abs(k.pose.x - c.pose.x) <= peak_radius &&
-             std::abs(k.pose.y - c.pose.y) <= peak_radius;
-    });
-    if (!close) kept.push_back(c);
-    if (static_cast<int>(kept.size()) == options.candidates) break;
-  }
+  std::vector<Candidate> kept = apart(all, 2.5 * options.step, static_cast<std::size_t>(options.candidates));
   for (Candidate& c : kept) {
     c.pose.x *= spacing;
     c.pose.y *= spacing;

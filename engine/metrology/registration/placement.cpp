@@ -145,19 +145,39 @@ std::string extent_of(const HeightMap& map, double cell) {
   return metres((map.extent_x() + map.hx) * cell) + " x " + metres((map.extent_y() + map.hy) * cell);
 }
 
-}  // namespace
-
-Placement find_placement(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits,
-                         Monitor& monitor) {
-  // Coarse maps: twice the cells, about 256² nodes; more for small or narrow maps.
-  const double widest = std::max({after.hx, after.hy, before.hx, before.hy});
+// Coarse maps: twice the cells, about 256² nodes; more for small or narrow maps.
+double coarse_spacing(const HeightMap& before, const HeightMap& after, double widest) {
   const double longest = std::max({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
   const double shortest =
       std::min({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
   const double area = std::max(after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y());
-  const double spacing =
-      std::max({2 * widest, longest / (most_coarse_cells - 1),
-                std::min(std::sqrt(area) / (usual_coarse_cells - 1), shortest / least_coarse_cells)});
+  return std::max({2 * widest, longest / (most_coarse_cells - 1),
+                   std::min(std::sqrt(area) / (usual_coarse_cells - 1), shortest / least_coarse_cells)});
+}
+
+CoarseOptions coarse_options(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits) {
+  CoarseOptions search;
+  search.greatest_turn = std::min(limits.greatest_turn, std::numbers::pi);
+  search.greatest_shift = limits.greatest_shift;
+  search.from_x = 0.5 * (after.extent_x() - before.extent_x());
+  search.from_y = 0.5 * (after.extent_y() - before.extent_y());
+  search.step = limits.greatest_turn >= std::numbers::pi ? degree : 0.75 * degree;
+  // A small map resembles more places.
+  const auto [smaller, area] =
+      std::minmax({after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y()});
+  if (smaller < 0.25 * area) {
+    search.candidates = 32;
+    search.of_an_angle = 12;
+  }
+  return search;
+}
+
+}  // namespace
+
+Placement find_placement(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits,
+                         Monitor& monitor) {
+  const double widest = std::max({after.hx, after.hy, before.hx, before.hy});
+  const double spacing = coarse_spacing(before, after, widest);
   const HeightMap coarse_before = coarser_map(before, spacing), coarse_after = coarser_map(after, spacing);
   const int fewest = std::min({coarse_after.nx(), coarse_after.ny(), coarse_before.nx(), coarse_before.ny()});
   const double ratio = std::max(after.hx, after.hy) / std::max(before.hx, before.hy);
@@ -172,18 +192,7 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
     refuse("the maps have too little in common: one is " + extent_of(after, limits.cell) + " and the other " +
                extent_of(before, limits.cell),
            "crop the larger one, or measure both with like cells");
-  CoarseOptions search;
-  search.greatest_turn = std::min(limits.greatest_turn, std::numbers::pi);
-  search.greatest_shift = limits.greatest_shift;
-  search.from_x = 0.5 * (after.extent_x() - before.extent_x());
-  search.from_y = 0.5 * (after.extent_y() - before.extent_y());
-  search.step = limits.greatest_turn >= std::numbers::pi ? degree : 0.75 * degree;
-  // A small map resembles more places.
-  const double smaller = std::min(after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y());
-  if (smaller < 0.25 * area) {
-    search.candidates = 32;
-    search.of_an_angle = 12;
-  }
+  const CoarseOptions search = coarse_options(before, after, limits);
   const std::vector<Candidate> candidates = coarse_candidates(coarse_before, coarse_after, search, monitor);
   const Judged coarse = judged(coarse_before, coarse_after, candidates, search, monitor);
 

@@ -113,21 +113,17 @@ Registration registered(const Surface& after, const Surface& before, const Regis
     refuse("the heights of the after-map are " + format_short(ratio, 3) + " times those of the before-map",
            "take two maps of one specimen, and look at the units of both");
 
-  const double unbounded = std::numeric_limits<double>::infinity();
-  const Placement placement =
-      find_placement(without_spikes(onto.map), without_spikes(from.map),
-                     {options.angle, options.at_most ? *options.at_most / cell : unbounded, cell}, monitor);
+  const double at_most = options.at_most.value_or(std::numeric_limits<double>::infinity());
+  const Placement placement = find_placement(without_spikes(onto.map), without_spikes(from.map),
+                                             {options.angle, at_most / cell, cell}, monitor);
   const Refined& found = placement.found;
   const PoseUncertainty& u = placement.u;
 
   const Plane& plane = found.plane;
   Field heights = laid_on(from.map, onto.map, found.pose, plane, onto.plane, unit, monitor);
-  const std::size_t both = [&] {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < heights.size(); ++k)
-      count += !std::isnan(heights[k]) && !std::isnan(onto.map.heights[k]) ? 1 : 0;
-    return count;
-  }();
+  std::size_t both = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k)
+    both += !std::isnan(heights[k]) && !std::isnan(onto.map.heights[k]) ? 1 : 0;
   SurfaceTraits traits;
   traits.material = after.material();
   Registration result{Surface::with_holes(before.grid(), std::move(heights), std::move(traits))};

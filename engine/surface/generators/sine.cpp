@@ -53,10 +53,9 @@ Array<double> wave(int n, Waves waves) {
 void check_resolved(double wavelength, double cell, const char* direction) {
   constexpr double rounding = 1e-12;
   if (wavelength >= 2 * cell * (1 - rounding)) return;
-  throw Error(ErrorCode::bad_value,
-              "`wavelength` is " + format_quantity(wavelength, dimension::length) + ", under two cells of " +
-                  format_quantity(cell, dimension::length) + " along " + direction,
-              "give at least " + format_quantity(2 * cell, dimension::length) + ", or more `cells`");
+  refuse("`wavelength` is " + format_quantity(wavelength, dimension::length) + ", under two cells of " +
+             format_quantity(cell, dimension::length) + " along " + direction,
+         "give at least " + format_quantity(2 * cell, dimension::length) + ", or more `cells`");
 }
 
 }  // namespace

@@ -37,11 +37,9 @@ void require_makeable(const SphereOptions& options) {
   const double corner = elementary::hypot(grid.nx / 2 * grid.hx(), grid.ny / 2 * grid.hy());
   constexpr double rounding = 1e-12;
   if (options.shape == SphereShape::sphere && corner > radius * (1 + rounding))
-    throw Error(ErrorCode::bad_value,
-                "`radius` is " + format_quantity(radius, dimension::length) +
-                    ", but the corner of the grid is " + format_quantity(corner, dimension::length) +
-                    " from the apex",
-                "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
+    refuse("`radius` is " + format_quantity(radius, dimension::length) + ", but the corner of the grid is " +
+               format_quantity(corner, dimension::length) + " from the apex",
+           "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
 }
 
 Surface sphere_surface(const SphereOptions& options, Monitor&) {

@@ -55,6 +55,10 @@ std::span<const Format* const> formats() {
   return all;
 }
 
+void require_format(const SourceFile& file, bool recognised, const char* finding) {
+  if (!recognised) refuse_file(file, finding, "if it is another format, name it with `format`");
+}
+
 namespace {
 
 bool has_extension_of(const Format& format, const SourceFile& file) {

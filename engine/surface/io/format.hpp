@@ -73,6 +73,9 @@ bool many_triples(const SourceFile& file);
 // coordinate or the order of a scan. False for a single line.
 bool may_be_triples(const SourceFile& file);
 
+// Throws Error{bad_file} with `finding` unless `recognised`.
+void require_format(const SourceFile& file, bool recognised, const char* finding);
+
 // Lower case, without dot; null if unknown.
 const Format* format_of_extension(std::string_view extension);
 

@@ -153,9 +153,7 @@ struct Channel {
 
 // The maps by number.
 std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& monitor) {
-  if (!file.bytes().starts_with(mark))
-    refuse_file(file, "is not a GWY file: it does not start with GWYP",
-                "if it is another format, name it with `format`");
+  require_format(file, file.bytes().starts_with(mark), "is not a GWY file: it does not start with GWYP");
   BinaryCursor cursor(file, file.bytes().substr(mark.size()), "its outermost object");
   const Object container = take_object(cursor);
   if (container.name != "GwyContainer")

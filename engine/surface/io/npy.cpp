@@ -38,9 +38,7 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
 
 NpyHeader read_npy_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  if (!bytes.starts_with(magic))
-    refuse_file(file, "is not a NPY file: it does not start with \\x93NUMPY",
-                "if it is another format, name it with `format`");
+  require_format(file, bytes.starts_with(magic), "is not a NPY file: it does not start with \\x93NUMPY");
   if (bytes.size() < 10) refuse_file(file, "is cut short in its NPY header");
   const auto byte = [&](std::size_t at) {
     return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at]));

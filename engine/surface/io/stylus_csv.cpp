@@ -81,6 +81,24 @@ Line fitted(std::span<const double> positions) {
   return {spacing, average - spacing * middle};
 }
 
+// `places`: decimals of the positions.
+Line evenly_spaced(const SourceFile& file, std::span<const double> positions, int places) {
+  if (positions.size() < 2) refuse_file(file, "has fewer than two samples", "the file is cut short");
+  if (positions.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    refuse_file(file, "has too many samples");
+  const Line fit = fitted(positions);
+  // Rounding moves a position by half of its last digit.
+  const double allowed = std::max(0.5 * fit.spacing, 0.6 * elementary::pow(10.0, -places));
+  if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
+    refuse_file(file, "has positions that do not increase");
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (!(std::abs(positions[k] - (fit.first + fit.spacing * static_cast<double>(k))) <= allowed))
+      refuse_file(file, "is not evenly spaced: sample " + std::to_string(k + 1) + " stands at " +
+                            format_short(positions[k]) + " instead of " +
+                            format_short(fit.first + fit.spacing * static_cast<double>(k)));
+  return fit;
+}
+
 HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
@@ -92,8 +110,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
     const std::vector<std::string_view> cells = cells_of(line, Separator::comma);
     if (cells.size() >= 2 && lower_case(cells[0]) == "length" && !length) length = length_of(cells[1]);
   }
-  if (!found)
-    refuse_file(file, "has no line \"Scan Data\"", "if it is another format, name it with `format`");
+  require_format(file, found, "has no line \"Scan Data\"");
   do {
     if (!lines.next(line)) refuse_file(file, "ends after \"Scan Data\"", "the file is cut short");
   } while (trimmed(line).empty());
@@ -125,20 +142,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
     positions.push_back(position.value);
     heights.push_back(height.value);
   }
-  if (positions.size() < 2) refuse_file(file, "has fewer than two samples", "the file is cut short");
-  if (positions.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    refuse_file(file, "has too many samples");
-  const Line fit = fitted(positions);
-  // Rounding moves a position by half of its last digit.
-  const double allowed = std::max(0.5 * fit.spacing, 0.6 * elementary::pow(10.0, -places));
-  if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
-    refuse_file(file, "has positions that do not increase");
-  for (std::size_t k = 0; k < positions.size(); ++k)
-    if (!(std::abs(positions[k] - (fit.first + fit.spacing * static_cast<double>(k))) <= allowed))
-      refuse_file(file, "is not evenly spaced: sample " + std::to_string(k + 1) + " stands at " +
-                            format_short(positions[k]) + " instead of " +
-                            format_short(fit.first + fit.spacing * static_cast<double>(k)));
-
+  const Line fit = evenly_spaced(file, positions, places);
   HeightMap map;
   const auto n = static_cast<int>(heights.size());
   map.heights = Field(n, 1);

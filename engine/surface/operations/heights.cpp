@@ -76,9 +76,8 @@ Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbou
   const MeasuredValues measured(surface);
   const double average = mean(measured.values());
   if (range.span() == 0 && target > 0)
-    throw Error(ErrorCode::bad_value,
-                "a flat surface cannot be scaled to " + quoted(key) + " = " + format_short(target) + " m",
-                "scale a surface that has some height");
+    refuse("a flat surface cannot be scaled to " + quoted(key) + " = " + format_short(target) + " m",
+           "scale a surface that has some height");
   const double now = range.span() == 0               ? 1.0
                      : measure == ScaleTo::amplitude ? range.span()
                                                      : deviation(measured.values(), average, measure);
@@ -117,16 +116,14 @@ namespace {
 
 void require_equal_grids(const Grid& a, const Grid& b, const char* done) {
   if (a.nx != b.nx || a.ny != b.ny)
-    throw Error(ErrorCode::bad_value,
-                "surfaces of " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " and " +
-                    std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be " + done,
-                "bring one to the cells of the other with `resampled`");
+    refuse("surfaces of " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " and " +
+               std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be " + done,
+           "bring one to the cells of the other with `resampled`");
   const auto differ = [](double u, double v) { return std::abs(u - v) > 1e-9 * std::max(u, v); };
   if (differ(a.size_x, b.size_x) || differ(a.size_y, b.size_y))
-    throw Error(ErrorCode::bad_value,
-                "surfaces of " + format_short(a.size_x) + " x " + format_short(a.size_y) + " m and " +
-                    format_short(b.size_x) + " x " + format_short(b.size_y) + " m cannot be " + done,
-                "bring both to one size with `cropped`, then to the same cells with `resampled`");
+    refuse("surfaces of " + format_short(a.size_x) + " x " + format_short(a.size_y) + " m and " +
+               format_short(b.size_x) + " x " + format_short(b.size_y) + " m cannot be " + done,
+           "bring both to one size with `cropped`, then to the same cells with `resampled`");
 }
 
 template <class Combine>
@@ -137,8 +134,8 @@ Surface combined(const Surface& first, const Surface& second, const Combine& com
   for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = combine(heights[k], others[k]);
   const bool holes = !first.complete() || !second.complete();
   if (holes && known_count(heights.values()) == 0)
-    throw Error(ErrorCode::bad_value, "there is no point at which both surfaces were measured",
-                "fill the holes of one first, `surface:filled{ by=\"interpolate\" }`");
+    refuse("there is no point at which both surfaces were measured",
+           "fill the holes of one first, `surface:filled{ by=\"interpolate\" }`");
   const Surface result = remade_with(holes, first.grid(), std::move(heights),
                                      {.material = first.material(),
                                       .periodic = first.traits().periodic && second.traits().periodic,

@@ -296,11 +296,11 @@ FivePoints laplacian_of(const Field& heights, const Nodes& nodes, double hx, dou
   return a;
 }
 
-}  // namespace
-
-int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
+// Nodes without a height, and the range of the others.
+Nodes missing_nodes(const Field& heights, Range& measured) {
   Nodes nodes{heights.nx(), heights.ny(), {}, {}, {}};
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  measured.min = std::numeric_limits<double>::infinity();
+  measured.max = -measured.min;
   for (int j = 0; j < nodes.ny; ++j)
     for (int i = 0; i < nodes.nx; ++i) {
       const double h = heights(i, j);
@@ -308,33 +308,20 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
         nodes.x.push_back(i);
         nodes.y.push_back(j);
       } else {
-        low = std::min(low, h);
-        high = std::max(high, h);
+        measured.min = std::min(measured.min, h);
+        measured.max = std::max(measured.max, h);
       }
     }
-  const std::size_t n = nodes.size();
-  if (n == 0) return 0;
-  if (n == heights.size())
-    throw Error(ErrorCode::bad_value, "every height is missing, so there is nothing to interpolate between");
-  if (low == high) {
-    for (double& h : heights.values()) h = low;
-    return 0;
-  }
-  if (!std::isfinite(high - low))
-    throw Error(ErrorCode::bad_value,
-                "the heights run from " + format_short(low) + " m to " + format_short(high) +
-                    " m, too far apart to interpolate between",
-                "mark missing points with nan, and check the unit");
-  nodes.close_rows();
+  return nodes;
+}
 
-  constexpr std::int64_t parts = 1000;
-  Task task(monitor, "filling missing points", parts);
-  // Avoids overflow and underflow in products.
-  const double span = high - low;
-  Array<double> value(n + 1, 0.5), residual(n + 1, 0.0), direction(n + 1, 0.0), scaled(n + 1, 0.0),
-      image(n + 1, 0.0), work(n + 1, 0.0);
-  value[n] = 0;
-  const FivePoints a = laplacian_of(heights, nodes, hx, hy, low, span, residual);
+constexpr std::int64_t parts_of_task = 1000;
+
+// Conjugate gradients for a·value = `residual`, which they overwrite. Returns the number of steps.
+int solve_laplace(const Nodes& nodes, const FivePoints& a, Array<double>& residual, Array<double>& value,
+                  Task& task) {
+  const std::size_t n = nodes.size();
+  Array<double> direction(n + 1, 0.0), scaled(n + 1, 0.0), image(n + 1, 0.0), work(n + 1, 0.0);
   Multigrid multigrid(nodes, a);
   const auto laplacian = [&](const Array<double>& u) {
     for (std::size_t k = 0; k < n; ++k) image[k] = a.diagonal[k] * u[k] - a.pull(k, u);
@@ -369,13 +356,45 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
     for (std::size_t k = 0; k < n; ++k) direction[k] = scaled[k] + turnback * direction[k];
     descent = next;
     const double left = error > enough ? elementary::log(error / enough) / decades : 0.0;
-    const auto now = static_cast<std::int64_t>(static_cast<double>(parts) * std::clamp(1 - left, 0.0, 1.0));
+    const auto now =
+        static_cast<std::int64_t>(static_cast<double>(parts_of_task) * std::clamp(1 - left, 0.0, 1.0));
     task.advance(std::max<std::int64_t>(now - told, 0));
     told = std::max(told, now);
   }
+  return turn;
+}
+
+}  // namespace
+
+int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
+  Range measured;
+  Nodes nodes = missing_nodes(heights, measured);
+  const double low = measured.min, high = measured.max;
+  const std::size_t n = nodes.size();
+  if (n == 0) return 0;
+  if (n == heights.size())
+    throw Error(ErrorCode::bad_value, "every height is missing, so there is nothing to interpolate between");
+  if (low == high) {
+    for (double& h : heights.values()) h = low;
+    return 0;
+  }
+  if (!std::isfinite(high - low))
+    throw Error(ErrorCode::bad_value,
+                "the heights run from " + format_short(low) + " m to " + format_short(high) +
+                    " m, too far apart to interpolate between",
+                "mark missing points with nan, and check the unit");
+  nodes.close_rows();
+
+  Task task(monitor, "filling missing points", parts_of_task);
+  // Avoids overflow and underflow in products.
+  const double span = high - low;
+  Array<double> value(n + 1, 0.5), residual(n + 1, 0.0);
+  value[n] = 0;
+  const FivePoints a = laplacian_of(heights, nodes, hx, hy, low, span, residual);
+  const int steps = solve_laplace(nodes, a, residual, value, task);
   for (std::size_t k = 0; k < n; ++k)
     heights(nodes.x[k], nodes.y[k]) = std::clamp(low + span * value[k], low, high);
-  return turn;
+  return steps;
 }
 
 }  // namespace asperity

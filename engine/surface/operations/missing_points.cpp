@@ -26,8 +26,7 @@ constexpr double deviation_over_mad = 1.4826022185056018;
 template <class Heights>
 void require_any_measured(const Heights& heights, std::string_view what) {
   if (std::all_of(heights.begin(), heights.end(), [](double z) { return std::isnan(z); }))
-    throw Error(
-        ErrorCode::bad_value,
+    refuse(
         "no point of the " + std::string(what) + " that was measured remains: each touches one that was not",
         "fill the holes first, `" + std::string(what) + ":filled{ by=\"interpolate\" }`");
 }
@@ -97,11 +96,11 @@ Outliers outliers_of(const Field& z, const OutlierRule& rule, bool wraps_x, bool
   result.limit = rule.factor * result.deviation;
   const bool all_alike = std::all_of(known.begin(), known.end(), [](double r) { return r == 0; });
   if (result.deviation == 0 && !all_alike)
-    throw Error(ErrorCode::bad_value,
-                "more than half of the heights differ by one and the same number from the median of those "
-                "around them, so that the rule \"mad\" would mark every other one",
-                "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, "
-                "or say which points are outliers with `where`");
+    refuse(
+        "more than half of the heights differ by one and the same number from the median of those "
+        "around them, so that the rule \"mad\" would mark every other one",
+        "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, "
+        "or say which points are outliers with `where`");
   result.mask = Field(z.nx(), z.ny());
   for (std::size_t k = 0; k < z.size(); ++k) {
     if (std::isnan(z[k])) continue;
@@ -133,6 +132,8 @@ void check_fill(std::optional<double> height) {
   if (height) require(std::isfinite(*height), "value", *height, "m", "give a finite height");
 }
 
+}  // namespace
+
 Field line_of(const Profile& profile) {
   Field line(profile.size(), 1);
   std::ranges::copy(profile.measured_heights(), line.values().begin());
@@ -140,8 +141,6 @@ Field line_of(const Profile& profile) {
 }
 
 Array<double> samples_of(const Field& line) { return {line.values().begin(), line.values().end()}; }
-
-}  // namespace
 
 MeasuredValues::MeasuredValues(std::span<const double> values, bool complete) : values_(values) {
   if (complete) return;
@@ -184,15 +183,14 @@ Array<double> mask_of(const Profile& profile) {
 Surface masked(const Surface& surface, const Field& mask) {
   const Grid& grid = surface.grid();
   if (mask.nx() != grid.nx || mask.ny() != grid.ny)
-    throw Error(ErrorCode::bad_value,
-                "the mask has " + std::to_string(mask.nx()) + " x " + std::to_string(mask.ny()) +
-                    " points, and the surface " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
-                "give a mask of the same cells");
+    refuse("the mask has " + std::to_string(mask.nx()) + " x " + std::to_string(mask.ny()) +
+               " points, and the surface " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
+           "give a mask of the same cells");
   Field heights = surface.measured_heights();
   if (put_holes(heights.values(), mask.values()) == 0) return surface;
   if (known_count(heights.values()) == 0)
-    throw Error(ErrorCode::bad_value, "the mask leaves no point of the surface that was measured",
-                "let it mark fewer points as not measured");
+    refuse("the mask leaves no point of the surface that was measured",
+           "let it mark fewer points as not measured");
   SurfaceTraits traits = surface.traits();
   traits.aliased_share.reset();
   return Surface::with_holes(grid, std::move(heights), std::move(traits));
@@ -200,15 +198,14 @@ Surface masked(const Surface& surface, const Field& mask) {
 
 Profile masked(const Profile& profile, std::span<const double> mask) {
   if (mask.size() != static_cast<std::size_t>(profile.size()))
-    throw Error(ErrorCode::bad_value,
-                "the mask has " + std::to_string(mask.size()) + " points, and the profile " +
-                    std::to_string(profile.size()),
-                "give a number a sample: 1 measured, 0 not");
+    refuse("the mask has " + std::to_string(mask.size()) + " points, and the profile " +
+               std::to_string(profile.size()),
+           "give a number a sample: 1 measured, 0 not");
   Array<double> heights(profile.measured_heights().begin(), profile.measured_heights().end());
   if (put_holes(heights, mask) == 0) return profile;
   if (known_count(heights) == 0)
-    throw Error(ErrorCode::bad_value, "the mask leaves no point of the profile that was measured",
-                "let it mark fewer points as not measured");
+    refuse("the mask leaves no point of the profile that was measured",
+           "let it mark fewer points as not measured");
   return Profile::with_holes(profile.spacing(), std::move(heights), profile.closed_radius());
 }
 

@@ -34,6 +34,10 @@ Surface remade_with(bool holes, const Grid& grid, Field heights, SurfaceTraits t
 Profile remade_with(bool holes, double spacing, Array<double> heights,
                     std::optional<double> closed_radius = {});
 
+// The samples as a field of ny = 1, and back.
+Field line_of(const Profile& profile);
+Array<double> samples_of(const Field& line);
+
 // 1: measured, 0: missing.
 Field mask_of(const Surface& surface);
 Array<double> mask_of(const Profile& profile);

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/interpolation.hpp"
 #include "engine/surface/operations/missing_points.hpp"
@@ -99,8 +99,7 @@ Surface shifted(const Surface& surface, double x, double y) {
   const Grid& grid = surface.grid();
   for (const double shift : {x, y})
     if (!std::isfinite(shift))
-      throw Error(ErrorCode::bad_value, "a shift is " + format_short(shift) + " m",
-                  "give finite lengths `x` and `y`");
+      refuse("a shift is " + format_short(shift) + " m", "give finite lengths `x` and `y`");
   const double right = x / grid.hx(), up = y / grid.hy();
   if (is_whole(right) && is_whole(up)) {
     const Surface moved = remade_with(
@@ -116,11 +115,9 @@ Surface shifted(const Surface& surface, double x, double y) {
   if (!surface.traits().periodic) {
     const bool along_x = !is_whole(right);
     const double cells = along_x ? right : up, cell = along_x ? grid.hx() : grid.hy();
-    throw Error(
-        ErrorCode::bad_value,
-        std::string("a shift of `") + (along_x ? "x` = " : "y` = ") + format_short(along_x ? x : y) +
-            " m is " + format_short(cells) + " cells, and this surface is not periodic",
-        "shift it by whole cells; the nearest is " + format_short(std::round(cells) * cell, 12) + " m");
+    refuse(std::string("a shift of `") + (along_x ? "x` = " : "y` = ") + format_short(along_x ? x : y) +
+               " m is " + format_short(cells) + " cells, and this surface is not periodic",
+           "shift it by whole cells; the nearest is " + format_short(std::round(cells) * cell, 12) + " m");
   }
   if (!surface.complete())
     return shifted_between_nodes(surface, std::fmod(right, grid.nx), std::fmod(up, grid.ny));
@@ -131,8 +128,7 @@ Surface shifted(const Surface& surface, double x, double y) {
 
 Surface rotated(const Surface& surface, double angle) {
   if (!std::isfinite(angle))
-    throw Error(ErrorCode::bad_value, "the angle of a rotation is " + format_short(angle),
-                "give a finite angle");
+    refuse("the angle of a rotation is " + format_short(angle), "give a finite angle");
   const double quarters = angle / (std::numbers::pi / 2);
   if (is_whole(quarters)) {
     const int turn = wrapped(quarters, 4);
@@ -151,10 +147,9 @@ Surface rotated(const Surface& surface, double angle) {
     nx = static_cast<int>(kept * (g.nx - 1) + whole_cell) + 1;
     ny = static_cast<int>(kept * (g.ny - 1) + whole_cell) + 1;
     if (nx < 2 || ny < 2)
-      throw Error(ErrorCode::bad_value,
-                  "nothing of a surface of " + std::to_string(g.nx) + " x " + std::to_string(g.ny) +
-                      " cells remains after a turn of " + format_short(angle) + " rad",
-                  "turn it by a multiple of a quarter turn, or use more cells");
+      refuse("nothing of a surface of " + std::to_string(g.nx) + " x " + std::to_string(g.ny) +
+                 " cells remains after a turn of " + format_short(angle) + " rad",
+             "turn it by a multiple of a quarter turn, or use more cells");
   }
   Field result(nx, ny);
   const Field& h = surface.measured_heights();
@@ -193,11 +188,9 @@ Surface cropped(const Surface& surface, double i, double j, double nx, double ny
   const auto check = [](double first, double count, int all, const char* along) {
     const bool whole = first == std::floor(first) && count == std::floor(count);
     if (!(whole && first >= 0 && count >= 1 && first + count <= all))
-      throw Error(
-          ErrorCode::bad_value,
-          "a crop of " + format_short(count) + " cells from node " + format_short(first) + " along " + along +
-              " does not lie in a surface of " + std::to_string(all) + " cells",
-          "a part starts at node 0 or later and ends at the rim or before; a surface never wraps here");
+      refuse("a crop of " + format_short(count) + " cells from node " + format_short(first) + " along " +
+                 along + " does not lie in a surface of " + std::to_string(all) + " cells",
+             "a part starts at node 0 or later and ends at the rim or before; a surface never wraps here");
   };
   check(i, nx, g.nx, "x");
   check(j, ny, g.ny, "y");
@@ -213,8 +206,7 @@ Surface cropped(const Surface& surface, double i, double j, double nx, double ny
   const Grid grid{columns, rows, columns == g.nx ? g.size_x : columns * g.hx(),
                   rows == g.ny ? g.size_y : rows * g.hy()};
   if (!surface.complete() && known_count(result.values()) == 0)
-    throw Error(ErrorCode::bad_value, "no point of this part of the surface was measured",
-                "take a part that holds points that were");
+    refuse("no point of this part of the surface was measured", "take a part that holds points that were");
   return remade_with(!surface.complete(), grid, std::move(result),
                      {.material = surface.material(), .periodic = false, .aliased_share = {}});
 }
@@ -223,8 +215,7 @@ Surface cropped_to(const Surface& surface, double x, double y, double size_x, do
   const Grid& g = surface.grid();
   for (const double length : {x, y, size_x, size_y})
     if (!std::isfinite(length))
-      throw Error(ErrorCode::bad_value, "a length of a crop is " + format_short(length) + " m",
-                  "give finite lengths");
+      refuse("a length of a crop is " + format_short(length) + " m", "give finite lengths");
   return cropped(surface, std::round(x / g.hx()), std::round(y / g.hy()), std::round(size_x / g.hx()),
                  std::round(size_y / g.hy()));
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
@@ -19,15 +19,15 @@ constexpr double most_profile_points = 16777216;
 
 int line_number(double wanted, int count, const char* key) {
   if (!(wanted >= 0 && wanted < count && wanted == std::floor(wanted)))
-    throw Error(ErrorCode::bad_value, "there is no " + std::string(key) + " " + format_short(wanted, 17),
-                quoted(key) + " runs from 0 to " + std::to_string(count - 1));
+    refuse("there is no " + std::string(key) + " " + format_short(wanted, 17),
+           quoted(key) + " runs from 0 to " + std::to_string(count - 1));
   return static_cast<int>(wanted);
 }
 
 Profile section(const Surface& surface, double spacing, Array<double> heights, const std::string& what) {
   if (!surface.complete() && known_count(heights) == 0)
-    throw Error(ErrorCode::bad_value, "no point of " + what + " was measured",
-                "take another line, or fill the holes first, `surface:filled{ by=\"interpolate\" }`");
+    refuse("no point of " + what + " was measured",
+           "take another line, or fill the holes first, `surface:filled{ by=\"interpolate\" }`");
   return remade_with(!surface.complete(), spacing, std::move(heights));
 }
 
@@ -100,26 +100,24 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
   const Grid& g = surface.grid();
   for (const double coordinate : {from.x, from.y, to.x, to.y})
     if (!std::isfinite(coordinate))
-      throw Error(ErrorCode::bad_value, "an end of the line is at " + format_short(coordinate) + " m",
-                  "give finite coordinates in `from` and `to`");
+      refuse("an end of the line is at " + format_short(coordinate) + " m",
+             "give finite coordinates in `from` and `to`");
   const double length = elementary::hypot(to.x - from.x, to.y - from.y);
-  if (!(length > 0))
-    throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
+  if (!(length > 0)) refuse("`from` and `to` are the same point", "give the two ends of a line");
   // Rounding must not turn n cells into n + 1.
   const double count = points.value_or(std::ceil(length / std::min(g.hx(), g.hy()) - 1e-9) + 1);
   if (!(count >= 2 && count <= most_profile_points && count == std::floor(count)))
-    throw Error(ErrorCode::bad_value, "`points` is " + format_short(count, 10),
-                "give a whole number from 2 to " + format_short(most_profile_points, 10));
+    refuse("`points` is " + format_short(count, 10),
+           "give a whole number from 2 to " + format_short(most_profile_points, 10));
   if (!surface.traits().periodic) {
     const double slack = 1e-9;
     for (const Point& end : {from, to}) {
       const double u = end.x / g.hx(), v = end.y / g.hy();
       if (u < -slack || u > g.nx - 1 + slack || v < -slack || v > g.ny - 1 + slack)
-        throw Error(ErrorCode::bad_value,
-                    "the line ends at (" + format_short(end.x) + ", " + format_short(end.y) +
-                        ") m, outside a surface that is not periodic",
-                    "its nodes reach from (0, 0) to (" + format_short((g.nx - 1) * g.hx()) + ", " +
-                        format_short((g.ny - 1) * g.hy()) + ") m");
+        refuse("the line ends at (" + format_short(end.x) + ", " + format_short(end.y) +
+                   ") m, outside a surface that is not periodic",
+               "its nodes reach from (0, 0) to (" + format_short((g.nx - 1) * g.hx()) + ", " +
+                   format_short((g.ny - 1) * g.hy()) + ") m");
     }
   }
   const auto n = static_cast<std::size_t>(count);

@@ -12,6 +12,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/npy_header.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
@@ -77,7 +78,7 @@ std::string npy_head(int nx, int ny) {
 
 SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions& options, Monitor& monitor) {
   if (!options.size_x || !options.size_y)
-    throw Error(ErrorCode::bad_value, file_name(path) + " does not say its size", "give `size` in the call");
+    refuse(file_name(path) + " does not say its size", "give `size` in the call");
   SlabFile file;
   std::ifstream stream;
   team.work([&] { file = open_npy(path, stream); });
@@ -95,11 +96,9 @@ SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions
     for (int i = 0; i < file.nx; ++i) {
       to[i] = unit * number(bytes.data() + static_cast<std::size_t>(i) * file.header.width, swap);
       if (std::isnan(to[i]))
-        throw Error(
-            ErrorCode::bad_value,
-            file_name(path) + " has no height at node (" + std::to_string(i) + ", " + std::to_string(j) +
-                "), and over ranks every point is needed",
-            "read it with lab.surface.read, whose `fill` fills what was not measured, and write it again");
+        refuse(file_name(path) + " has no height at node (" + std::to_string(i) + ", " + std::to_string(j) +
+                   "), and over ranks every point is needed",
+               "read it with lab.surface.read, whose `fill` fills what was not measured, and write it again");
     }
   };
   return slab_surface(team, {file.nx, file.ny, *options.size_x, *options.size_y}, row, monitor);

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/generators/self_affine_modes.hpp"
 
@@ -35,11 +35,10 @@ std::string digest_of(Team& team, const Grid& grid, const Array<double>& heights
 void check_finite(const Slab& slab, const Array<double>& heights) {
   for (std::size_t k = 0; k < heights.size(); ++k)
     if (!std::isfinite(heights[k]))
-      throw Error(ErrorCode::bad_value,
-                  "the height of node (" + std::to_string(k % slab.width()) + ", " +
-                      std::to_string(static_cast<std::size_t>(slab.first()) + k / slab.width()) + ") is " +
-                      format_short(heights[k]),
-                  "every height must be a finite number of metres");
+      refuse("the height of node (" + std::to_string(k % slab.width()) + ", " +
+                 std::to_string(static_cast<std::size_t>(slab.first()) + k / slab.width()) + ") is " +
+                 format_short(heights[k]),
+             "every height must be a finite number of metres");
 }
 
 SlabSurface finish(Team& team, const Grid& grid, std::shared_ptr<Array<double>> heights) {

@@ -12,6 +12,7 @@
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -45,18 +46,15 @@ void plan_box(const std::any& given, const ContactGeometry& geometry, Plan& plan
     const double modulus = contact_modulus(geometry, "box elements need `young` and `poisson`",
                                            "to set their stiffness", "`stiffness` to the box elements");
     if (!(height > 0))
-      throw Error(ErrorCode::bad_value,
-                  "all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness",
-                  "give `stiffness` in Pa/m");
+      refuse("all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness",
+             "give `stiffness` in Pa/m");
     box.stiffness = modulus / height;
     box.reference_pressure = modulus;
-    origin = "E*/peak-to-valley, " + format_quantity(modulus, dimension::pressure) + " / " +
-             format_quantity(height, dimension::length);
+    origin = "E*/peak-to-valley, " + format_quantity(modulus, dimension::pressure) + " / " + metres(height);
   }
   if (!std::isfinite(box.stiffness) || !std::isfinite(box.reference_pressure) || !(box.stiffness > 0))
-    throw Error(ErrorCode::bad_value,
-                "the stiffness of the box elements comes to " + format_short(box.stiffness) + " Pa/m",
-                "check the units of the heights and of `young`, or give `stiffness`");
+    refuse("the stiffness of the box elements comes to " + format_short(box.stiffness) + " Pa/m",
+           "check the units of the heights and of `young`, or give `stiffness`");
   box.lower_share = lower_elastic_share(geometry);
   plan.terms.push_back({"elasticity", "box elements, stiffness " +
                                           format_quantity(box.stiffness, dimension::stiffness) + " (" +
@@ -95,9 +93,8 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
 void check_rigid(const std::any&, const Scene& scene) {
   if (scene.effects.any_that(Effect::Acts::bounds_pressure)) return;
   const std::string wanted = effects_that(Effect::Acts::bounds_pressure);
-  throw Error(ErrorCode::bad_value,
-              "rigid bodies carry a load only where they yield, and this scene does not name " + wanted,
-              "name " + wanted + " beside elasticity=\"rigid\", or name another elasticity");
+  refuse("rigid bodies carry a load only where they yield, and this scene does not name " + wanted,
+         "name " + wanted + " beside elasticity=\"rigid\", or name another elasticity");
 }
 
 std::any stiffness_as_planned(const std::any&, const Plan& before) {

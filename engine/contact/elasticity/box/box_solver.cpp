@@ -8,6 +8,7 @@
 
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -237,16 +238,14 @@ BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
   constexpr double least = 1e-280;  // of the modulus
   if (result.pressure < least * ready_->box.reference_pressure ||
       result.approach < std::numeric_limits<double>::min())
-    throw Error(ErrorCode::bad_value,
-                asked + ", a pressure under 1e-280 of the modulus: too small to mean anything",
-                "give zero for no load, or check its unit");
+    refuse(asked + ", a pressure under 1e-280 of the modulus: too small to mean anything",
+           "give zero for no load, or check its unit");
   // The squared approach in the energy overflows first.
   const double square = result.approach * result.approach;
   if (!std::isfinite(square * nodes) || !std::isfinite(k * square * tile) ||
       !std::isfinite(k * result.approach) || !std::isfinite(result.load) || !std::isfinite(result.pressure))
-    throw Error(ErrorCode::bad_value,
-                asked + ", so large that the numbers of the solution leave the range of a double",
-                "check its unit");
+    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
+           "check its unit");
   return result;
 }
 

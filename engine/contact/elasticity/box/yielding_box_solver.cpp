@@ -12,6 +12,7 @@
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -301,15 +302,14 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
     load = request.by == PressBy::load ? request.value : request.value * tile;
     const double greatest = elements->greatest_mean_pressure();
     if (pressure / overlap >= greatest)
-      throw Error(ErrorCode::infeasible,
-                  "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
-                      " cannot be carried: the elements carry " +
-                      format_quantity(greatest * overlap, dimension::pressure) +
-                      " at most, their `hardness`" +
-                      (overlap < 1 ? " on the " + format_short(100 * overlap, 3) +
-                                         " % of the tile where the bodies face each other"
-                                   : std::string()),
-                  "press with less than the hardness, or give `hardening`");
+      refuse_infeasible("a mean pressure of " + format_quantity(pressure, dimension::pressure) +
+                            " cannot be carried: the elements carry " +
+                            format_quantity(greatest * overlap, dimension::pressure) +
+                            " at most, their `hardness`" +
+                            (overlap < 1 ? " on the " + format_short(100 * overlap, 3) +
+                                               " % of the tile where the bodies face each other"
+                                         : std::string()),
+                        "press with less than the hardness, or give `hardening`");
     plane = elements->plane_under(pressure / overlap);
   } else if (request.value > 0) {
     const double depth = request.by == PressBy::approach ? request.value : request.value * height;
@@ -320,15 +320,13 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
 
   constexpr double least = 1e-280;  // of the hardness
   if (request.value > 0 && pressure < least * law.cap)
-    throw Error(ErrorCode::bad_value,
-                asked + ", a pressure under 1e-280 of the hardness: too small to mean anything",
-                "give zero for no load, or check its unit");
+    refuse(asked + ", a pressure under 1e-280 of the hardness: too small to mean anything",
+           "give zero for no load, or check its unit");
   auto solution = std::make_shared<const UnderLoad>(ready_, elements, law, plane, pressure, load, factor);
   if (!std::isfinite(plane.high * plane.high * static_cast<double>(elements->size())) ||
       !std::isfinite(load) || !std::isfinite(solution->peak_pressure()) || !std::isfinite(solution->energy()))
-    throw Error(ErrorCode::bad_value,
-                asked + ", so large that the numbers of the solution leave the range of a double",
-                "check its unit");
+    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
+           "check its unit");
   const State state(std::move(solution), plan_, elasticity_alone(scope.so_far()));
   check_rounding(state, plan_.accuracy);
   return state;

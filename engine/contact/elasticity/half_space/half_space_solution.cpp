@@ -2,6 +2,7 @@
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -16,18 +17,12 @@ namespace {
 // The error of Σx is the square of this.
 constexpr double residual_reduction = 1e-5;
 constexpr int most_solver_steps = 400;
-}  // namespace
 
-double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor) {
-  const Grid& grid = problem.grid;
-  const std::size_t nodes = grid.nodes();
-  const YieldLaw& law = problem.yield;
+// Counts elastic and hardening nodes.
+std::array<double, 2> mark_yielding(const YieldLaw& law, const HalfSpaceAnswer& answer,
+                                    Array<std::uint8_t>& elastic, Array<std::uint8_t>& yields) {
   const double cap = law.caps() ? law.cap : std::numeric_limits<double>::infinity();
-  // 1/K_h in cell units, where K(q) = 2/|q|.
-  const double give = law.hardens() ? problem.modulus / law.hardening / grid.hx() : 0;
-
-  Array<std::uint8_t> elastic(nodes), yields(law.hardens() ? nodes : 0);
-  const auto counts = over_nodes<2>(nodes, [&](std::size_t k, double* v) {
+  return over_nodes<2>(elastic.size(), [&](std::size_t k, double* v) {
     const double p = answer.pressure[k];
     const bool past = law.hardens() && p > law.yields_at(k);
     elastic[k] = p > 0 && p < cap && !past ? 1 : 0;
@@ -35,6 +30,23 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
     v[0] = elastic[k];
     v[1] = past ? 1.0 : 0.0;
   });
+}
+
+// Stiffness of the longest wave over `nodes`, in cell units.
+double stiffness_of_wave(const ComplianceMultiplier& multiplier, double nodes) {
+  return multiplier.shares() ? 1 / multiplier.greatest_from(2 * std::numbers::pi / nodes)
+                             : std::numbers::pi / nodes;
+}
+}  // namespace
+
+double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor) {
+  const Grid& grid = problem.grid;
+  const std::size_t nodes = grid.nodes();
+  const YieldLaw& law = problem.yield;
+  // 1/K_h in cell units, where K(q) = 2/|q|.
+  const double give = law.hardens() ? problem.modulus / law.hardening / grid.hx() : 0;
+  Array<std::uint8_t> elastic(nodes), yields(law.hardens() ? nodes : 0);
+  const auto counts = mark_yielding(law, answer, elastic, yields);
   const double free = counts[0] + counts[1], n = static_cast<double>(nodes);
   if (free == 0) return 0;
   // K(0) of a layer is in series with the rest of K.
@@ -49,11 +61,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   ContactPreconditioner preconditioner(grid.nx, grid.ny, aspect, problem.boundary, 1, 4, multiplier);
   preconditioner.set_free(elastic);
   // The pyramid ignores constants; the longest wave approximates them.
-  const double of_longest = multiplier.shares() ? 1 / multiplier.greatest_from(2 * std::numbers::pi / longest)
-                                                : std::numbers::pi / longest;
-  const double constant = of_longest / std::max(counts[0], 1.0);
+  const double constant = stiffness_of_wave(multiplier, longest) / std::max(counts[0], 1.0);
   const double yielded_factor = 1 / (give + 4 / std::numbers::pi);
-
   Array<double> x(nodes), r(nodes), z(nodes), d(nodes), image(nodes);
   for_nodes(nodes, [&](std::size_t k) { r[k] = in(k) ? 1.0 : 0.0; });
   double squares = free, old_rz = 0;

@@ -18,7 +18,7 @@
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -389,10 +389,9 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
   const double most = answer.peak_pressure * (std::abs(answer.approach) + height);
   if (!std::isfinite(most * static_cast<double>(problem.grid.nodes())) ||
       !std::isfinite(answer.mean_pressure * problem.grid.area()))
-    throw Error(ErrorCode::bad_value,
-                quoted(name(request.by)) + " is " + format_short(request.value) +
-                    ", so large that the numbers of the solution leave the range of a double",
-                "check its unit and that of the heights");
+    refuse(quoted(name(request.by)) + " is " + format_short(request.value) +
+               ", so large that the numbers of the solution leave the range of a double",
+           "check its unit and that of the heights");
   auto solution =
       std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result), factor, asked);
   return State(std::move(solution), plan_, elasticity_alone(solved.cost));

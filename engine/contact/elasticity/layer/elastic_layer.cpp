@@ -9,6 +9,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -76,18 +77,16 @@ std::string sinking_under_pressure(double metres_per_pascal) {
 // Throws Error{bad_value} unless the boundary is periodic, the lower body elastic, the upper body rigid.
 void check_layer(const std::any&, const Scene& scene) {
   if (scene.boundary != Boundary::periodic)
-    throw Error(ErrorCode::bad_value,
-                "`boundary` is \"free\" on a layer, which is not computed by this version",
-                "give boundary=\"periodic\", on a tile several times as wide as contact and layer, or name "
-                "elasticity=\"half_space\"");
+    refuse("`boundary` is \"free\" on a layer, which is not computed by this version",
+           "give boundary=\"periodic\", on a tile several times as wide as contact and layer, or name "
+           "elasticity=\"half_space\"");
   const Material* const lower = lower_material(scene.lower);
   if (lower != nullptr && lower->rigid)
-    throw Error(ErrorCode::bad_value, "the lower body is rigid, and is the layer that gives way",
-                "give the lower body the material of the layer, and lay it below");
+    refuse("the lower body is rigid, and is the layer that gives way",
+           "give the lower body the material of the layer, and lay it below");
   const Material* const upper = upper_material(scene.upper);
   if (upper == nullptr || !upper->rigid)
-    throw Error(
-        ErrorCode::bad_value,
+    refuse(
         "the upper body " + material_found(upper) + ", and what presses on a layer is rigid in this version",
         "press with lab.rigid, or give the upper surface material=lab.rigid");
 }

@@ -115,14 +115,8 @@ std::vector<Step> nest(Team& team, const SlabCellProblem& problem, bool alone) {
 
 // Level-set field: at a bound, the distance of the gap from leaving the bound replaces the pressure.
 void to_level_set(SlabLevel& level, double offset, std::span<const double> gap, std::span<double> p) {
-  level.each([=, g = gap.data(), to = p.data(), upper = level.cap,
-              stiffness = level.short_wave_stiffness](std::size_t k) {
-    const double apart = stiffness * (g[k] - offset);
-    if (to[k] <= 0)
-      to[k] = std::min(0.0, -apart);
-    else if (to[k] >= upper)
-      to[k] = upper + std::max(0.0, -apart);
-  });
+  level.each([=, g = gap.data(), to = p.data(), upper = level.cap, stiffness = level.short_wave_stiffness](
+                 std::size_t k) { to[k] = level_set(to[k], upper, stiffness * (g[k] - offset)); });
 }
 
 // Rounding of a bound counts as the bound.
@@ -151,9 +145,8 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
   SlabCellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   Array<double> carried;  // level-set field
-  double all_work = 0, work_done = 0;
+  double all_work = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
-
   for (std::size_t l = steps.size(); l-- > 0;) {
     Step& step = steps[l];
     const bool finest = l == 0;
@@ -161,11 +154,7 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
                     problem.origin, problem.factor, problem.cap * step.pitch, step.mean_pressure);
     level.length = problem.length;
     const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
-    const double begin = work_done / all_work;
-    work_done += step.shape.weight;
-    level.report = [&](double residual) {
-      progress.report(begin, work_done / all_work, residual, tolerance);
-    };
+    level.report = progress.next_grid(step.shape.weight, all_work, tolerance);
 
     SlabFields fields(team, level.nodes());
     Array<double>& p = fields.pressure;
@@ -180,7 +169,6 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
       carried = Array<double>();
     }
     project_slabs_to_load(level, p, nullptr, p);
-
     DescentEnd end =
         descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.converged) level.gap(p, fields.gap);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/constants.hpp"
 
 namespace asperity {
@@ -12,8 +12,6 @@ namespace asperity {
 namespace {
 // Weight of open nodes, as in half_space/contact_quality.cpp.
 constexpr double open_weight = 0.125;
-constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-constexpr double noticed = 1e-13;  // relative load error
 
 double clipped(double x, double upper) { return std::min(std::max(x, 0.0), upper); }
 
@@ -94,7 +92,7 @@ bool project_slabs_to_load(SlabLevel& level, std::span<const double> y_values, c
     return clipped(here(k) ? (y[k] - origin) + by : y[k], upper);
   };
   const auto carried = [&](double by) {
-    return level.over<4>([=](std::size_t k, double* v) {
+    const auto sums = level.over<4>([=](std::size_t k, double* v) {
       const double value = y[k] - origin, x = here(k) ? value + by : y[k];
       const bool inside = here(k) & (x > 0) & (x < upper);
       v[0] = clipped(x, upper);
@@ -102,32 +100,18 @@ bool project_slabs_to_load(SlabLevel& level, std::span<const double> y_values, c
       v[2] = inside ? value : 0.0;
       v[3] = (here(k) & (x >= upper)) ? upper : 0.0;
     });
+    return LoadAtShift{sums[0], sums[1], sums[2], sums[3]};
   };
-  double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
-  double shift = std::clamp(origin, low, std::max(low, high));
-  double best = infinity, best_shift = shift;
-  for (int step = 0; step < 200; ++step) {
-    const auto at = carried(shift);
-    const double excess = at[0] - load;
-    if (std::abs(excess) < best) {
-      best = std::abs(excess);
-      best_shift = shift;
-    }
-    if (std::abs(excess) <= round_off * load) break;
-    (excess > 0 ? high : low) = shift;
-    double next = (load - fixed - at[3] - at[2]) / at[1];
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == shift || !(next > low && next < high)) break;
-    shift = next;
-  }
-  if (best <= noticed * load) {
-    level.each([=](std::size_t k) { target[k] = shifted(k, best_shift); });
+  const auto [low, high, at, found] = find_load_shift(
+      origin - greatest, std::min(upper, load) - (moved[2] - origin), origin, load, fixed, false, carried);
+  if (found) {
+    level.each([=, by = at](std::size_t k) { target[k] = shifted(k, by); });
     return true;
   }
   // The load jumps between neighbouring shifts: interpolate.
-  const double least = carried(low)[0], most = carried(high)[0];
+  const double least = carried(low).load, most = carried(high).load;
   const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
-  level.each([=](std::size_t k) {
+  level.each([=, low = low, high = high](std::size_t k) {
     const double from = shifted(k, low);
     target[k] = from + share * (shifted(k, high) - from);
   });

@@ -27,18 +27,16 @@ std::string pascals(double p) { return format_quantity(p, dimension::pressure); 
 
 void check(const SlabContactProblem& problem, double mean_pressure) {
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
-                "a mean pressure is finite and not negative: nothing here pulls");
+    refuse("`pressure` is " + pascals(mean_pressure),
+           "a mean pressure is finite and not negative: nothing here pulls");
   if (mean_pressure > 0 && mean_pressure < 1e-60 * problem.modulus)
-    throw Error(ErrorCode::bad_value,
-                "`pressure` is " + format_short(mean_pressure) +
-                    " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
-                "give a larger pressure, or none");
+    refuse("`pressure` is " + format_short(mean_pressure) +
+               " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
+           "give a larger pressure, or none");
   if (mean_pressure >= problem.cap)
-    throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
-                    pascals(problem.cap) + ", and every node would have to carry as much or more",
-                "press with less than the hardness");
+    refuse_infeasible("a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
+                          pascals(problem.cap) + ", and every node would have to carry as much or more",
+                      "press with less than the hardness");
 }
 
 double punch_length(const SlabContactProblem& problem, double mean_pressure) {
@@ -148,7 +146,6 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   if (flat) cell.length = std::sqrt(surface.slab.all_nodes() * cell.shape.aspect);
   // Margin for rounding in the conversion to pascals.
   cell.tolerance = 0.99 * problem.tolerance;
-
   SlabCellAnswer found;
   if (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(team, surface))
     found = full_contact_in_slabs(team, cell, monitor);
@@ -168,7 +165,6 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
     found = nested_descent_in_slabs(team, cell, pressure, gap, monitor);
     found.applications += before;
   }
-
   SlabContactAnswer answer;
   answer.mean_pressure = mean_pressure;
   for (double& p : found.pressure) p = p >= cell.cap ? problem.cap : std::min(p * unit, problem.cap);
@@ -205,10 +201,9 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
   terms.cap = std::numeric_limits<double>::infinity();
   if (const Plan plan = make_plan(scene, geometry); plan.yield) {
     if (plan.yield->hardens())
-      throw Error(ErrorCode::bad_value,
-                  "`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
-                      ".hardening` is not computed over ranks",
-                  "leave it out, so that the pressure stays at the hardness, or use lab.contact");
+      refuse("`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
+                 ".hardening` is not computed over ranks",
+             "leave it out, so that the pressure stays at the hardness, or use lab.contact");
     terms.cap = plan.yield->hardness();
   }
   return terms;
@@ -304,15 +299,14 @@ Found search(Team& team, const SlabContactProblem& problem, double target, doubl
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach), "give zero or a length above it");
+    refuse("`approach` is " + metres(approach), "give zero or a length above it");
   if (approach == 0) return solve_slabs_at_pressure(team, problem, 0, nullptr, monitor);
   const SlabSurface& surface = problem.surface;
   const double full = surface.peak - surface.mean;
   if (!std::isfinite(problem.cap) && approach >= full)
-    throw Error(ErrorCode::infeasible,
-                "`approach` is " + metres(approach) + ", and all of the tile touches at " + metres(full) +
-                    ": past full contact no load brings a periodic tile closer",
-                "give less, or `pressure`");
+    refuse_infeasible("`approach` is " + metres(approach) + ", and all of the tile touches at " +
+                          metres(full) + ": past full contact no load brings a periodic tile closer",
+                      "give less, or `pressure`");
   Root root;
   root.logarithm =
       elementary::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
@@ -325,10 +319,10 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
   answer.certificate.load = std::abs(answer.approach - approach) / approach;
   answer.converged = answer.certificate.worst() <= problem.tolerance;
   if (!found.reached && answer.approach < approach && std::isfinite(problem.cap))
-    throw Error(ErrorCode::infeasible,
-                "`approach` is " + metres(approach) +
-                    ", and under the greatest load that `hardness` allows it is " + metres(answer.approach),
-                "give less, or `pressure`");
+    refuse_infeasible("`approach` is " + metres(approach) +
+                          ", and under the greatest load that `hardness` allows it is " +
+                          metres(answer.approach),
+                      "give less, or `pressure`");
   if (!answer.converged && !problem.best_effort)
     throw Error(ErrorCode::not_converged,
                 "the approach of " + metres(approach) + " was missed by " +

@@ -75,14 +75,14 @@ struct NoHoles {
   bool operator()(auto) const { return false; }
 };
 // ny rows, checked before by require_numbers(). `is_hole` selects the numbers of missing points.
-template <class T, class IsHole = NoHoles>
+template <class T, T (*read)(const char* at) = little_endian<T>, class IsHole = NoHoles>
 Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, const IsHole& is_hole = {}) {
   Field heights(nx, ny);
   Task task(monitor, "reading", ny);
   for (int j = 0; j < ny; ++j) {
     const char* at = bytes.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) * sizeof(T);
     for (double& height : heights.row(j)) {
-      const T value = little_endian<T>(at);
+      const T value = read(at);
       height = is_hole(value) ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value);
       at += sizeof(T);
     }

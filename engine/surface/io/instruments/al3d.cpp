@@ -46,9 +46,7 @@ double tag_number(const SourceFile& file, const Al3dTags& tags, std::string_view
 }
 
 Al3dTags read_tags(const SourceFile& file) {
-  if (!recognises_al3d(file))
-    refuse_file(file, "is not an AL3D file: it does not start with AliconaImaging",
-                "if it is another format, name it with `format`");
+  require_format(file, recognises_al3d(file), "is not an AL3D file: it does not start with AliconaImaging");
   BinaryCursor cursor(file, file.bytes(), "its tags");
   cursor.skip(al3d_mark.size());
   Al3dTags tags;

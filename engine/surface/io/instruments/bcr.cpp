@@ -3,7 +3,6 @@
 // 32-bit floating-point numbers (`bcrf`, unit `zunit`, default nm). Missing points: above 1.7e38; 32767 in
 // 16 bits unless `voidpixels` is 0; a negative or fractional `voidpixels`. Layout: Gwyddion's and
 // SurfaceTopography's readers.
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -90,10 +89,8 @@ Lines lines_of(const SourceFile& file, std::size_t characters, std::string_view&
 }
 
 Lines read_lines(const SourceFile& file, std::string_view& data) {
-  if (!recognises_bcr(file))
-    refuse_file(file,
-                "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
-                "if it is another format, name it with `format`");
+  require_format(file, recognises_bcr(file),
+                 "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`");
   Lines lines = lines_of(file, header_characters, data);
   if (lines.count("headersize") == 0) return lines;
   const std::uint64_t said = count_of(file, lines, "headersize");
@@ -130,11 +127,8 @@ std::optional<double> length_of(const SourceFile& file, const Lines& lines, cons
 
 template <class T, class IsHole>
 Field heights_of(std::string_view data, int nx, int ny, bool big_endian, Monitor& monitor, IsHole&& is_hole) {
-  if (!big_endian) return field_of_numbers<T>(data, nx, ny, monitor, is_hole);
-  Array<char> swapped(data.begin(), data.begin() + static_cast<std::ptrdiff_t>(sizeof(T)) * nx * ny);
-  for (std::size_t k = 0; k < swapped.size(); k += sizeof(T))
-    std::reverse(swapped.data() + k, swapped.data() + k + sizeof(T));
-  return field_of_numbers<T>({swapped.data(), swapped.size()}, nx, ny, monitor, is_hole);
+  return big_endian ? field_of_numbers<T, asperity::big_endian<T>>(data, nx, ny, monitor, is_hole)
+                    : field_of_numbers<T>(data, nx, ny, monitor, is_hole);
 }
 
 HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {

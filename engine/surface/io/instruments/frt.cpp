@@ -23,9 +23,7 @@ struct FrtBlocks {
 };
 
 FrtBlocks read_frt_blocks(const SourceFile& file) {
-  if (!recognises_frt(file))
-    refuse_file(file, "is not an FRT file: it does not start with FRTM_GLIDERV",
-                "if it is another format, name it with `format`");
+  require_format(file, recognises_frt(file), "is not an FRT file: it does not start with FRTM_GLIDERV");
   BinaryCursor cursor(file, file.bytes(), "its blocks");
   cursor.skip(frt_mark.size());
   const std::string_view version = cursor.take(4);

@@ -31,9 +31,8 @@ bool recognises_metropro(const SourceFile& file) {
 }
 
 MetroProHeader read_metropro_header(const SourceFile& file) {
-  if (!recognises_metropro(file))
-    refuse_file(file, "is not a MetroPro file: it does not start with 88 1B 03 6F, 70 or 71",
-                "if it is another format, name it with `format`");
+  require_format(file, recognises_metropro(file),
+                 "is not a MetroPro file: it does not start with 88 1B 03 6F, 70 or 71");
   constexpr std::size_t short_header = 834, long_header = 4096;
   const std::string_view bytes = file.bytes();
   if (bytes.size() < short_header)
@@ -81,18 +80,9 @@ HeightMap read_metropro(const SourceFile& file, Monitor& monitor) {
   const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
   constexpr std::int32_t least_missing = 2147483640;
   HeightMap map;
-  map.heights = Field(nx, ny);
-  Task task(monitor, "reading", ny);
-  const double side = header.inverted ? -1.0 : 1.0;
-  std::size_t k = 0;
-  for (int j = 0; j < ny; ++j) {
-    for (double& height : map.heights.row(j)) {
-      const auto phase = big_endian<std::int32_t>(&data[sizeof(std::int32_t) * k++]);
-      height = phase >= least_missing ? std::numeric_limits<double>::quiet_NaN() : side * phase;
-    }
-    task.advance();
-  }
-  if (header.unit < 0)
+  map.heights = field_of_numbers<std::int32_t, big_endian<std::int32_t>>(
+      data, nx, ny, monitor, [](std::int32_t phase) { return phase >= least_missing; });
+  if (header.inverted != (header.unit < 0))
     for (double& height : map.heights.values()) height = -height;
   map.unit = std::abs(header.unit);
   if (header.spacing > 0) {

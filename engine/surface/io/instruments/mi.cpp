@@ -27,9 +27,8 @@ struct MiHeader {
 
 MiHeader mi_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  if (!bytes.starts_with(mi_mark))
-    refuse_file(file, "is not an MI image: it does not start with \"fileType      Image\"",
-                "if it is another format, name it with `format`");
+  require_format(file, bytes.starts_with(mi_mark),
+                 "is not an MI image: it does not start with \"fileType      Image\"");
   MiHeader header;
   std::size_t at = 0;
   while (at < bytes.size()) {

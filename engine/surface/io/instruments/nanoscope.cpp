@@ -26,9 +26,8 @@ struct NanoscopeSection {
 };
 
 std::vector<NanoscopeSection> nanoscope_sections(const SourceFile& file) {
-  if (!file.bytes().starts_with(nanoscope_mark))
-    refuse_file(file, "is not a Nanoscope file: it does not start with \\*File list",
-                "if it is another format, name it with `format`");
+  require_format(file, file.bytes().starts_with(nanoscope_mark),
+                 "is not a Nanoscope file: it does not start with \\*File list");
   std::string_view text = file.bytes();
   text = text.substr(0, text.find('\x1A'));
   std::vector<NanoscopeSection> sections;

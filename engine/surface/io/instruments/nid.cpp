@@ -26,9 +26,8 @@ struct NidHeader {
 };
 
 NidHeader nid_header(const SourceFile& file) {
-  if (!file.bytes().starts_with(nid_mark))
-    refuse_file(file, "is not a NID file: it does not start with [DataSet]",
-                "if it is another format, name it with `format`");
+  require_format(file, file.bytes().starts_with(nid_mark),
+                 "is not a NID file: it does not start with [DataSet]");
   const std::string_view bytes = file.bytes();
   const std::size_t end = bytes.find("\n#!");
   if (end == std::string_view::npos)

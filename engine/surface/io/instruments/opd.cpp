@@ -31,9 +31,7 @@ struct Block {
 
 std::vector<Block> read_directory(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  if (!bytes.starts_with(opd_mark))
-    refuse_file(file, "is not an OPD file: it does not start with a directory",
-                "if it is another format, name it with `format`");
+  require_format(file, bytes.starts_with(opd_mark), "is not an OPD file: it does not start with a directory");
   BinaryCursor head(file, bytes.substr(start), "its directory");
   head.skip(name_bytes + 2);
   const std::size_t length = head.number<std::uint32_t>();

@@ -67,6 +67,47 @@ std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
   }
 }
 
+std::string_view opdx_value(const SourceFile& file, BinaryCursor& cursor, OpdxType type,
+                            const std::string& path) {
+  switch (type) {
+    case OpdxType::boolean:
+      return cursor.take(1);
+    case OpdxType::int16:
+    case OpdxType::uint16:
+      return cursor.take(2);
+    case OpdxType::int32:
+    case OpdxType::uint32:
+    case OpdxType::single_number:
+      return cursor.take(4);
+    case OpdxType::int64:
+    case OpdxType::uint64:
+    case OpdxType::double_number:
+      return cursor.take(8);
+    case OpdxType::time_stamp:
+      return cursor.take(9);
+    case OpdxType::matrix:
+      opdx_name(cursor);
+      cursor.skip(4);
+      [[fallthrough]];
+    case OpdxType::type_id:
+    case OpdxType::array:
+    case OpdxType::names:
+    case OpdxType::positions:
+      opdx_name(cursor);
+      [[fallthrough]];
+    case OpdxType::container:
+    case OpdxType::raw_profile:
+    case OpdxType::raw_map:
+    case OpdxType::text:
+    case OpdxType::quantity:
+    case OpdxType::unit:
+      return cursor.take(opdx_length(file, cursor));
+    default:
+      refuse_file(file, "has an item " + shown(path) + " of the unknown type " +
+                            std::to_string(static_cast<int>(type)));
+  }
+}
+
 // Recursive; the path of an item starts with its container's path.
 void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::string& prefix, int depth,
                      OpdxItems& items) {
@@ -83,57 +124,9 @@ void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::
       refuse_file(file, "has an item with a name of " + std::to_string(name.size()) + " bytes",
                   "the file is damaged");
     const std::string path = prefix + "/" + std::string(name);
-    const auto sized = [&] { return cursor.take(opdx_length(file, cursor)); };
-    std::string_view value;
-    switch (type) {
-      case OpdxType::container:
-      case OpdxType::raw_profile:
-      case OpdxType::raw_map:
-        value = sized();
-        read_opdx_items(file, value, path, depth + 1, items);
-        break;
-      case OpdxType::boolean:
-        value = cursor.take(1);
-        break;
-      case OpdxType::int16:
-      case OpdxType::uint16:
-        value = cursor.take(2);
-        break;
-      case OpdxType::int32:
-      case OpdxType::uint32:
-      case OpdxType::single_number:
-        value = cursor.take(4);
-        break;
-      case OpdxType::int64:
-      case OpdxType::uint64:
-      case OpdxType::double_number:
-        value = cursor.take(8);
-        break;
-      case OpdxType::time_stamp:
-        value = cursor.take(9);
-        break;
-      case OpdxType::text:
-      case OpdxType::quantity:
-      case OpdxType::unit:
-        value = sized();
-        break;
-      case OpdxType::type_id:
-      case OpdxType::array:
-      case OpdxType::names:
-      case OpdxType::positions:
-        opdx_name(cursor);
-        value = sized();
-        break;
-      case OpdxType::matrix:
-        opdx_name(cursor);
-        cursor.skip(4);
-        opdx_name(cursor);
-        value = sized();
-        break;
-      default:
-        refuse_file(file, "has an item " + shown(path) + " of the unknown type " +
-                              std::to_string(static_cast<int>(type)));
-    }
+    const std::string_view value = opdx_value(file, cursor, type, path);
+    if (type == OpdxType::container || type == OpdxType::raw_profile || type == OpdxType::raw_map)
+      read_opdx_items(file, value, path, depth + 1, items);
     items.emplace(path, OpdxItem{type, value});
   }
 }
@@ -161,9 +154,8 @@ double opdx_metres(const SourceFile& file, const OpdxItems& items, const std::st
 }
 
 HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
-  if (!file.bytes().starts_with(opdx_mark))
-    refuse_file(file, "is not an OPDx file: it does not start with VCA DATA",
-                "if it is another format, name it with `format`");
+  require_format(file, file.bytes().starts_with(opdx_mark),
+                 "is not an OPDx file: it does not start with VCA DATA");
   OpdxItems items;
   read_opdx_items(file, file.bytes().substr(opdx_mark.size()), "", 0, items);
   const auto kind = items.find("/MetaData/DataKind");

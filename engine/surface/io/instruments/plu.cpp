@@ -35,9 +35,7 @@ bool recognises_plu(const SourceFile& file) {
 }
 
 HeightMap read_plu(const SourceFile& file, Monitor& monitor) {
-  if (!starts_with_date(file.bytes()))
-    refuse_file(file, "is not a PLU file: it does not start with a date",
-                "if it is another format, name it with `format`");
+  require_format(file, starts_with_date(file.bytes()), "is not a PLU file: it does not start with a date");
   BinaryCursor cursor(file, file.bytes(), "its header of 508 bytes");
   cursor.skip(plu_date_bytes + 4 + plu_comment_bytes);
   const std::uint64_t lines = cursor.number<std::uint32_t>(), columns = cursor.number<std::uint32_t>();

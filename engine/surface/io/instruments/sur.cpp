@@ -40,9 +40,8 @@ struct SurHeader {
 SurHeader read_header(const SourceFile& file) {
   SurHeader header;
   header.packed = file.bytes().starts_with(compressed_mark);
-  if (!header.packed && !file.bytes().starts_with(plain_mark))
-    refuse_file(file, "is not a SUR file: it does not start with DIGITAL SURF",
-                "if it is another format, name it with `format`");
+  require_format(file, header.packed || file.bytes().starts_with(plain_mark),
+                 "is not a SUR file: it does not start with DIGITAL SURF");
   BinaryCursor cursor(file, file.bytes(), "its header of 512 bytes");
   cursor.skip(plain_mark.size());
   const int order = cursor.number<std::int16_t>();
@@ -114,6 +113,29 @@ bool recognises_sur(const SourceFile& file) {
   return file.bytes().starts_with(plain_mark) || file.bytes().starts_with(compressed_mark);
 }
 
+std::uint64_t side(std::int64_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); }
+
+// The next object must start after the heights. `rest`: bytes after the compressed heights.
+void check_end(const SourceFile& file, const SurHeader& header, std::string_view data,
+               std::string_view rest) {
+  const std::uint64_t width = static_cast<std::uint64_t>(header.bits) / 8, nx = side(header.nx),
+                      ny = side(header.ny);
+  if (header.objects > 1) {
+    require_numbers(file, nx, ny, width, data.size());
+    const std::string_view next = header.packed ? rest : data.substr(nx * ny * width);
+    if (!next.empty() && !next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
+      refuse_file(file,
+                  "holds " + std::to_string(header.objects) + " objects, and no second one after the " +
+                      std::to_string(header.nx) + " x " + std::to_string(header.ny) + " heights of the first",
+                  "its header is wrong or the file is damaged");
+  } else {
+    require_exactly(file, nx, ny, width, data.size());
+    if (!rest.empty())
+      refuse_file(file, "has " + std::to_string(rest.size()) + " bytes after its compressed heights",
+                  "its header is wrong or the file is damaged");
+  }
+}
+
 HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   const SurHeader header = read_header(file);
   // 1: profile, 2: surface, 4 and 5: series.
@@ -123,7 +145,6 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   if (header.bits != 16 && header.bits != 32)
     refuse_file(file, "holds points of " + std::to_string(header.bits) + " bits",
                 "points of 16 and 32 bits are read");
-  const auto side = [](std::int64_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
   const std::uint64_t width = static_cast<std::uint64_t>(header.bits) / 8;
   std::string_view data = file.bytes().substr(header.data_at);
   SurPieces pieces;
@@ -138,22 +159,7 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
     pieces = unpack_pieces(file, data, side(header.nx) * side(header.ny) * width);
     data = {pieces.bytes.data(), pieces.bytes.size()};
   }
-  // The next object must start here.
-  if (header.objects > 1) {
-    require_numbers(file, side(header.nx), side(header.ny), width, data.size());
-    const std::string_view next =
-        header.packed ? pieces.rest : data.substr(side(header.nx) * side(header.ny) * width);
-    if (!next.empty() && !next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
-      refuse_file(file,
-                  "holds " + std::to_string(header.objects) + " objects, and no second one after the " +
-                      std::to_string(header.nx) + " x " + std::to_string(header.ny) + " heights of the first",
-                  "its header is wrong or the file is damaged");
-  } else {
-    require_exactly(file, side(header.nx), side(header.ny), width, data.size());
-    if (!pieces.rest.empty())
-      refuse_file(file, "has " + std::to_string(pieces.rest.size()) + " bytes after its compressed heights",
-                  "its header is wrong or the file is damaged");
-  }
+  check_end(file, header, data, pieces.rest);
   const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
   const std::int64_t missing = std::int64_t{header.least} - 2;
   const auto is_hole = [&](auto value) { return header.special && std::int64_t{value} == missing; };

@@ -15,6 +15,7 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/surface.hpp"
 
@@ -38,10 +39,9 @@ struct SurSteps {
 float single(double value, const std::string& path, const char* what) {
   const auto rounded = static_cast<float>(value);
   if (!std::isfinite(rounded))
-    throw Error(ErrorCode::bad_value,
-                file_name(path) + " cannot be written: its " + what + " of " + format_short(value) +
-                    " mm is more than a SUR file holds",
-                "write .x3p, .h5 or .npy");
+    refuse(file_name(path) + " cannot be written: its " + what + " of " + format_short(value) +
+               " mm is more than a SUR file holds",
+           "write .x3p, .h5 or .npy");
   return rounded;
 }
 
@@ -120,9 +120,8 @@ void write_sur(const Surface& surface, const std::string& path, Monitor& monitor
   const Grid& grid = surface.grid();
   const Field& heights = surface.measured_heights();
   if (grid.nodes() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw Error(ErrorCode::bad_value,
-                "a surface of " + std::to_string(grid.nodes()) + " heights does not fit into a SUR file",
-                "write .h5 or .npy");
+    refuse("a surface of " + std::to_string(grid.nodes()) + " heights does not fit into a SUR file",
+           "write .h5 or .npy");
   const Range range = surface.height_range();
   const SurSteps steps = steps_of(range, path);
   const std::int32_t least = steps.number(range.min), most = steps.number(range.max);

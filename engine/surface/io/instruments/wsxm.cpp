@@ -27,9 +27,8 @@ struct WsxmHeader {
 
 WsxmHeader wsxm_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  if (!bytes.starts_with(wsxm_mark))
-    refuse_file(file, "is not a WSxM file: it does not start with \"WSxM file copyright\"",
-                "if it is another format, name it with `format`");
+  require_format(file, bytes.starts_with(wsxm_mark),
+                 "is not a WSxM file: it does not start with \"WSxM file copyright\"");
   LineReader reader(bytes);
   std::string_view line;
   std::string section;

@@ -116,6 +116,9 @@ class AdhesiveDescent {
       for_nodes(nodes_, [&](std::size_t k) { p_[k] = drop_[k] < deep_ ? target : 0.0; });
   }
   double contact(double close, double target);
+  void balance_contact_gaps();
+  double precondition(bool fixed, double contacts);
+  void step_back(double step, std::optional<double> target);
 
   CostScope scope_;
   Cost first_contact_;
@@ -134,6 +137,50 @@ class AdhesiveDescent {
   double off_ = std::numeric_limits<double>::infinity(), touch_ = 0;
 };
 
+void AdhesiveDescent::balance_contact_gaps() {
+  const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
+    v[0] = p_[k] > 0 ? g_[k] : 0.0;
+    v[1] = p_[k] > 0 ? 1.0 : 0.0;
+  });
+  const double shift = sums[0] / sums[1];
+  approach += shift;
+  for_nodes(nodes_, [&](std::size_t k) { g_[k] -= shift; });
+}
+
+// z from the residual r; returns r·z.
+double AdhesiveDescent::precondition(bool fixed, double contacts) {
+  const std::uint8_t* const free = free_.data();
+  preconditioner_.apply(r_, z_);
+  const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
+    v[0] = free[k] ? z_[k] : 0.0;
+    v[1] = r_[k];
+  });
+  // The preconditioner ignores constants; the longest wave approximates them.
+  const double level = fixed ? -sums[0] / contacts
+                             : std::numbers::pi / std::max<double>(grid_.nx, grid_.ny) / contacts * sums[1];
+  return over_nodes<1>(nodes_, [&](std::size_t k, double* v) {
+    z_[k] = free[k] ? z_[k] + level : 0.0;
+    v[0] = r_[k] * z_[k];
+  })[0];
+}
+
+// Halves a step that leaves the bounds until the energy falls. `target`: mean pressure under a load.
+void AdhesiveDescent::step_back(double step, std::optional<double> target) {
+  for_nodes(nodes_, [&](std::size_t k) {
+    before_[k] = p_[k];
+    r_[k] = g_[k];
+  });
+  for (int half = 0; half < 30; ++half, step *= 0.5) {
+    for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
+    if (target) scale_to(*target);
+    find_gap();
+    // Quadratic energy: its change is Σ Δp times the mean of both gaps.
+    const double change = over_nodes<1>(
+        nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
+    if (change <= 0) break;
+  }
+}
+
 // Contact with fixed attraction: p >= 0, g = K (p − q) + d − δ >= 0, p g = 0, to `close` in the gap. Under a
 // load mean p = target and the mean contact gap is 0. Preconditioned projected conjugate gradients (Polonsky
 // & Keer 1999), restarted when the contact set changes.
@@ -145,15 +192,7 @@ double AdhesiveDescent::contact(double close, double target) {
   double old_rz = 0, worst = std::numeric_limits<double>::infinity();
   std::uint8_t* const free = free_.data();
   for (int pass = 0; pass < most_passes && applications_ < most_applications; ++pass) {
-    if (fixed) {
-      const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
-        v[0] = p_[k] > 0 ? g_[k] : 0.0;
-        v[1] = p_[k] > 0 ? 1.0 : 0.0;
-      });
-      const double shift = sums[0] / sums[1];
-      approach += shift;
-      for_nodes(nodes_, [&](std::size_t k) { g_[k] -= shift; });
-    }
+    if (fixed) balance_contact_gaps();
     const auto found = over_nodes<3, 1>(nodes_, [&](std::size_t k, double* v) {
       const std::uint8_t in = p_[k] > 0 || g_[k] < 0 ? 1 : 0;
       v[0] = in != free[k] ? 1.0 : 0.0;
@@ -164,9 +203,9 @@ double AdhesiveDescent::contact(double close, double target) {
     });
     worst = -found[3];
     if (!std::isfinite(worst))
-      throw Error(ErrorCode::infeasible,
-                  "the numbers of this contact overflow: load, attraction, range and cells are too far apart",
-                  "check the units of `work`, `range`, the load and the size");
+      refuse_infeasible(
+          "the numbers of this contact overflow: load, attraction, range and cells are too far apart",
+          "check the units of `work`, `range`, the load and the size");
     if (worst <= close || found[1] == 0) break;
     const double middle = fixed ? found[2] / found[1] : 0.0;
     for_nodes(nodes_, [&](std::size_t k) { r_[k] = free[k] ? middle - g_[k] : 0.0; });
@@ -174,18 +213,7 @@ double AdhesiveDescent::contact(double close, double target) {
       same = false;
       preconditioner_.set_free(free_);
     }
-    preconditioner_.apply(r_, z_);
-    const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
-      v[0] = free[k] ? z_[k] : 0.0;
-      v[1] = r_[k];
-    });
-    // The preconditioner ignores constants; the longest wave approximates them.
-    const double level = fixed ? -sums[0] / found[1]
-                               : std::numbers::pi / std::max<double>(grid_.nx, grid_.ny) / found[1] * sums[1];
-    const double rz = over_nodes<1>(nodes_, [&](std::size_t k, double* v) {
-      z_[k] = free[k] ? z_[k] + level : 0.0;
-      v[0] = r_[k] * z_[k];
-    })[0];
+    const double rz = precondition(fixed, found[1]);
     const double keep = same && old_rz > 0 ? rz / old_rz : 0.0;
     old_rz = rz;
     for_nodes(nodes_, [&](std::size_t k) { direction_[k] = free[k] ? z_[k] + keep * direction_[k] : 0.0; });
@@ -200,7 +228,7 @@ double AdhesiveDescent::contact(double close, double target) {
       old_rz = 0;
       continue;
     }
-    double step = slope[0] / slope[1];
+    const double step = slope[0] / slope[1];
     const double clipped = over_nodes<1>(
         nodes_, [&](std::size_t k, double* v) { v[0] = p_[k] + step * direction_[k] < 0 ? 1.0 : 0.0; })[0];
     same = clipped == 0;
@@ -211,19 +239,7 @@ double AdhesiveDescent::contact(double close, double target) {
       });
       continue;
     }
-    for_nodes(nodes_, [&](std::size_t k) {
-      before_[k] = p_[k];
-      r_[k] = g_[k];
-    });
-    for (int half = 0; half < 30; ++half, step *= 0.5) {
-      for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
-      if (fixed) scale_to(target);
-      find_gap();
-      // Quadratic energy: its change is Σ Δp times the mean of both gaps.
-      const double change = over_nodes<1>(
-          nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
-      if (change <= 0) break;
-    }
+    step_back(step, fixed ? std::optional(target) : std::nullopt);
   }
   return worst;
 }
@@ -355,11 +371,10 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
     const auto h = contact.heights->values();
     const double most = range(h).max - mean(h);
     if (approach >= most)
-      throw Error(ErrorCode::infeasible,
-                  "an approach of " + format_quantity(approach, dimension::length) +
-                      " cannot be reached: this periodic tile is in full contact at " +
-                      format_quantity(most, dimension::length) + ", and more load brings it no nearer",
-                  "ask for a smaller `approach`, or press by `pressure`");
+      refuse_infeasible("an approach of " + format_quantity(approach, dimension::length) +
+                            " cannot be reached: this periodic tile is in full contact at " +
+                            format_quantity(most, dimension::length) + ", and more load brings it no nearer",
+                        "ask for a smaller `approach`, or press by `pressure`");
   }
   AdhesiveDescent descent(problem, 0, approach, monitor);
   if (start != nullptr) descent.begin_from(*start);
@@ -373,8 +388,7 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
 AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
                                   const AdhesiveAnswer* start, Monitor& monitor) {
   if (!std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "the mean pressure is " + format_short(mean_pressure) + " Pa",
-                "give a finite pressure");
+    refuse("the mean pressure is " + format_short(mean_pressure) + " Pa", "give a finite pressure");
   AdhesiveDescent descent(problem, mean_pressure, 0, monitor);
   if (start != nullptr)
     descent.begin_from(*start);
@@ -383,11 +397,10 @@ AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pr
   descent.load = mean_pressure / problem.contact.modulus;
   descent.run(problem.contact.tolerance);
   if (descent.separates)
-    throw Error(ErrorCode::infeasible,
-                "the bodies separate under a mean pressure of " +
-                    format_quantity(mean_pressure, dimension::pressure) +
-                    ": past the pull-off no contact carries the pull",
-                "pull by less, or prescribe the `approach`");
+    refuse_infeasible("the bodies separate under a mean pressure of " +
+                          format_quantity(mean_pressure, dimension::pressure) +
+                          ": past the pull-off no contact carries the pull",
+                      "pull by less, or prescribe the `approach`");
   AdhesiveAnswer answer = descent.answer();
   finish(problem, answer, mean_pressure);
   return answer;

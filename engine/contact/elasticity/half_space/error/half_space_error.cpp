@@ -2,6 +2,7 @@
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -88,7 +89,10 @@ class Bounds {
   void take_residual();
   void bracket_approach();
   void follow_asked_approach();
-  double step_norm(std::span<const double> step);
+  double norm_by_image();
+  double step_norm();     // ‖work_‖_K
+  double inverse_norm();  // ‖work_‖_{K⁻¹}
+  std::array<double, 9> states();
   SolutionError result();
 
   const HalfSpaceProblem& problem_;
@@ -189,10 +193,7 @@ void Bounds::take_residual() {
   rest_ = sums[1];
   mean_residual_ = periodic_ ? sums[0] / n_ : 0;
   for_nodes(nodes_, [&](std::size_t k) { work_[k] -= mean_residual_; });
-  compliance_.apply_period_inverse(work_, image_);
-  const double squares =
-      over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = work_[k] * image_[k]; })[0];
-  residual_ = spectrum_.least > 0 ? std::sqrt(std::max(0.0, squares)) : infinity;
+  residual_ = inverse_norm();
   residual_ += std::sqrt(spectrum_.inverse_node * sums[3]) * gap_rounding_;
 
   const double base = distance_;
@@ -208,11 +209,20 @@ void Bounds::take_residual() {
   slack_ += base * (base + distance_);
 }
 
-double Bounds::step_norm(std::span<const double> step) {
-  compliance_.apply(step, image_);
+double Bounds::norm_by_image() {
   const double squares =
-      over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = step[k] * image_[k]; })[0];
+      over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = work_[k] * image_[k]; })[0];
   return std::sqrt(std::max(0.0, squares));
+}
+
+double Bounds::step_norm() {
+  compliance_.apply(work_, image_);
+  return norm_by_image();
+}
+
+double Bounds::inverse_norm() {
+  compliance_.apply_period_inverse(work_, image_);
+  return spectrum_.least > 0 ? norm_by_image() : infinity;
 }
 
 // δ*, slope of the least energy over Σ p, is between difference quotients of energies known to `slack_`.
@@ -260,7 +270,7 @@ void Bounds::bracket_approach() {
       v[1] = v[0] * gap_[k];
     });
     if (room[0] > 0) {
-      const double norm = step_norm(work_) / room[0];
+      const double norm = step_norm() / room[0];
       along(room[1] / room[0], norm * norm, room[0], room[0]);
     }
   }
@@ -295,10 +305,7 @@ void Bounds::follow_asked_approach() {
     if (periodic_ && count == n_) break;
     const double outside = periodic_ ? -count / (n_ - count) : 0;
     for_nodes(nodes_, [&](std::size_t k) { work_[k] = inside(k) ? 1.0 : outside; });
-    compliance_.apply_period_inverse(work_, image_);
-    const double squares =
-        over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = work_[k] * image_[k]; })[0];
-    const double sigma = spectrum_.least > 0 ? std::sqrt(std::max(0.0, squares)) : infinity;
+    const double sigma = inverse_norm();
     const double farthest =
         (start - greatest_root(residual_, rest_)) + greatest_root(residual_ + pull * sigma, rest_);
     const double needed = own * farthest + moved + gap_rounding_;
@@ -313,9 +320,10 @@ void Bounds::follow_asked_approach() {
   distance_ = load_error_ = infinity;
 }
 
-SolutionError Bounds::result() {
+// Sums over certain and possible states of nodes.
+std::array<double, 9> Bounds::states() {
   const bool caps = std::isfinite(cap_), hardens = give_ > 0;
-  const auto counts = over_nodes<9>(nodes_, [&](std::size_t k, double* v) {
+  return over_nodes<9>(nodes_, [&](std::size_t k, double* v) {
     if (!faces(k)) {
       std::fill_n(v, 9, 0.0);
       return;
@@ -337,6 +345,11 @@ SolutionError Bounds::result() {
     v[7] = std::abs(gap) <= unsure ? unsure : 0.0;
     v[8] = std::max(0.0, gap);
   });
+}
+
+SolutionError Bounds::result() {
+  const bool caps = std::isfinite(cap_), hardens = give_ > 0;
+  const std::array<double, 9> counts = states();
   const auto whole = [](double count) { return static_cast<std::int64_t>(count); };
   SolutionError error;
   error.contacts = {whole(counts[0]), whole(counts[1])};
@@ -358,7 +371,7 @@ SolutionError Bounds::result() {
       for_nodes(nodes_, [&](std::size_t k) {
         work_[k] = gap_[k] < -(near_gap_ + relative_rounding * std::abs(gap_[k])) ? 1.0 : 0.0;
       });
-      openings += step_norm(work_) * distance_;
+      openings += step_norm() * distance_;
     }
     const double volume = metre_ * problem_.grid.cell_area();
     const double apart = std::abs(reported_.plastic_volume / volume - counts[5]);

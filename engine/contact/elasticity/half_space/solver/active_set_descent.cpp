@@ -160,6 +160,7 @@ class Descent {
   double turn();
   Along<Stored> along(int j) const;
   void settle_step(const ContactQuality& at, bool afresh);
+  double yield_settled();
   bool descend(int steps);
 
   ContactLevel& level_;
@@ -287,6 +288,20 @@ Along<Stored> Descent<Limit, Stored>::along(int j) const {
   return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
+// Settled nodes yield from now on. Returns the sum of the balancing gaps.
+template <class Limit, class Stored>
+double Descent<Limit, Stored>::yield_settled() {
+  for (std::uint8_t& kind : f_.free)
+    if (kind == settling) kind = yielding;
+  set_.yielding_count += set_.settling_count;
+  set_.settling_count = 0;
+  preconditioner_.set_free(f_.free);
+  return over_nodes<1>(nodes(), [n = view(), now = set_.balancing()](std::size_t k, double* v) {
+    const double gap = n.total_gap(k);
+    v[0] = n.free[k] == now ? gap : 0.0;
+  })[0];
+}
+
 // Settling (and a fixed step if K is expensive) with one application, which updates the gaps or recomputes
 // them in double.
 template <class Limit, class Stored>
@@ -346,19 +361,8 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
     level_.apply_in_double(source, sink, f_.image);  // in place: row j is read before it is written
   else
     level_.apply(source, sink, rounds_);
-  auto sums = added_up(rows);
-  if (set_.settling_count > 0) {
-    for (std::uint8_t& kind : f_.free)
-      if (kind == settling) kind = yielding;
-    set_.yielding_count += set_.settling_count;
-    set_.settling_count = 0;
-    preconditioner_.set_free(f_.free);
-    sums = over_nodes<1>(nodes(), [n = view(), now = set_.balancing()](std::size_t k, double* v) {
-      const double gap = n.total_gap(k);
-      v[0] = n.free[k] == now ? gap : 0.0;
-    });
-  }
-  mean_gap_ = sums[0] / set_.balancing_count();
+  const double gaps = set_.settling_count > 0 ? yield_settled() : added_up(rows)[0];
+  mean_gap_ = gaps / set_.balancing_count();
 }
 
 // `steps` were taken already. Returns false without any step.

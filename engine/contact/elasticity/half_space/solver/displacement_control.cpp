@@ -45,7 +45,11 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
 namespace {
 
 // Pressures so large that the height terms vanish in rounding are rejected.
-void check_approach_within_full_contact(const HalfSpaceProblem& problem, double approach) {
+void check_approach(const HalfSpaceProblem& problem, double approach) {
+  if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
+    refuse("`approach` is " + format_short(approach) +
+               " m, less than 1e-280 of the tile: no double holds the pressures it takes",
+           "give a larger approach, or none");
   if (problem.boundary != Boundary::periodic) return;
   const auto heights = problem.heights->values();
   const Range span = range(heights);
@@ -55,11 +59,10 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
     // A layer is compressed further, up to its hardness.
     const double most = span.span() + uniform * law.cap;
     if (!law.caps() || approach < most) return;
-    throw Error(ErrorCode::infeasible,
-                "an approach of " + metres(approach) +
-                    " cannot be reached: all of this tile is at its hardness at " + metres(most) +
-                    ", and carries no more",
-                "ask for a smaller `approach`, or press by `pressure`");
+    refuse_infeasible("an approach of " + metres(approach) +
+                          " cannot be reached: all of this tile is at its hardness at " + metres(most) +
+                          ", and carries no more",
+                      "ask for a smaller `approach`, or press by `pressure`");
   }
   if (law.hardens()) {
     constexpr double greatest_ratio = 1e12;
@@ -67,20 +70,18 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
     const double held =
         greatest_ratio * problem.modulus * std::max(problem.rms, approach) / problem.grid.hx();
     if (needed <= held || approach <= full) return;
-    throw Error(ErrorCode::infeasible,
-                "an approach of " + metres(approach) +
-                    " cannot be reached: this periodic tile is in full contact at " + metres(full) +
-                    ", and past it `hardening` would take a mean pressure of " +
-                    format_quantity(needed, dimension::pressure),
-                "ask for a smaller `approach`, or give a smaller `hardening`");
+    refuse_infeasible("an approach of " + metres(approach) +
+                          " cannot be reached: this periodic tile is in full contact at " + metres(full) +
+                          ", and past it `hardening` would take a mean pressure of " +
+                          format_quantity(needed, dimension::pressure),
+                      "ask for a smaller `approach`, or give a smaller `hardening`");
   }
   const double most = law.caps() ? span.span() : full;
   if (approach >= most)
-    throw Error(ErrorCode::infeasible,
-                "an approach of " + metres(approach) +
-                    " cannot be reached: this periodic tile is in full contact at " + metres(most) +
-                    ", and more load brings it no nearer",
-                "ask for a smaller `approach`, or press by `pressure`");
+    refuse_infeasible("an approach of " + metres(approach) +
+                          " cannot be reached: this periodic tile is in full contact at " + metres(most) +
+                          ", and more load brings it no nearer",
+                      "ask for a smaller `approach`, or press by `pressure`");
 }
 
 // Beyond full contact a layer is linear. Empty below full contact, with yield, and on a half-space.
@@ -97,15 +98,10 @@ std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem
 
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach),
-                "an approach is finite and not negative, measured from first touch");
+    refuse("`approach` is " + metres(approach),
+           "an approach is finite and not negative, measured from first touch");
   if (approach == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
-  if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
-    throw Error(ErrorCode::bad_value,
-                "`approach` is " + format_short(approach) +
-                    " m, less than 1e-280 of the tile: no double holds the pressures it takes",
-                "give a larger approach, or none");
-  check_approach_within_full_contact(problem, approach);
+  check_approach(problem, approach);
   if (const auto pressure = pressure_past_full_contact(problem, approach)) {
     HalfSpaceAnswer answer = solve_at_pressure(problem, *pressure, nullptr, monitor);
     answer.approach = approach;  // exact up to rounding

@@ -316,12 +316,30 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
+// Solves at `approach`, halving the step from `answer` on failure.
+HalfSpaceAnswer solve_nearer(const HalfSpaceProblem& now, const HalfSpaceAnswer& answer, double wanted,
+                             double& approach, int& stalls, int& applications, int most_applications,
+                             Monitor& monitor) {
+  constexpr int most_stalls = 5;
+  HalfSpaceAnswer found;
+  for (;;) {
+    found = {};  // free the memory first
+    HalfSpaceAnswer start = answer;
+    found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
+    applications += found.iterations;
+    if (found.converged || approach == answer.approach || ++stalls > most_stalls ||
+        applications > most_applications)
+      return found;
+    approach = 0.5 * (approach + answer.approach);
+  }
+}
+
 // Continues in the approach from a solved contact, in steps of at most `furthest`, halved on failure. With
 // yield on long cells such solves take a few passes, while solves at a load need the last resort. Failure:
 // the last converged contact, marked unconverged.
 HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
                                      int most_applications, Monitor& monitor) {
-  constexpr int most_solves = 40, most_stalls = 5;
+  constexpr int most_solves = 40;
   constexpr double furthest = 0.3;  // greatest relative step
   constexpr double more = 4;        // growth of steps until both sides are known
   constexpr double good = 0.1;      // greatest certificate of a useful start
@@ -366,17 +384,8 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
     if (!(next > 0)) break;
     double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
-    HalfSpaceAnswer found;
-    for (;;) {
-      found = {};  // free the memory first
-      HalfSpaceAnswer start = answer;
-      found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
-      applications += found.iterations;
-      if (found.converged || approach == answer.approach || ++stalls > most_stalls ||
-          applications > most_applications)
-        break;
-      approach = 0.5 * (approach + answer.approach);
-    }
+    HalfSpaceAnswer found =
+        solve_nearer(now, answer, wanted, approach, stalls, applications, most_applications, monitor);
     if (!found.converged) break;
     if (approach != answer.approach)
       reach = std::min(furthest, more * std::abs(approach / answer.approach - 1));

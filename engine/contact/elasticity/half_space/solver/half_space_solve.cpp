@@ -12,6 +12,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -68,13 +69,12 @@ void check_fields(const HalfSpaceProblem& problem) {
 void check(const HalfSpaceProblem& problem, double mean_pressure) {
   check_fields(problem);
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
-    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
-                "a mean pressure is finite and not negative: nothing here pulls");
+    refuse("`pressure` is " + pascals(mean_pressure),
+           "a mean pressure is finite and not negative: nothing here pulls");
   if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
-    throw Error(ErrorCode::bad_value,
-                "`pressure` is " + format_short(mean_pressure) +
-                    " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
-                "give a larger pressure, or none");
+    refuse("`pressure` is " + format_short(mean_pressure) +
+               " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
+           "give a larger pressure, or none");
   const YieldLaw& law = problem.yield;
   const double facing = facing_share(problem);
   if (law.caps() && mean_pressure >= law.cap * facing) {
@@ -82,15 +82,13 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     if (facing < 1)
-      throw Error(ErrorCode::infeasible,
-                  "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
-                      shown(law.cap) + ", and the bodies face each other on " +
-                      format_short(100 * facing, 3) + " % of the tile",
-                  "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
-    throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
-                    shown(law.cap) + ", and every node would have to carry as much or more",
-                "press with less than the hardness, or give `hardening`");
+      refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                            shown(law.cap) + ", and the bodies face each other on " +
+                            format_short(100 * facing, 3) + " % of the tile",
+                        "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
+    refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                          shown(law.cap) + ", and every node would have to carry as much or more",
+                      "press with less than the hardness, or give `hardening`");
   }
 }
 
@@ -174,9 +172,8 @@ double peak_of(const HalfSpaceProblem& problem) {
 Field with_missing_ground_at(const HalfSpaceProblem& problem, double there, const std::string& asked) {
   Field heights = *problem.heights;
   if (!std::isfinite(there))
-    throw Error(ErrorCode::bad_value,
-                asked + ", so large that the numbers of the solution leave the range of a double",
-                "check its unit");
+    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
+           "check its unit");
   for (double& h : heights.values())
     if (std::isnan(h)) h = there;
   return heights;
@@ -428,9 +425,8 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   if (problem.overhangs) {
     // Pressure lifts no node of a free tile, so deeper nodes never touch.
     cell.lowest = ends.min;
-    out_of_the_way =
-        with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
-                               "the approach is " + format_quantity(approach, dimension::length));
+    out_of_the_way = with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
+                                            "the approach is " + metres(approach));
   }
   cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
   cell.origin = units.origin;

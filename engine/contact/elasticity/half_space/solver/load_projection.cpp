@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
@@ -13,16 +12,6 @@
 namespace asperity {
 
 namespace {
-constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-constexpr double noticed = 1e-13;  // of the load
-
-struct Carried {
-  double load;      // Σ clip(y + λ)
-  double interior;  // moved nodes strictly between the bounds
-  double values;    // Σ y over them
-  double bound;     // load of moved nodes at the upper bound
-};
-
 struct Everywhere {
   bool operator()(std::size_t) const { return true; }
 };
@@ -32,7 +21,7 @@ struct Somewhere {
 };
 
 template <class Where>
-Carried carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
+LoadAtShift carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
   const auto sums = over_nodes<4>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
     const bool here = where(k);
     const double value = y[k] - (here ? origin : 0.0), x = value + (here ? shift : 0.0);
@@ -68,39 +57,23 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
   // From all moved nodes at 0 to all at the bound, or one with the whole load. Shifts for small loads count
   // from the greatest value: rounding must not decide the few nodes in contact.
   const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
-  double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
-  double shift = std::clamp(origin, low, std::max(low, high));
-  double best = infinity, best_shift = shift;
-  for (int step = 0; step < 200; ++step) {
-    const Carried at = carried(y, where, upper, origin, shift);
-    const double excess = at.load - load;
-    if (std::abs(excess) < best) {
-      best = std::abs(excess);
-      best_shift = shift;
-    }
-    if (std::abs(excess) <= round_off * load) break;
-    (excess > 0 ? high : low) = shift;
-    // Without cancellation; otherwise by the excess, which resolves finer shifts than the sums.
-    double next = (load - fixed - at.bound - at.values) / at.interior;
-    if (!(next > low && next < high)) next = shift - excess / at.interior;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == shift || !(next > low && next < high)) break;
-    shift = next;
-  }
+  const auto [low, high, at, found] =
+      find_load_shift(origin - greatest, std::min(upper, load) - (moved[2] - origin), origin, load, fixed,
+                      true, [&](double shift) { return carried(y, where, upper, origin, shift); });
   const auto clipped = [=, y = y.data()](std::size_t k, double by) {
     const bool here = where(k);
     const double x = (y[k] - (here ? origin : 0.0)) + (here ? by : 0.0);
     return std::min(std::max(x, 0.0), upper);
   };
-  if (best <= noticed * load) {
-    for_nodes(y.size(), [=, target = target.data()](std::size_t k) { target[k] = clipped(k, best_shift); });
+  if (found) {
+    for_nodes(y.size(), [=, target = target.data(), by = at](std::size_t k) { target[k] = clipped(k, by); });
     return true;
   }
   // Huge values: two neighbouring shifts carry too little and too much.
   const double least = carried(y, where, upper, origin, low).load;
   const double most = carried(y, where, upper, origin, high).load;
   const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
-  for_nodes(y.size(), [=, target = target.data()](std::size_t k) {
+  for_nodes(y.size(), [=, target = target.data(), low = low, high = high](std::size_t k) {
     const double from = clipped(k, low);
     target[k] = from + share * (clipped(k, high) - from);
   });

@@ -91,10 +91,9 @@ HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double me
 
 HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
   if (const auto most = most_at_the_cap(problem, answer))
-    throw Error(ErrorCode::infeasible,
-                what + " is not reached: all of the " + (problem.overhangs ? "overlap" : "tile") +
-                    " is at its hardness at " + metres(*most) + ", and no more can be had",
-                "ask for less, or press by `pressure`");
+    refuse_infeasible(what + " is not reached: all of the " + (problem.overhangs ? "overlap" : "tile") +
+                          " is at its hardness at " + metres(*most) + ", and no more can be had",
+                      "ask for less, or press by `pressure`");
   if (answer.converged || problem.best_effort) return answer;
   throw Error(ErrorCode::not_converged,
               what + " was sought to a residual of " + format_short(answer.certificate.worst(), 3) +

@@ -24,6 +24,11 @@ void DescentProgress::report(double begin, double end, double residual, double t
   done_ = std::max(done_, now);
 }
 
+std::function<void(double)> DescentProgress::next_grid(double weight, double all, double tolerance) {
+  const double begin = work_done_ / all, end = (work_done_ += weight) / all;
+  return [=, this](double residual) { report(begin, end, residual, tolerance); };
+}
+
 namespace {
 
 double greatest(std::span<const double> values) {
@@ -143,13 +148,7 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
 
 void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
                   std::span<double> p) {
-  for_nodes(p.size(), [&](std::size_t k) {
-    const double apart = stiffness * (gap[k] - offset);
-    if (p[k] <= 0)
-      p[k] = std::min(0.0, -apart);
-    else if (p[k] >= upper)
-      p[k] = upper + std::max(0.0, -apart);
-  });
+  for_nodes(p.size(), [&](std::size_t k) { p[k] = level_set(p[k], upper, stiffness * (gap[k] - offset)); });
 }
 
 void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
@@ -205,6 +204,48 @@ void snap_to_bounds(double upper, std::span<double> p) {
   });
 }
 
+// Descends from the pressures in `fields`, at the offset or under the load. `gap`: of a start, or empty.
+DescentEnd descend_on_grid(const CellProblem& problem, std::span<const double> heights,
+                           std::span<const double> gap, bool finest, double tolerance, ContactLevel& level,
+                           DescentFields& fields, ContactQuality& at, bool& from_peak) {
+  const double upper = greatest_pressure(level.limit), lowest = problem.lowest;
+  const ChainEffort effort = finest ? problem.effort : ChainEffort::start;
+  UnsetArray<double>& p = fields.pressure;
+  if (problem.offset) {
+    if (!gap.empty())
+      std::copy(gap.begin(), gap.end(), fields.gap.begin());
+    else
+      for_nodes(p.size(), [upper, lowest, h = heights.data(), p = p.data()](std::size_t k) {
+        p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
+      });
+    const DescentEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, !gap.empty());
+    if (!end.converged) level.gap(p, fields.gap);
+    at.offset = at.interior_gap = *problem.offset;
+    from_peak = true;
+    return end;
+  }
+  if (!gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, gap, p);
+  if (std::isfinite(lowest)) {
+    // Below any shift to the load.
+    for (std::size_t k = 0; k < p.size(); ++k)
+      if (heights[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
+  }
+  project_to_load(p, {}, upper, level.total_load(), p);
+  DescentEnd end = run_chain(level, fields, tolerance, effort);
+  if (!end.converged) level.gap(p, fields.gap);
+  from_peak = finest && LightContact(level, fields, problem).refine(end);
+  for (int round = 0;; ++round) {
+    if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+    at = contact_quality(level, p, fields.gap);
+    if (!finest || from_peak || !end.converged || at.residual <= tolerance) return end;
+    // Snapped nodes no longer balance the load.
+    end.converged = round < most_snaps;
+    if (!end.converged) return end;
+    end = run_chain(level, fields, tolerance, problem.effort);
+    if (!end.converged) level.gap(p, fields.gap);
+  }
+}
+
 CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
   const bool begun = !start.pressure.empty();
   const bool elsewhere = begun && (start.nx != problem.shape.nx || start.ny != problem.shape.ny);
@@ -214,28 +255,22 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   UnsetArray<double> carried;  // level-set field of the coarser grid
-  double all_work = 0, work_done = 0;
+  double all_work = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
 
   for (std::size_t l = steps.size(); l-- > 0;) {
     Step& step = steps[l];
     const bool finest = l == 0;
-    const std::size_t nodes = step.shape.nodes();
     const PressureLimit limit = limit_on(problem.limit, step);
     const double upper = greatest_pressure(limit);
     const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
     ContactLevel level(step.shape, raw, problem.origin, problem.factor, limit, step.mean_pressure);
     level.length = problem.length;
     const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
-    const double begin = work_done / all_work;
-    work_done += step.shape.weight;
-    level.report = [&](double residual) {
-      progress.report(begin, work_done / all_work, residual, tolerance);
-    };
+    level.report = progress.next_grid(step.shape.weight, all_work, tolerance);
 
-    DescentFields fields(nodes);
+    DescentFields fields(step.shape.nodes());
     UnsetArray<double>& p = fields.pressure;
-    const double lowest = problem.lowest;
     if (elsewhere) {
       prolong_start(start, upper, level, p);
     } else if (begun) {
@@ -247,42 +282,9 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
       prolong(from, carried, 1 / from.pitch_x, step.shape, p);
       carried = UnsetArray<double>();
     }
-    DescentEnd end;
     ContactQuality at;
-    if (problem.offset) {
-      if (gap_known)
-        std::copy(start.gap.begin(), start.gap.end(), fields.gap.begin());
-      else
-        for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
-          p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
-        });
-      const ChainEffort effort = finest ? problem.effort : ChainEffort::start;
-      end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
-      if (!end.converged) level.gap(p, fields.gap);
-      at.offset = at.interior_gap = *problem.offset;
-      answer.from_peak = true;
-    } else {
-      if (gap_known) to_level_set(upper, level.short_wave_stiffness, 0, start.gap, p);
-      if (std::isfinite(lowest)) {
-        // Below any shift to the load.
-        for (std::size_t k = 0; k < nodes; ++k)
-          if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
-      }
-      project_to_load(p, {}, upper, level.total_load(), p);
-      end = run_chain(level, fields, tolerance, finest ? problem.effort : ChainEffort::start);
-      if (!end.converged) level.gap(p, fields.gap);
-      answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
-      for (int round = 0;; ++round) {
-        if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
-        at = contact_quality(level, p, fields.gap);
-        if (!finest || answer.from_peak || !end.converged || at.residual <= tolerance) break;
-        // Snapped nodes no longer balance the load.
-        end.converged = round < most_snaps;
-        if (!end.converged) break;
-        end = run_chain(level, fields, tolerance, problem.effort);
-        if (!end.converged) level.gap(p, fields.gap);
-      }
-    }
+    const DescentEnd end = descend_on_grid(problem, raw, gap_known ? start.gap : std::span<const double>(),
+                                           finest, tolerance, level, fields, at, answer.from_peak);
     if (finest) {
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);

@@ -4,6 +4,8 @@
 // Also light contacts and full contact.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -21,11 +23,14 @@ class DescentProgress {
   DescentProgress(Monitor& monitor, const char* of) : task_(monitor, of, total) {}
   // `begin` to `end`: the grid's share of the work.
   void report(double begin, double end, double residual, double tolerance);
+  // For the next grid, of `weight` in `all` the work.
+  std::function<void(double)> next_grid(double weight, double all, double tolerance);
 
  private:
   static constexpr std::int64_t total = 1000;
   Task task_;
   std::int64_t done_ = 0;
+  double work_done_ = 0;
 };
 
 struct CellProblem {
@@ -62,6 +67,11 @@ struct CellStart {
   int nx = 0, ny = 0;
   std::span<const double> pressure, gap;
 };
+
+// At a bound, the distance of the gap from leaving it, in pressure, replaces the pressure.
+inline double level_set(double p, double upper, double apart) {
+  return p <= 0 ? std::min(0.0, -apart) : p >= upper ? upper + std::max(0.0, -apart) : p;
+}
 
 // Nested grids are used without a start. Does not throw if the solve fails.
 CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor);
