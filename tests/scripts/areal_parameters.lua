@@ -44,12 +44,12 @@ assert(r.how == "F-operation of degree 1, mean removed")
 local smooth = s:areal_parameters{ S="32 um" }
 assert(smooth.Sq < 0.1 * p.Sq and smooth.how:find("S-filter 32 um", 1, true))
 
--- What a flat has is none of them, and no number.
+-- A flat has no such parameter: NaN.
 local flat = lab.surface.flat{ cells=16, size="1 um" }:areal_parameters()
 assert(flat.Sal == nil and flat.Sku == nil and flat.S10z == nil and flat.Sk == 0 and flat.Sdr == 0)
 assert(flat:why_not "Sal" == "all heights are equal")
 
--- Of a plane less its plane there is rounding, and no shape of it.
+-- A plane less its plane is rounding, without a shape.
 local plane = lab.surface.from_function{ cells=64, size="64 um", height=function(x, y) return 0.3 * x - 0.2 * y end }
 local nothing = plane:areal_parameters{ F=1 }
 assert(nothing.Sq < 1e-18 and nothing.Ssk == nil and nothing.Str == nil and nothing.Std == nil and nothing.Spd == nil)

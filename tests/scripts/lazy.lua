@@ -36,7 +36,7 @@ assert(st.stiffness == stiffness and lab.ledger().transforms == after)
 local bound = st.error.algebraic.approach
 local bounded = lab.ledger().transforms
 assert(bounded > after and st.error.algebraic.approach == bound and lab.ledger().transforms == bounded)
--- None of it is counted as the press's own.
+-- The press's own cost excludes them.
 assert(st.cost.transforms <= before)
 
 -- Closed, the contact is gone: of a state there is what was read, and what was known when the solve ended.

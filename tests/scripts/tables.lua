@@ -36,7 +36,7 @@ assert(both == lab.table.from(both:rows(), { columns=both.columns }) == false) -
 local made = lab.table.from({ { N=1, ["angle [deg]"]=30 }, { N=2, angle="33.5 deg" } }, { columns={ "N" } })
 assert(made.units.angle == "rad")
 near(made:rows()[2].angle, math.rad(33.5))
--- A folder, in the order of its names.
+-- A folder, in alphabetical order.
 write("scans/b10.txt", "x\n1\n")
 write("scans/b9.txt", "x\n1\n")
 local files = lab.files "scans/*.txt"
