@@ -44,7 +44,7 @@ assert(r.how == "F-operation of degree 1, mean removed")
 local smooth = s:areal_parameters{ S="32 um" }
 assert(smooth.Sq < 0.1 * p.Sq and smooth.how:find("S-filter 32 um", 1, true))
 
--- A flat has no such parameter: NaN.
+-- A flat has no such parameter: nil.
 local flat = lab.surface.flat{ cells=16, size="1 um" }:areal_parameters()
 assert(flat.Sal == nil and flat.Sku == nil and flat.S10z == nil and flat.Sk == 0 and flat.Sdr == 0)
 assert(flat:why_not "Sal" == "all heights are equal")
