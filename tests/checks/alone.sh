@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sources that differ from a commit compile each by itself, with every warning an error: builds that compile several at
+# Sources whose code differs from a commit compile each by itself, with every warning an error: builds that compile several at
 # once do not see an #include that is missing, nor what shadows what. Headers too, by the source of their name where that
 # includes them first; and where a header gave up an #include, the sources that include it and find what it included nowhere else.
 #
@@ -13,13 +13,23 @@ poorer() {  # sources that include a header which gave up an #include they find 
   python3 -c 'import sys; sys.path.insert(0, ".ci"); import select_checks as s
 print("\n".join(s.poorer_sources(sys.argv[1])))' "$1"
 }
+other_code() {  # of the files read, those whose code differs from the commit, comments and blanks aside
+  python3 -c 'import re, subprocess, sys
+def code(text):
+    lines = [re.sub(r"\s*//.*", "", " ".join(line.split())) for line in text.splitlines()]
+    return [line for line in lines if line]
+for path in sys.stdin.read().split():
+    old = subprocess.run(["git", "show", sys.argv[1] + ":" + path], capture_output=True, text=True)
+    if old.returncode or code(old.stdout) != code(open(path, encoding="utf-8").read()):
+        print(path)' "$1"
+}
 sources() { grep -E '^(engine|bindings|tests|bench)/.*\.(cpp|hpp)$' || true; }
 if [ "$1" = --everything ]; then
   files=$(git ls-files engine bindings tests bench | sources)
 else
   files=$({ git diff --name-only --diff-filter=d --no-renames "$1"; git ls-files --others --exclude-standard; } | sources)
   # shellcheck disable=SC2086  # a list of words
-  files=$(printf '%s\n' $files $(poorer "$1") | sort -u)
+  files=$(printf '%s\n' $files $(poorer "$1") | sort -u | other_code "$1")
 fi
 # A header whose source is compiled and includes it first is compiled there.
 # shellcheck disable=SC2086  # a list of words
