@@ -226,12 +226,22 @@ void ScriptTypes::read_assignments() {
       if (!key) assign(first, k + 1, is(k, "in"));
       first = none;
     } else if (!is(k, ",")) {
-      if (first != none && is(first - 1, "local"))
-        for (std::size_t n = first; n < k; ++n)
-          if (is_name(n) && !is(n - 1, "<")) names_[word(n)] = {};
       first = none;
+      if (is(k, "local")) forget(k + 1);
     }
   }
+}
+
+// The names after `local`; assignments follow.
+void ScriptTypes::forget(std::size_t k) {
+  std::vector<std::string_view> listed;
+  for (; is_name(k); ++k) {
+    listed.push_back(word(k));
+    if (is(k + 1, "<")) k += 3;  // <const>, <close>
+    if (!is(++k, ",")) break;
+  }
+  if (is(k, "=")) return;
+  for (const std::string_view name : listed) names_[name] = {};
 }
 
 void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
@@ -351,8 +361,9 @@ ScriptTypeList ScriptTypes::call(const ScriptType& function, std::size_t argumen
   const std::string& path = library->path;
   std::size_t k = is(arguments, "(") ? arguments + 1 : arguments;
   if (path == "require")
+    // The token ends with its quote.
     return k < size() && tokens_[k].kind == Token::Kind::text &&
-                   text_.substr(tokens_[k].content, tokens_[k].end - tokens_[k].content).substr(0, 9) ==
+                   text_.substr(tokens_[k].content, tokens_[k].end - tokens_[k].content).substr(0, 8) ==
                        "asperity" &&
                    tokens_[k].end - tokens_[k].content == 9
                ? ScriptTypeList{script_type("lab")}

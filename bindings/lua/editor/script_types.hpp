@@ -104,6 +104,7 @@ class ScriptTypes {
  private:
   void match_brackets();
   void read_assignments();
+  void forget(std::size_t k);
   void assign(std::size_t first, std::size_t values, bool loop);
   bool is_name(std::size_t k) const { return k < size() && tokens_[k].kind == Token::Kind::name; }
 

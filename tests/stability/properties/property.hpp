@@ -42,14 +42,14 @@ extern std::uint64_t scene_in_turn;
 extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
     explain;
 
-// Throws BeyondDoubles if rounding prevents the tolerance.
+// Throws RefusedByName if rounding prevents the tolerance, or for hardening on long cells.
 inline State pressed_by(const Scene& scene, double pressure) {
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 inline State pressed(const Scene& scene, double pressure);
 inline State pressed(const Trial& trial) { return pressed(trial.scene, trial.pressure); }
 
-struct BeyondDoubles {};
+struct RefusedByName {};
 
 inline double rms_height(const State& state) {
   const std::span<const double> h = state.geometry().combined().values();
@@ -78,14 +78,20 @@ inline bool doubles_hold_no_more(const Trial& trial, const State& state) {
   return state.residual() < ends_within * 0x1p-53 * weight * lengths / rms_height(state);
 }
 
+// Of hardening on long cells, which has a limit of transforms.
+inline bool refuses_hardening(const Error& error) {
+  return error.sentence().find("`hardening` on cells") != std::string::npos;
+}
+
 inline State pressed(const Scene& scene, double pressure) {
   try {
     return pressed_by(scene, pressure);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::not_converged) throw;
+    if (refuses_hardening(error)) throw RefusedByName{};
     Trial best{scene, pressure, {}};
     best.scene.accuracy.on_failure = Accuracy::OnFailure::best;
-    if (doubles_hold_no_more(best, pressed_by(best.scene, pressure))) throw BeyondDoubles{};
+    if (doubles_hold_no_more(best, pressed_by(best.scene, pressure))) throw RefusedByName{};
     throw;
   }
 }
