@@ -122,7 +122,7 @@ case:holds("`converged` is said where every entry of the certificate is within t
   .. " nowhere else", met)
 case:expect(book, "over", { at_most = 1.1 }) -- of the tolerance; measured 0.91
 
--- What complementarity alone would pass.
+-- Complementarity alone would pass this.
 local naive = lab.notebook "naive"
 local none, even, most = {}, {}, -math.huge
 for k = 0, nx * ny - 1 do none[k], even[k] = 0, 0.02 end

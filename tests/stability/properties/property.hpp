@@ -78,7 +78,7 @@ inline bool doubles_hold_no_more(const Trial& trial, const State& state) {
   return state.residual() < ends_within * 0x1p-53 * weight * lengths / rms_height(state);
 }
 
-// Of hardening on long cells, which has a limit of transforms.
+// Hardening on long cells has a limit of transforms.
 inline bool refuses_hardening(const Error& error) {
   return error.sentence().find("`hardening` on cells") != std::string::npos;
 }
