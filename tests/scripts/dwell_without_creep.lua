@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A dwell that nothing reads is told once for a contact, and changes nothing.
+-- A dwell without creep gives one warning per contact, and changes nothing.
 --! error: warning: `dwell` does nothing without creep
 --! file: journal.jsonl: "event":"warning"
 local lab = require "asperity"

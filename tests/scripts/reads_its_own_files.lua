@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a run wrote it can read again: by the name it gave and by the place it was told.
+-- A run reads its own files again: by the given name and by the returned path.
 --! output: true	true	text	1
 local lab = require "asperity"
 local s = lab.surface.sine{ cells=8, size="1 mm", amplitude="1 um" }

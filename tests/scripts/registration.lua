@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A map laid on one measured before, from a script: what it gives, its signs, and what it refuses.
+-- A map registered to an earlier map from a script: results, signs and refusals.
 --! output: all as it should be
 local lab = require "asperity"
 local S, um, deg = lab.surface, lab.units.um, lab.units.deg
