@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Surfaces and states as HDF5 files, with XDMF beside them; what is wrong with a file or a call is said.
+-- Surfaces and states as HDF5 files with XDMF; errors name the fault of a file or call.
 local lab = require "asperity"
 local s = lab.surface.self_affine{ cells={24, 20}, size={"24 um", "30 um"}, hurst=0.8, rms_height="0.3 um",
                                    short_wave="4 um", seed=3 }

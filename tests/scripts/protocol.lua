@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A protocol does what calls by hand do, on any contact and as often as asked, and goes no further than its loop.
+-- A protocol repeats the calls of its events on any contact, any number of times, and stops with its loop.
 --! output: all as by hand
 --! file: journal.jsonl: "function":"contact:press"
 --! file: journal.jsonl: "inputs":{"pressure":"152780000","dwell":"\"600 s\""}

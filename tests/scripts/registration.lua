@@ -9,7 +9,7 @@ local function near(a, b, within) assert(math.abs(a - b) <= within, a .. " is no
 local before = S.self_affine{ cells=128, size="128 um", hurst=0.8, rms_height="1 um", roll_off="40 um", short_wave="6 um" }
 local part = before:cropped{ cells={ 90, 80 }, x="10 um", y="24 um" }
 
--- A part of the map lies where it was cut.
+-- A part of the map is found at its cut.
 local r = part:registered_to(before, { angle="5 deg", at_most="60 um" })
 near(r.shift.x, 10 * um, 1e-4 * um)
 near(r.shift.y, 24 * um, 1e-4 * um)
