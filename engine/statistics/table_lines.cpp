@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/core/files/text_encoding.hpp"
 #include "engine/statistics/number_form.hpp"
@@ -237,6 +238,24 @@ Separator TableLines::separator_by(std::string_view heads, std::string_view next
   return several ? Separator::blank : Separator::comma;
 }
 
+namespace {
+
+// "Force (kN, filtered)": heads joined where a bracket is open.
+std::vector<TableCell> joined_in_brackets(const std::vector<TableCell>& heads) {
+  std::vector<TableCell> joined;
+  int open = 0;
+  for (const TableCell& head : heads) {
+    if (open > 0)
+      joined.back().text += ", " + head.text;
+    else
+      joined.push_back(head);
+    for (const char c : head.text) open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+  }
+  return joined;
+}
+
+}  // namespace
+
 bool TableLines::read_heads() {
   std::string_view line;
   LineReader before = lines_;
@@ -277,6 +296,9 @@ bool TableLines::read_heads() {
   while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
   below_ = split(next);
   second_ = split(second);
+  if (separator_ == Separator::comma && heads_.size() > below_.size())
+    if (std::vector<TableCell> joined = joined_in_brackets(heads_); joined.size() == below_.size())
+      heads_ = std::move(joined);
   return true;
 }
 

@@ -212,6 +212,9 @@ TEST(TableReader, ARemarkAfterTheUnitStaysInTheName) {
             "Force (filtered) [N],F (raw) [N],d (mean) [m]\n1000,2,3e-06\n");
   EXPECT_EQ(csv("\"Group (min, max)\",\"mu (left, cold)\"\n1,2\n"),
             "\"Group (min, max)\",\"mu (left, cold)\"\n1,2\n");
+  // Without quotes, the cells below count the heads.
+  EXPECT_EQ(csv("time (s),Force (kN, filtered)\n0,1\n1,2\n"),
+            "time [s],Force (filtered) [N]\n0,1000\n1,2000\n");
 }
 
 TEST(TableReader, ALastLineThatIsCutIsWarnedOf) {
