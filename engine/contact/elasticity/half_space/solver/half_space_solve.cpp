@@ -8,6 +8,7 @@
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
+#include "engine/core/arithmetic/bracketed_secant.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -463,6 +464,55 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   return answer;
 }
 
+namespace {
+
+// Solves at an approach; each failure multiplies the approach by 0.3. Returns the last in `approach`. Only
+// the first solve uses `start`.
+HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
+                                   Monitor& monitor) {
+  constexpr double less = 0.3;
+  constexpr int tries = 5;
+  const int before = start.iterations;
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, ChainEffort::full, monitor);
+  answer.iterations += before;
+  for (int n = 0; n < tries && !answer.converged; ++n) {
+    if (n > 0) approach *= less;
+    const int so_far = answer.iterations;
+    answer = solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
+    answer.iterations += so_far;
+  }
+  return answer;
+}
+
+// For soft hardening, where no descent balances the load: searches the approach of the load. Empty if a
+// solve fails. `begun`: the unconverged answer.
+std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
+                                                  const HalfSpaceAnswer& begun, Monitor& monitor) {
+  constexpr int most_solves = 80, most_applications = 2000;
+  BracketedSecant root(mean_pressure);
+  HalfSpaceAnswer answer = begun;
+  double approach = begun.approach;
+  for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
+    if (answer.iterations - begun.iterations > most_applications) break;
+    answer = solve_about_offset(problem, approach, std::move(answer), monitor);
+    if (!answer.converged) break;
+    const double found = answer.mean_pressure;
+    if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
+      answer.mean_pressure = mean_pressure;
+      answer.solver += ", for the load";
+      certify(problem, answer);
+      if (answer.converged) return answer;
+    }
+    root.take({approach, found}, true);
+    const std::optional<double> next = root.next();
+    if (!next) break;
+    approach = *next;
+  }
+  return {};
+}
+
+}  // namespace
+
 HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_pressure, Monitor& monitor) {
   check(problem, mean_pressure);
   const bool flat = !rough(problem, mean_pressure);
@@ -511,6 +561,8 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
     }
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
+  if (!answer.converged && problem.yield.hardens() && !problem.brief)
+    if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
     throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid,
                       rounding_residual(problem, answer));
