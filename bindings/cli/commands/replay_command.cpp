@@ -105,8 +105,8 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
                 : altered         ? " and every file as the run wrote it"
                                   : " and every file");
   } else {
-    std::printf("%s: the same results; only version %s replays the run to the byte\n", root,
-                program_version(recorded).c_str());
+    std::printf("%s: the same results; only the version that recorded the run replays it to the byte\n",
+                root);
   }
   return !replayed ? another_version : found.empty() ? equal : different;
 }

@@ -195,7 +195,7 @@ std::string topics_help() {
          "\"press\".\n";
 }
 
-// Of "lab.surface.sine" or "surface:scaled".
+// "sine" for "lab.surface.sine", "scaled" for "surface:scaled".
 std::string last_name(const std::string& path) {
   const std::size_t at = path.find_last_of(".:");
   return at == std::string::npos ? path : path.substr(at + 1);
