@@ -58,7 +58,7 @@ GROUPS = {
     "distributions": ("distributions: ", SPECIMEN, ("tests/accuracy/distributions",)),
     "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
     "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
-    "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
+    "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts", "tests/card")),
     "command_line": ("command line: ?(CommandLine|replay|knobs|prompt|completion|shard|resume|run directory|whole record|fixed order|power cut|processors)", PROGRAM + ("bindings/web/serve_command",), ("tests/scripts/runner",)),
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
     "reproductions": ("(reproductions|known to fail): ", WEB + ("docs", "examples/paper", "README.md"),
@@ -70,6 +70,7 @@ GROUPS = {
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "worked": ("worked examples: ?", CONTACT + ("docs/contributor.md",), ("tests/contributor",)),
     "guards": ("guards: ", PROGRAM + ("docs/asperity.d.lua", "examples/data", "tests/data", "tests/fuzz/corpus"), ("tests/guards",)),
+    "mistakes": ("mistakes: ", (), ("tests/mistakes",)),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
 }
 

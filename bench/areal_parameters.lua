@@ -14,7 +14,7 @@ local noise = lab.surface.self_affine{
   cells = options.cells, size = "1 mm", hurst = 0.1, rms_height = "1 um", short_wave = 2.1e-3 / options.cells, seed = 3,
 }
 local rims = map:cropped{ cells = options.cells - 1 } -- not periodic
-local holed = rims:masked{ where = function(x, y) return (x // 40e-6 + y // 40e-6) % 11 == 0 end }
+local holed = rims:masked{ mask = function(x, y) return (x // 40e-6 + y // 40e-6) % 11 == 0 end }
 local function read(of, ...)
   local names = { ... }
   return function()

@@ -47,7 +47,7 @@ local kinds = {
     function() return rows_of(3, function(k) return { x = k, y = 1 + k + normal() } end) end },
   { "fit: power law, absolute scatter", fit{ model = "power" }, { a = 2, b = .8 },
     function() return rows_of(10, function(k) return { x = k, y = 2 * k ^ .8 + .2 * normal() } end) end },
-  { "fit: exponential decay", fit{ model = function(x, q) return q.a * math.exp(-q.k * x) end, start = { a = 1, k = .5 } }, { a = 2, k = .3 },
+  { "fit: exponential decay", fit{ model = function(q, row) return q.a * math.exp(-q.k * row.x) end, start = { a = 1, k = .5 } }, { a = 2, k = .3 },
     function() return rows_of(12, function(k) return { x = k, y = 2 * math.exp(-.3 * k) + .03 * normal() } end) end },
   { "fit: line, relative 20 %, x 1..100", fit{ model = "linear", scatter = "relative" }, { intercept = 3, slope = 2 },
     function() return rows_of(10, function(k) local x = 100 ^ ((k - 1) / 9) return { x = x, y = (3 + 2 * x) * (1 + .2 * normal()) } end) end },

@@ -60,7 +60,7 @@ void read_as_child(const char* path) {
   ::_exit(file < 0 || H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, take, &start) < 0 ? 1 : 0);
 }
 
-// How the child ended.
+// Describes the end of the child.
 std::string read_by_child(std::string path) {
   const int memory = ::memfd_create("numbers", MFD_CLOEXEC);
   posix_spawn_file_actions_t actions;

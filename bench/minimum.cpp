@@ -157,7 +157,7 @@ Scenario capped_event(int cells) {
           }};
 }
 
-// Processor seconds of one run, mean over `turns`.
+// Processor seconds a run, mean over `turns`.
 double seconds_of(const std::function<Numbers()>& way, int turns, Numbers& numbers) {
   const double start = processor_seconds();
   for (int k = 0; k < turns; ++k) numbers = way();

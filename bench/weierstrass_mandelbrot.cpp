@@ -9,7 +9,7 @@
 // MiB (`heights`: the result).
 #include <benchmark/benchmark.h>
 
-// GCC 12 warns about undefined registers of its own AVX-512 header (GCC bug 105593).
+// GCC 12 warns about undefined registers in its AVX-512 header (GCC bug 105593).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"

@@ -17,7 +17,6 @@
 #include "bindings/cli/commands/command.hpp"
 #include "bindings/cli/commands/replay_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
-#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/confined/confined.hpp"
@@ -30,7 +29,7 @@ namespace {
 
 using namespace asperity;
 
-// `place`: line in `asperity help`, where commands that take a script form one group.
+// `place`: line in `asperity help`, where commands with a script form one group.
 struct Listed {
   int place;
   cli::Command command;
@@ -116,18 +115,17 @@ int main(int argc, char** argv) {
     return cli::bad_usage;
   }
 
-  cli::CommandWork work;
   try {
     app.parse(argc, argv);
     for (const auto& [options, read] : readers)
-      if (options->parsed()) work = read();
+      if (options->parsed()) return read()();
   } catch (const CLI::Success& success) {
     return parser_exit(app, success);
   } catch (const CLI::ParseError& error) {
     parser_exit(app, error);
     return cli::bad_usage;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return cli::refused(error);
   }
-  return work();
+  return cli::bad_usage;
 }

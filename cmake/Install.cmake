@@ -36,6 +36,8 @@ install(FILES docs/asperity.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-compl
 install(DIRECTORY scripts/lessons DESTINATION ${CMAKE_INSTALL_DATADIR}/asperity)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The documents' site for `asperity serve`, if `./lab docs` built it.
+install(DIRECTORY build/site DESTINATION ${CMAKE_INSTALL_DATADIR}/asperity OPTIONAL)
 
 # asperity::engine is the whole of it; each floor has a name of its own (engine/CMakeLists.txt).
 add_library(asperity_engine INTERFACE)
@@ -45,7 +47,8 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/asperity)
 install(TARGETS asperity_engine EXPORT asperity COMPONENT development)
 # Headers whose code depends on the vector width stay private: a program that includes them may have another width.
 set(private "/core/fourier/fourier_(batch|filter|lane_filter|lanes)\\.hpp|/register_vectors\\.hpp"
-            "/node_loop\\.hpp|/half_order_pyramid\\.hpp|/slabs/slab_(descent|level|nest|preconditioner|quality)\\.hpp"
+            "/node_loop\\.hpp|/(contact_preconditioner|half_order_pyramid)\\.hpp"
+            "/slabs/slab_(descent|level|nest|preconditioner|quality)\\.hpp"
             "/half_space/solver/(contact_level|contact_quality|descent|free_set|load_projection|nested_descent)\\.hpp")
 list(JOIN private "|" private)
 install(DIRECTORY engine DESTINATION include/asperity COMPONENT development FILES_MATCHING PATTERN "*.hpp"

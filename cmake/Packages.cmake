@@ -11,6 +11,11 @@ endmacro()
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+# Headers alone: distributions, minima, Sobol's points, numbers of many digits.
+find_package(Boost 1.74)
+if(NOT Boost_FOUND)
+  message(FATAL_ERROR "Boost 1.74 was not found; install libboost-dev")
+endif()
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
 library(FFTW3 fftw3 libfftw3-dev)

@@ -8,17 +8,17 @@ _asperity() {
     return
   fi
   case $command in
-    run) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --resume --reuse --store-limit --store --shard --case --merge-only --confined --read --without-barriers --limit-disk" ;;
-    replay) options="--help --from --set --out --threads --limit-memory --trust --confined --read --without-barriers --limit-disk --limit-time" ;;
-    press-log) options="--help --area --skip --columns --turn-step --specimen --seed --limit-time --out --threads --limit-memory" ;;
-    accuracy) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --at-most --repeats --truth" ;;
+    run) options="--help --seed --limit-time --out --trace --threads --limit-memory --knob --trust --resume --reuse --store-limit --store --shard --case --merge-only --confined --read --without-barriers --limit-disk" ;;
+    replay) options="--help --from --set --out --trace --threads --limit-memory --trust --confined --read --without-barriers --limit-disk --limit-time" ;;
+    press-log) options="--help --area --skip --columns --turn-step --specimen --seed --limit-time --out --trace --threads --limit-memory" ;;
+    accuracy) options="--help --seed --limit-time --out --trace --threads --limit-memory --knob --trust --at-most --repeats --truth" ;;
     serve) options="--help --port --open --out --runs --limit-time --limit-memory --classroom --students --names" ;;
     check) options="--help --seed --limit-time --knob" ;;
     explain) options="--help --seed --limit-time --knob --json" ;;
     cases) options="--help --seed --limit-time --knob --list" ;;
     status) options="--help" ;;
     repl) options="--help --out --threads --limit-memory --seed --limit-time --no-history --trust" ;;
-    lesson) options="--help --copy --run --out --threads --limit-memory" ;;
+    lesson) options="--help --copy --run --out --trace --threads --limit-memory" ;;
     help) options="--help --reference --types --manual --completion" ;;
     materials) options="--help" ;;
     version) options="--help" ;;

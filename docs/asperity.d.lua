@@ -65,7 +65,7 @@
 ---@field window string the taper that was used, "none" or "hann"
 ---@field units string of q and C, in words
 
----The fractal dimension of profiles, and what it was found from. Of exact fractional Brownian profiles of D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; psd 0.99, 1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: structure and madogram 1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep heights 1.11, 1.49, 1.91.
+---The fractal dimension of profiles, and the data of the fit. For exact fractional Brownian profiles of D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; psd 0.99, 1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: structure and madogram 1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep heights 1.11, 1.49, 1.91.
 ---@class asperity.FractalDimension
 ---@field D number fractal dimension of the profiles, from 1 to 2
 ---@field error number standard deviation of D over the profiles, of one, standard error of its line; with "box" the bias of counting boxes too, as measured on fractional Brownian profiles
@@ -96,13 +96,13 @@
 ---@field cut_off number|nil where `tip` is given, the distance from which on the map is reliable along the way of the stencils (surface:reliability) (m)
 ---@field reliable boolean[]|nil where `tip` is given, whether each distance is at the cut-off or above
 
----From which scale on a tip of this radius can have measured what stands in the map: shorter stencils have, somewhere, hollows sharper than the tip. 0: all scales; half the map: none.
+---Smallest scale at which a tip of this radius can have measured the map: shorter stencils have, somewhere, hollows sharper than the tip. 0: all scales; half the map: none.
 ---@class asperity.Reliability
 ---@field x number of stencils along x (m)
 ---@field y number of stencils along y (m)
 ---@field cut_off number the greater of the two (m)
 
----Where a map measured after lies on one measured before: turned counter-clockwise by `angle` about the centre of its nodes, then moved by `shift`, both maps' first nodes having lain on each other.
+---Position of a later map on an earlier map: the first nodes coincide, then the later map is turned counter-clockwise by `angle` about the centre of its nodes and moved by `shift`.
 ---@class asperity.Registration
 ---@field surface asperity.Surface the map after, on the cells of the map before, less `tilt` and `lift`: not measured where the map after does not reach or one of the nodes around was not measured; between its nodes a cubic spline
 ---@field shift asperity.RegistrationShift from the map after to that before, of the centre of the map after
@@ -111,7 +111,7 @@
 ---@field lift number height of the map after above that before, at the centre of the map after, where neither is worn (m)
 ---@field u asperity.RegistrationUncertainty their standard uncertainties
 ---@field scale number of lengths and heights: 1, neither is ever stretched
----@field residual number how well unworn ground agrees: 1.4826 times the median of the differences above zero, both maps smoothed by one cell (m)
+---@field residual number agreement on unworn surface: 1.4826 times the median of the differences above zero, both maps smoothed by one cell (m)
 ---@field overlap number share of the map before's measured nodes where `surface` is measured
 ---@field explained number share of the variance of the heights that the placement explains, where they are not worn
 ---@field second_best number the same of the best placement elsewhere, on coarser maps; near to `explained` it is a warning
@@ -128,7 +128,7 @@
 ---@field x number along x (m)
 ---@field y number along y (m)
 
----Slopes of one map above another, or their standard uncertainties.
+---Slopes of a map above another, or their standard uncertainties.
 ---@class asperity.RegistrationTilt
 ---@field x number slope along x
 ---@field y number slope along y
@@ -229,12 +229,12 @@
 ---@field measured integer samples that were measured
 ---@field profile asperity.Profile the primary profile, as it was evaluated
 
----How far the contact conditions are from being met, each relative.
+---Violations of the contact conditions, each relative.
 ---@class asperity.Certificate
 ---@field penetration number greatest overlap of the bodies where the pressure is below its cap, over the rms height of both
 ---@field tension number greatest tension, over the mean pressure
 ---@field complementarity number gap under the pressures, in the mean weighted with them, over that rms height
----@field load number distance of the mean pressure from the one asked for, over it
+---@field load number distance of the mean pressure from the requested one, over the latter
 ---@field cap number greatest excess of the pressure over its cap, over the cap; 0 without one
 ---@field attraction number greatest distance of the attraction from its law, over its greatest; 0 without attraction across the gap
 
@@ -248,7 +248,7 @@
 ---@field of string the quantity that has it
 ---@field met boolean whether this is at most the requested error
 ---@field reason string why these were chosen, in a sentence
----@field text string all of it on one line
+---@field text string the whole value on one line
 ---@field tried asperity.TriedGrid[] the grids that were tried, one after another
 
 ---A grid on which the press was tried for the requested error.
@@ -260,20 +260,20 @@
 ---@field note string why this grid does not count; empty where it does
 ---@field cost asperity.Cost transforms in those of this grid
 
----What a press took to compute.
+---Computing cost of a press.
 ---@class asperity.StateCost
 ---@field seconds number by the clock (s)
 ---@field transforms number Fourier transforms, in equivalents of the finest grid
----@field bytes integer greatest memory beyond what was held before
+---@field bytes integer greatest memory beyond the memory held before
 ---@field by_effect table<string, asperity.Cost> the parts of the effects that ran, and of the estimate of errors
 
----What something took to compute.
+---Computing cost.
 ---@class asperity.Cost
 ---@field seconds number by the clock (s)
 ---@field transforms number Fourier transforms, in equivalents of the finest grid
----@field bytes integer greatest memory beyond what was held before
+---@field bytes integer greatest memory beyond the memory held before
 
----How pressures, gaps or spot areas are distributed, in the SI unit of these.
+---Distribution of pressures, gaps or spot areas, in SI units.
 ---@class asperity.Distribution
 ---@field edges number[] of the bins, ascending: one more than there are bins
 ---@field counts integer[] values in each bin; the last bin holds its upper edge too
@@ -286,13 +286,13 @@
 ---@field effect string that adds it
 ---@field sentence string what it is here, with its numbers
 
----What a press will hold in memory.
+---Expected memory of a press.
 ---@class asperity.PlannedBuffer
 ---@field name string what it is for
 ---@field bytes integer its size
 ---@field kept boolean whether for as long as the bodies lie as they do, or only for a moment
 
----What the calls of a function have cost.
+---Cost of the calls of a function.
 ---@class asperity.LedgerLine
 ---@field call string the function, as "contact:press"
 ---@field in_case boolean whether cases of an ensemble called it
@@ -301,7 +301,7 @@
 ---@field transforms number Fourier transforms of all calls
 ---@field bytes integer greatest memory of one call
 
----What a tip changed, against a needle on the same lines, over all traces.
+---Changes by a tip, compared with a needle on the same lines, over all traces.
 ---@class asperity.TipEffect
 ---@field Ra_ratio number Ra with the tip over Ra without; 1 where both are 0
 ---@field rms_slope_ratio number rms_slope with the tip over that without
@@ -309,13 +309,13 @@
 ---@field mean_lift number of the tip's lowest point above the surface (m)
 ---@field greatest_lift number of the tip's lowest point above the surface (m)
 
----The line over which a trace goes.
+---The line of a trace.
 ---@class asperity.Traverse
 ---@field x number where it begins (m)
 ---@field y number where it begins (m)
 ---@field angle number its direction, counter-clockwise from x (rad)
 
----What was found in a recording of the load, and by which thresholds.
+---Events found in a recording of the load, and the thresholds.
 ---@class asperity.Recording
 ---@field name string of the file
 ---@field samples integer number of samples
@@ -330,7 +330,7 @@
 ---@field least_step number a change by less between two holds, one of them as short, may go unseen, in Pa, or in N where loads were recorded
 ---@field spans asperity.RecordedSpan[] the stretches of the recording, one after another
 
----A stretch of a recording in which one thing happens; what does not apply to it is nil.
+---A stretch of a recording with a single event; fields that do not apply are nil.
 ---@class asperity.RecordedSpan
 ---@field kind string "rest", "rise", "hold", "peak", "fall", "release" or "turn"
 ---@field begin number time of its first sample (s)
@@ -342,7 +342,7 @@
 ---@field first_line integer of the file
 ---@field last_line integer of the file
 
----What is done to a contact; what does not apply to an event is nil.
+---One event of a contact; fields that do not apply are nil.
 ---@class asperity.ProtocolEvent
 ---@field index integer its number, from 1
 ---@field total integer number of events of the protocol
@@ -370,19 +370,19 @@
 ---@field interlocking_force number beyond that of the same junctions lying level; needs interlocking (N)
 ---@field strengthening number tau0 after the rest over tau0 without one; needs ageing
 
----What came of raising a stage until its specimen slid, over all trials.
+---Result of raising a stage until its specimen slid, over all trials.
 ---@class asperity.Tilt
 ---@field angle number at which the specimen slides, exactly: mean over the trials (rad)
 ---@field held number the last step that held: mean over the trials (rad)
 ---@field mu number tan(held); infinite at 90 deg
 ---@field spread number standard deviation of tan(held) over the trials; 0 for one trial
 ---@field slipped boolean whether every trial slid; otherwise angle, held and mu are lower bounds
----@field trials asperity.TiltTrial[] each of them, in the order they were made
+---@field trials asperity.TiltTrial[] each event, in order
 ---@field area_per_load number|nil corrected real contact area over the load, 1/Pa: mean over the trials; nil but on a half-space
----@field probe_spread number|nil greatest relative distance of mu at one probe from the mean of its trial: what going down to the weight may be wrong by; nil where the weight was solved, of one probe, and of boxes
+---@field probe_spread number|nil greatest relative distance of mu at one probe from the mean of its trial: the possible error of the extrapolation to the weight; nil if the weight was solved, with one probe, and for boxes
 ---@field solved_at_weight boolean whether a half-space was solved under the weight itself
 ---@field probes asperity.TiltProbe[] those of all trials that solved anew
----@field note string|nil what one must know of these numbers, in a sentence; nil if there is nothing
+---@field note string|nil a note on these numbers, in a sentence; nil without one
 
 ---One trial of a tilt stage.
 ---@class asperity.TiltTrial
@@ -393,20 +393,20 @@
 ---A pressure at which a trial solved a half-space contact.
 ---@class asperity.TiltProbe
 ---@field pressure number at which it was solved, level (Pa)
----@field contacts integer nodes in contact
+---@field nodes_in_contact integer nodes in contact
 ---@field area_per_load number corrected real contact area over the load, 1/Pa
 ---@field mu number friction over load, its adhesive part on the corrected area
 
----How far slip has grown inside a contact at an angle of the stage.
+---Slip inside a contact at an angle of the stage.
 ---@class asperity.SlipShare
 ---@field angle number of the stage (rad)
 ---@field ratio number of the pull over the one that slides, from 0 to 1
 ---@field slip_fraction number of the contact area that slips
 ---@field displacement number|nil of the bodies over each other; nil on a half-space (m)
 
----How often the values of a column fall into bins.
+---Counts of the values of a column in bins.
 ---@class asperity.Histogram
----@field edges number[] of the bins in the column's unit, one more than bins; a bin holds its lower edge
+---@field edges number[] of the bins in SI, one more than bins; a bin holds its lower edge
 ---@field counts integer[] values in each bin
 ---@field density number[] share of the values per width of each bin
 ---@field n integer values in the bins
@@ -427,25 +427,25 @@
 ---@field seconds number|nil computing time that halving takes; nil where it takes a measurement
 ---@field half_width_after number half the width of the whole interval with this part halved, nearly
 
----The cheapest way to the interval that was asked for.
+---The cheapest way to the requested interval.
 ---@class asperity.BudgetPlan
 ---@field replicates integer how many; 0 where there is nothing to sample
 ---@field cells number|nil a side, of the finest grid; nil where there is no list of cells
 ---@field seconds number that it takes, from nothing (s)
 ---@field half_width number half the width of the interval that is expected
 
----What an uncertain input contributes to the variance of an answer.
+---Contribution of an uncertain input to the variance of an answer.
 ---@class asperity.InputShare
 ---@field name string of the input
 ---@field value number that was given, SI
 ---@field u number standard uncertainty that was given, SI
----@field first number first-order share: of the variance, what the input does by itself
+---@field first number first-order share of the variance, by the input alone
 ---@field first_error number standard error of `first`
 ---@field total number total share: all that the input does, together with others too
 ---@field total_error number standard error of `total`
 ---@field deviation_when_halved number standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly
 
----A parameter of a calibration, in SI; of a fit, in the units of its columns.
+---A parameter of a calibration or a fit, in SI.
 ---@class asperity.CalibratedParameter
 ---@field value number|nil its estimate; nil where the rows do not determine it
 ---@field u number|nil its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter
@@ -455,8 +455,8 @@
 ---@field profile_high number|nil upper end of its interval by profile likelihood; nil where the rows give none
 ---@field share_of_faces number share of u² that the scatter of replicates makes; 0 without `replicate`
 ---@field determined boolean whether the rows determine it
----@field at_lower boolean whether it stands at its lower bound
----@field at_upper boolean whether it stands at its upper bound
+---@field at_lower boolean whether it is at its lower bound
+---@field at_upper boolean whether it is at its upper bound
 ---@field profile_values number[] places at which its profile was computed
 ---@field profile_excess number[] (S - S_min)/s² there; the interval ends where it meets `cut`
 
@@ -464,31 +464,31 @@
 ---@class asperity.CalibratedSpecimen
 ---@field name string as its column tells it
 ---@field rows integer how many rows are of it
----@field residual number mean of its residuals: relative to the fit with scatter="relative", in units of `u` where that is known, else in the unit of y
+---@field residual number mean of its residuals: relative to the fit with scatter="relative", in units of `u` where that is known, else in SI
 
----A fitted curve over the range of its points, with the pointwise interval of the curve.
+---A fitted curve over the range of the points, with the pointwise interval of the curve.
 ---@class asperity.FitCurve
 ---@field x number[] places, ascending
 ---@field y number[] the curve there
 ---@field low number[] lower end of its interval there
 ---@field high number[] upper end of its interval there
 
----How far the contact conditions are from being met, each relative.
+---Violations of the contact conditions, each relative.
 ---@class asperity.SpreadCertificate
 ---@field penetration number greatest overlap of the bodies where the pressure is below its cap, over the rms height of both
 ---@field tension number greatest tension, over the mean pressure
 ---@field complementarity number gap under the pressures, in the mean weighted with them, over that rms height
----@field load number distance of the mean pressure from the one asked for, over it
+---@field load number distance of the mean pressure from the requested one, over the latter
 ---@field cap number greatest excess of the pressure over its cap, over the cap; 0 without one
 
----What a body is made of; an effect reads the properties it needs and names any that is missing.
+---The material of a body; an effect reads the properties it needs and names any that is missing.
 ---@class asperity.Material
----@field name string what it is called
+---@field name string its name
 ---@field young number Young's modulus (Pa)
 ---@field poisson number Poisson's ratio
 ---@field hardness number indentation hardness (Pa)
 ---@field density number mass per volume (kg/m^3)
----@field source string where the numbers come from
+---@field source string source of the numbers
 local Material = {}
 
 ---@class asperity.options.surface.spectrum
@@ -526,9 +526,8 @@ local Material = {}
 ---@field window? integer odd number of points a side of the square (of a profile: of the stretch) around a point whose median is taken (integer from 3 to 31, default 5)
 
 ---@class asperity.options.surface.masked
----@field where? function function(x, y, z) that answers true where a measured point is to count as not measured; all in metres (function)
+---@field mask? function|asperity.Field the points that count as not measured: function(x, y, z), all in metres, returns true for them; a field of the same cells, such as another surface's mask, is 0 or nan there (function|Field)
 ---@field outliers? "mad"|table outliers by this rule, as s:outliers finds them, count as not measured; their number is told in a warning: the rule, or a table with its keys ("mad"|table)
----@field mask? asperity.Field points where this field of the same cells is 0 or nan count as not measured (Field)
 
 ---@class asperity.options.surface.filled
 ---@field by? "interpolate" "interpolate": the harmonic continuation of the heights around, which never leaves their range and is smoother than they are; filled ground lowers slopes ("interpolate")
@@ -542,7 +541,7 @@ local Material = {}
 ---@field amplitude? number|string peak to valley to reach (a length at least 0)
 ---@field rms? number|string root mean square height to reach (a length at least 0)
 ---@field ra? number|string mean absolute height to reach (a length at least 0)
----@field about? "mean"|"base" what stays where it is: the mean height or the lowest point ("mean"|"base", default "mean")
+---@field about? "mean"|"base" the fixed height: the mean or the lowest point ("mean"|"base", default "mean")
 
 ---@class asperity.options.surface.shifted
 ---@field x? number|string way along x (a length, default 0)
@@ -561,7 +560,7 @@ local Material = {}
 ---@field fraction number of the peak-to-valley; heights above max - fraction * peak-to-valley are brought down to it (number from 0 to 1, required)
 
 ---@class asperity.options.surface.with
----@field material asperity.Material what the body is made of (Material, required)
+---@field material asperity.Material material of the body (Material, required)
 
 ---@class asperity.options.surface.profile
 ---@field row? number row j, a profile along x (number at least 0)
@@ -593,7 +592,7 @@ local Material = {}
 ---@class asperity.Surface
 ---@field cells table cells along x and y
 ---@field size table length along x and y (m)
----@field material asperity.Material what the body is made of, or nil
+---@field material asperity.Material material of the body, or nil
 ---@field periodic boolean whether the heights continue smoothly across the rim
 ---@field aliased_share number share of the variance past Nyquist; nil where it is not known
 ---@field peak_to_valley number greatest less least height (m)
@@ -617,7 +616,7 @@ function Surface:height(i, j) end
 ---@return number[][]
 function Surface:heights() end
 
----Amplitude and slope statistics of all measured nodes (ISO 25178-2), nothing levelled or filtered first. Its amplitude is peak to valley; that of lab.surface.sine is half of it.
+---Amplitude and slope statistics over all measured nodes (ISO 25178-2), nothing levelled or filtered first. Its amplitude is peak to valley, that of lab.surface.sine half as large.
 ---@return asperity.ArealRoughness
 function Surface:roughness() end
 
@@ -636,7 +635,7 @@ function Surface:fractal_dimension(options) end
 ---@return asperity.Surface
 function Surface:filtered(options) end
 
----Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes bit for bit, and the spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of the greatest and the size to single precision.
+---Writes the heights: .h5 (HDF5, with an .xdmf for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes bit for bit, and the spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of the greatest and the size to single precision.
 ---@param path string under the run directory
 ---@return string
 function Surface:write(path) end
@@ -667,8 +666,8 @@ function Surface:masked(options) end
 ---@return asperity.Surface
 function Surface:filled(options) end
 
----Laid on a map of the same ground measured before: shift, turn and tilt are found through wear, noise and holes, and nothing is stretched. Wear takes height away: what stands lower than before does not pull. Cells and sizes of the two may differ. An error where the maps cannot tell: too little overlap, other ground, ground that repeats itself or has no features in some direction.
----@param before asperity.Surface what it is laid on
+---Registered to an earlier map of the same surface: shift, turn and tilt are found through wear, noise and holes, and nothing is stretched. Wear removes height: points lower than before do not pull. Cells and sizes of the two may differ. An error where the maps cannot tell: too little overlap, other ground, ground that repeats itself or has no features in some direction.
+---@param before asperity.Surface the earlier map
 ---@param options? asperity.options.surface.registered_to
 ---@return asperity.Registration
 function Surface:registered_to(before, options) end
@@ -683,7 +682,7 @@ function Surface:scaled(options) end
 ---@return asperity.Surface
 function Surface:shifted(options) end
 
----Turned counter-clockwise seen from above: quarter turns exactly, other angles by interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 cells, 0.2 % at 8 and 3 % at 4. Where it touches a point that was not measured there is none.
+---Turned counter-clockwise seen from above: quarter turns exactly, other angles by interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 cells, 0.2 % at 8 and 3 % at 4. Points interpolated from an unmeasured point are missing.
 ---@param angle number|string to turn by
 ---@return asperity.Surface
 function Surface:rotated(angle) end
@@ -702,13 +701,13 @@ function Surface:cropped(options) end
 ---@return asperity.Surface
 function Surface:resampled(options) end
 
----The sum of two surfaces of equal cells and size; a point that was not measured on one of them is none of the sum.
----@param other asperity.Surface what to add
+---The sum of two surfaces of equal cells and size; a point unmeasured on either surface is missing in the sum.
+---@param other asperity.Surface the surface to add
 ---@return asperity.Surface
 function Surface:plus(other) end
 
----The difference of two surfaces of equal cells and size: heights less those of the other. A point that was not measured on one of them is none of the difference.
----@param other asperity.Surface what to take away
+---The difference of two surfaces of equal cells and size: heights less those of the other. A point unmeasured on either surface is missing in the difference.
+---@param other asperity.Surface the surface to subtract
 ---@return asperity.Surface
 function Surface:minus(other) end
 
@@ -732,7 +731,7 @@ function Surface:profile(options) end
 ---@return asperity.Profile[]
 function Surface:profiles(options) end
 
----The areal parameters of ISO 25178-2, of the map as it is or after F-operation, S- and L-filter. Each group is computed when a field of it is first read.
+---The areal parameters of ISO 25178-2, of the map as it is or after F-operation, S- and L-filter. Each group is computed at the first read of a field.
 ---@param options? asperity.options.surface.areal_parameters
 ---@return asperity.ArealParameters
 function Surface:areal_parameters(options) end
@@ -750,7 +749,7 @@ function Surface:autocorrelation() end
 ---@return asperity.ScaleDependence
 function Surface:scale_dependence(options) end
 
----From which scale on the map can be what a spherical tip would have measured.
+---Smallest scale at which a spherical tip can have measured the map.
 ---@param options asperity.options.surface.reliability
 ---@return asperity.Reliability
 function Surface:reliability(options) end
@@ -787,9 +786,8 @@ function Surface:reliability(options) end
 ---@field window? integer odd number of points a side of the square (of a profile: of the stretch) around a point whose median is taken (integer from 3 to 31, default 5)
 
 ---@class asperity.options.profile.masked
----@field where? function function(x, z) that answers true where a measured sample is to count as not measured; both in metres (function)
+---@field mask? function|number[] the samples that count as not measured: function(x, z), both in metres, returns true for them; a list holds 0 or nan there (function|number[])
 ---@field outliers? "mad"|table outliers by this rule, as s:outliers finds them, count as not measured; their number is told in a warning: the rule, or a table with its keys ("mad"|table)
----@field mask? number[] samples where this list has 0 or nan count as not measured (number[])
 
 ---@class asperity.options.profile.filled
 ---@field by? "interpolate" "interpolate": the harmonic continuation of the heights around, which never leaves their range and is smoother than they are; filled ground lowers slopes ("interpolate")
@@ -806,7 +804,7 @@ function Surface:reliability(options) end
 ---@class asperity.options.profile.primary_parameters
 ---@field F? integer F-operation: degree of the polynomial taken away first; without it none (integer from 0 to 5)
 ---@field S? number|string nesting index Nis of the S-filter: shorter waves are attenuated, half of it is cut off at either end; without it none (a length above 0)
----@field sections? integer equal parts of the evaluation length; one, the whole of it, unless asked (integer from 1 to 1000, default 1)
+---@field sections? integer equal parts of the evaluation length; one unless given (integer from 1 to 1000, default 1)
 ---@field threshold? number of Pp and Pv: lower hills and dales are no elements of Psm and Pc (number from 0 to 1, default 0.1)
 
 ---Heights at equal spacing along a line, or once around a closed outline; an immutable value.
@@ -946,7 +944,7 @@ function Profile:bearing() end
 ---@field S10z number|nil S5p + S5v (m)
 ---@field measured integer points that were measured
 ---@field prepared asperity.Surface the map after F-operation, S- and L-filter
----@field how string what was done to the map first, in words
+---@field how string preparation of the map, in words
 local ArealParameters = {}
 
 ---Why a parameter is not defined on this map; nil where it is.
@@ -954,13 +952,13 @@ local ArealParameters = {}
 ---@return string|nil
 function ArealParameters:why_not(name) end
 
----Which share of the points lies above each height; heights count from the mean, ratios from 0 to 1.
+---Share of the points above each height; heights count from the mean, ratios from 0 to 1.
 ---@class asperity.MaterialRatioCurve
 ---@field measured integer points that were measured
 ---@field mean number of the heights, from which those of the curve count (m)
 local MaterialRatioCurve = {}
 
----The height above which a share of the points lies, Smc(ratio).
+---The height exceeded by a share of the points, Smc(ratio).
 ---@param ratio number 0 to 1
 ---@return number
 function MaterialRatioCurve:height(ratio) end
@@ -997,7 +995,7 @@ function Autocorrelation:at(i, j) end
 ---@field approach? number|string from first touch (a length)
 ---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
----@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
+---@field dwell? number|string duration of the load; for creep alone (a time at least 0)
 ---@field preload? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
 
 ---@class asperity.options.contact.sweep
@@ -1010,7 +1008,7 @@ function Autocorrelation:at(i, j) end
 ---@class asperity.options.contact.shear
 ---@field force? number|string that pulls the whole tile sideways (a force at least 0)
 ---@field ratio? number of that force over the one that slides, friction times load (number from 0 to 1)
----@field friction number|asperity.Law Coulomb's coefficient; a law stands for its mean coefficient on the contact (number|Law, required)
+---@field friction number|asperity.Law Coulomb's coefficient; a law gives its mean coefficient on the contact (number|Law, required)
 
 ---@class asperity.options.contact.place
 ---@field seed integer of the turn and the shift that are drawn (integer at least 0, required)
@@ -1025,10 +1023,10 @@ function Autocorrelation:at(i, j) end
 ---@field approach? number|string from first touch (a length)
 ---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
----@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
+---@field dwell? number|string duration of the load; for creep alone (a time at least 0)
 ---@field preload? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
 
----Two specimens on the bench, how the upper lies on the lower, and what the scene computes: the one value that changes.
+---Two specimens on the bench, the placement of the upper on the lower, and the scene: the only value that changes.
 ---@class asperity.Contact
 local Contact = {}
 
@@ -1037,17 +1035,17 @@ local Contact = {}
 ---@return asperity.State
 function Contact:press(options) end
 
----One state after another along a list of loads, up or down. Bodies that attract each other are followed on their branch: each state is drawn from the turns of the list before it.
+---One state after another along a list of loads, up or down. Bodies that attract each other are followed on their branch: each state is drawn from the turns of the list before it. With :table{ "pressure [MPa]", "area_fraction [%]" } behind it, all states become a Table.
 ---@param options asperity.options.contact.sweep
 ---@return fun(): asperity.State
 function Contact:sweep(options) end
 
----Pulls the contact under its present load sideways, by less than makes it slide, and says which part of it slips (Cattaneo and Mindlin for spheres; by Jaeger and Ciavarella the difference of two normal contacts). Nothing of the contact changes; needs tangential.
+---Pulls the contact under its present load sideways, with less than the sliding force, and finds the slipping part (Cattaneo and Mindlin for spheres; by Jaeger and Ciavarella the difference of two normal contacts). Nothing of the contact changes; needs tangential.
 ---@param options asperity.options.contact.shear
 ---@return asperity.Shear
 function Contact:shear(options) end
 
----Takes the load off. The bodies recover elastically; what yielded stays.
+---Takes the load off. The bodies recover elastically; plastic deformation stays.
 function Contact:release() end
 
 ---Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a periodic tile, shifted by whole cells, as drawn from the seed; heights are never resampled.
@@ -1062,7 +1060,7 @@ function Contact:rotate(angle) end
 ---@param options asperity.options.contact.shift
 function Contact:shift(options) end
 
----Writes all that was done to the contact since it was made as a press log, which lab.protocol.read reads back as the same events: turns, loads, dwells, the times of a protocol that has them; and beside each press what it measured, in columns that the reader leaves out: result load or pressure, approach, area_fraction, peak_pressure. Where presses were asked for in several ways, all stand by the pressure that they brought. Returns the file.
+---Writes all events as a press log, which lab.protocol.read reads back: turns, loads, dwells, the times of a protocol that has them. Further columns, which the reader skips, hold the results of each press: result load or pressure, approach, area_fraction, peak_pressure. If presses were requested in several ways, the log gives the resulting pressure of all. Returns the file.
 ---@param path string under the run directory
 ---@return string
 function Contact:log(path) end
@@ -1071,7 +1069,7 @@ function Contact:log(path) end
 ---@return asperity.Contact
 function Contact:copy() end
 
----What a press will compute, what is off, and the expected transforms, memory and time. Given the press, with the keys of contact:press, that press is tried, on fewer cells where it takes over some quarter of a second, and its transforms are told by that: those that it takes, or mostly within a factor of two; without, they are a rough guess for a press by pressure. Presses nothing.
+---Plan of a press: the computed terms, the terms that are off, and the expected transforms, memory and time. Given the keys of contact:press, one trial of this press counts its transforms: exactly on up to 128 x 128 cells, within a factor of two in nine presses of ten on more, from a trial on about 128 x 128. Without keys, they are a rough guess for a press by pressure. Presses nothing.
 ---@param options? asperity.options.contact.explain
 ---@return asperity.Plan
 function Contact:explain(options) end
@@ -1084,8 +1082,11 @@ function Contact:lower() end
 ---@return asperity.Surface
 function Contact:upper() end
 
----Frees the memory of the contact and of its states now instead of when Lua collects them. What was read of a state stays, and its load, approach, area, peak pressure, certificate and digest; reading anything else of it is an error.
+---Frees the memory of the contact and all its states now instead of at Lua's next collection. A state retains every value already read, and its load, approach, area, peak pressure, certificate and digest; reading another value is an error.
 function Contact:close() end
+
+---@class asperity.options.state.open_path
+---@field along? "x"|"y" the direction of the path ("x"|"y", default "x")
 
 ---@class asperity.options.state.write
 ---@field fields? string[] which fields to write; without it all the state has (string[])
@@ -1107,7 +1108,7 @@ function Contact:close() end
 ---@field area number real contact area (m^2)
 ---@field area_fraction number nodes in contact over all nodes
 ---@field corrected_area_fraction number area fraction less the excess of its stepped outline; of half-spaces pressed with accuracy={ error= }, the share of the tile within an outline between the nodes
----@field contacts integer nodes in contact
+---@field nodes_in_contact integer nodes in contact
 ---@field spots integer regions of contact joined by an edge
 ---@field spots8 integer regions of contact joined by an edge or a corner
 ---@field peak_pressure number greatest pressure (Pa)
@@ -1121,10 +1122,10 @@ function Contact:close() end
 ---@field preload number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field iterations integer of the solver; 0 for a closed form
 ---@field residual number greatest entry of the certificate
----@field certificate asperity.Certificate how far the contact conditions are from being met, each relative; where the bodies attract each other these bound tractions and not lengths: gaps and approaches may be off by more
+---@field certificate asperity.Certificate violations of the contact conditions, each relative; for bodies that attract each other these bound tractions and not lengths: gaps and approaches may be off by more
 ---@field converged boolean whether every entry of the certificate is within the tolerance
----@field solver string what found the solution
----@field warnings string[] where these numbers say little of real bodies: few nodes in contact, a contact at the rim of a free tile, steep slopes, pressures near the modulus or above the hardness
+---@field solver string the method of the solution
+---@field warnings string[] doubts about the model: few nodes in contact, a contact at the rim of a free tile, steep slopes, pressures near the modulus or above the hardness
 ---@field effects_run string[] effects that were computed
 ---@field effects_off string[] effects that the scene does not name
 ---@field error asperity.StateError how far these numbers are from exact
@@ -1137,7 +1138,12 @@ local State = {}
 ---@return number[]
 function State:spot_areas() end
 
----A field over the tile: pressure, gap, contact, displacement, or the plastic part of the approach. Where nothing faces the lower body there is no pressure, and the gap is missing (nan).
+---Whether the nodes without contact join one side of the tile to the other by edges, so that a fluid gets through. Across the path a periodic tile continues. Rough faces lose the path at 35 to 60 % of the area.
+---@param options? asperity.options.state.open_path
+---@return boolean
+function State:open_path(options) end
+
+---A field over the tile: pressure, gap, contact, displacement, or the plastic part of the approach. Lower nodes without a counterpart have no pressure, and a missing gap (nan).
 ---@param name "pressure"|"gap"|"contact"|"displacement"|"plastic" which
 ---@return asperity.Field
 function State:field(name) end
@@ -1147,7 +1153,7 @@ function State:field(name) end
 ---@return asperity.Surface
 function State:deformed(body) end
 
----Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, certificate and digest as its attributes, and an .xdmf beside it for ParaView.
+---Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, certificate and digest as attributes, and an .xdmf file for ParaView.
 ---@param path string an .h5 under the run directory
 ---@param options? asperity.options.state.write
 ---@return string
@@ -1159,7 +1165,7 @@ function State:write(path, options) end
 ---@return asperity.Distribution
 function State:distribution(name, options) end
 
----How far a state is from exact, in parts that are never mixed. A part is found when it is read.
+---Errors of a state by source; the sources are never combined. A part is found when it is read.
 ---@class asperity.StateError
 ---@field algebraic asperity.AlgebraicError bounds against the exact solution on the same grid
 ---@field discretisation asperity.DiscretisationError estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }
@@ -1175,7 +1181,7 @@ local StateError = {}
 ---@field area number|nil of the real contact area (m^2)
 ---@field area_fraction number|nil of the area fraction
 ---@field corrected_area_fraction number|nil of the corrected area fraction
----@field contacts number|nil of the number of nodes in contact
+---@field nodes_in_contact number|nil of the number of nodes in contact
 ---@field peak_pressure number|nil of the greatest pressure (Pa)
 ---@field separation number|nil of the separation (m)
 ---@field mean_gap number|nil of the mean gap (m)
@@ -1183,8 +1189,8 @@ local StateError = {}
 ---@field energy number|nil of the elastic energy (J)
 ---@field plastic_volume number|nil of the plastic volume; needs plasticity (m^3)
 ---@field plastic_fraction number|nil of the plastic fraction; needs plasticity
----@field contacts_low integer nodes that are surely in contact
----@field contacts_high integer those and the nodes that may be
+---@field nodes_in_contact_low integer nodes that are surely in contact
+---@field nodes_in_contact_high integer those and the nodes that may be
 ---@field area_low number area surely in contact (m^2)
 ---@field area_high number that and what may be (m^2)
 ---@field area_fraction_low number share of the nodes surely in contact
@@ -1194,7 +1200,7 @@ local StateError = {}
 ---@field cost asperity.Cost seconds, transforms and bytes of finding these bounds
 local AlgebraicError = {}
 
----How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells, or on thrice the cells with estimate="finer"; math.huge where two coarser grids show that a value grows without end. Needs accuracy={ estimate=true } or "finer".
+---Estimated discretisation errors of a state, in the units of the quantities, from the same press on half and a quarter of the cells, or on thrice the cells with estimate="finer"; math.huge if two coarser grids show unlimited growth of a value. Needs accuracy={ estimate=true } or "finer".
 ---@class asperity.DiscretisationError
 ---@field load number of the load; 0 where it was prescribed (N)
 ---@field pressure number of the load over the nominal area (Pa)
@@ -1252,37 +1258,37 @@ function Field:values() end
 ---@return string
 function Field:picture(path, options) end
 
----What a press will compute, and what it is expected to cost; print() shows all of it.
+---Plan of a press: the computed terms and the expected cost; print() shows the whole plan.
 ---@class asperity.Plan
----@field solver string how it is solved
+---@field solver string the method of the solution
 ---@field overlap_fraction number share of the tile on which the bodies face each other as they lie
 ---@field terms asperity.PlannedTerm[] the terms of the problem
----@field buffers asperity.PlannedBuffer[] what is held in memory
+---@field buffers asperity.PlannedBuffer[] memory held
 ---@field transforms number Fourier transforms expected of a press, in equivalents of the finest grid
----@field press string which press these are of and how that is known; empty where explain was told none
+---@field press string the press of these numbers and their source; empty if explain had no press
 ---@field bytes integer memory expected, at most
 ---@field seconds number expected for the first press, a rough guess (s)
 ---@field effects_run string[] effects that the scene names
 ---@field effects_off string[] effects that it does not name, for which nothing is done
 ---@field warnings string[] of a grid that is too coarse for an effect; the first press gives them too
----@field json string all of it, as JSON
+---@field json string the whole ledger, as JSON
 local Plan = {}
 
----What a run has done so far and what it cost; print() shows all of it.
+---Work and cost of a run so far; print() shows the whole ledger.
 ---@class asperity.Ledger
 ---@field seconds number of the run so far (s)
 ---@field unaccounted number seconds that are in no line: the script itself, and calls too short for one (s)
 ---@field transforms number Fourier transforms, each in equivalents of its contact's finest grid
 ---@field bytes integer greatest memory of one call
 ---@field calls asperity.LedgerLine[] a line for each function that was called
----@field by_effect table<string, asperity.Cost> what the pressed contacts cost, effect by effect
+---@field by_effect table<string, asperity.Cost> cost of the pressed contacts, effect by effect
 ---@field effects_off string[] effects that no contact named, for which nothing was done
----@field json string all of it, as JSON
+---@field json string the whole ledger, as JSON
 local Ledger = {}
 
 ---@class asperity.options.stylus.scan
 ---@field count? integer number of traces (integer from 1 to 100000, default 5)
----@field seed? integer of their places and angles: the same seed goes over the same lines of a surface of that size (integer at least 0, default 1)
+---@field seed? integer of the places and angles: the same seed gives the same lines on a surface of that size (integer at least 0, default 1)
 
 ---A stylus profiler; an immutable value.
 ---@class asperity.Stylus
@@ -1295,33 +1301,37 @@ local Ledger = {}
 ---@field digest string equal styluses have equal digests
 local Stylus = {}
 
----Traces at random places and angles, as the tip gives them: nothing is levelled or filtered. On a periodic surface they go on past the rim; on any other they stay inside. The list also holds tip_effect, what the tip changed against a needle on the same lines, and lines, where each trace begins and its angle. Over points that were not measured only a needle (tip=0) goes: its traces have holes there.
----@param surface asperity.Surface what is measured
+---Traces at random places and angles, as the tip gives them: nothing is levelled or filtered. On a periodic surface they go on past the rim; on any other they stay inside. The list also holds tip_effect, the changes by the tip compared with a needle on the same lines, and lines, the start and angle of each trace. Only a needle (tip=0) crosses unmeasured points; its traces have holes there.
+---@param surface asperity.Surface measured quantity
 ---@param options? asperity.options.stylus.scan
 ---@return asperity.Profile[]|{ tip_effect: asperity.TipEffect, lines: asperity.Traverse[] }
 function Stylus:scan(surface, options) end
 
 ---The whole map as the tip gives it, touching at nodes.
----@param surface asperity.Surface what is measured
+---@param surface asperity.Surface measured quantity
 ---@return asperity.Surface
 function Stylus:dilated(surface) end
 
----The part of the map that the tip could touch, what it cannot enter filled (dilation, then erosion, at the nodes; the closing of ISO 16610-85).
----@param surface asperity.Surface what is measured
+---The part of the map within reach of the tip, with all narrower hollows filled (dilation, then erosion, at the nodes; the closing of ISO 16610-85).
+---@param surface asperity.Surface measured quantity
 ---@return asperity.Surface
 function Stylus:closed(surface) end
 
+---@class asperity.options.protocol.apply
+---@field columns string[] `event` (its number), `kind`, `press` (its number), quantities of a State, roughness of the bodies ("lower.Ra") or parameters of the traces ("trace.Ra"), with a unit or without (string[], required)
+---@field trace? table traces on the lower body after each event: { stylus=, count=1, seed=1 } (table)
+
 ---@class asperity.options.protocol.repeated
----@field times integer how often it is done (integer at least 1, required)
+---@field repeats integer number of repeats of the protocol (integer at least 1, required)
 
 ---@class asperity.options.protocol.chart
 ---@field title? string above the chart (string)
 
----What is done to a contact, event by event; an immutable value that any number of contacts may go through. #p is the number of its events.
+---The loading of a contact, event by event; an immutable value for any number of contacts. #p is the number of events.
 ---@class asperity.Protocol
 ---@field count integer number of events
 ---@field presses integer number of presses among them
----@field recording asperity.Recording|nil what was found in the recording that it was detected in, and by which thresholds; nil if there is none
+---@field recording asperity.Recording|nil the events and thresholds of the recording; nil without a recording
 ---@field digest string equal protocols have equal digests
 local Protocol = {}
 
@@ -1329,6 +1339,12 @@ local Protocol = {}
 ---@param contact asperity.Contact what it is done to
 ---@return fun(): asperity.ProtocolEvent, asperity.State|nil
 function Protocol:on(contact) end
+
+---Does all events to a contact and returns a table with a row for each event. Quantities of a State are empty except after a press.
+---@param contact asperity.Contact its bodies change
+---@param options asperity.options.protocol.apply
+---@return asperity.Table
+function Protocol:apply(contact, options) end
 
 ---All events as a list, as p:on gives them.
 ---@return asperity.ProtocolEvent[]
@@ -1340,11 +1356,11 @@ function Protocol:events() end
 function Protocol:repeated(options) end
 
 ---One protocol after another, without recorded times.
----@param next asperity.Protocol what is done after this one
+---@param next asperity.Protocol the next event
 ---@return asperity.Protocol
 function Protocol:plus(next) end
 
----Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over what was recorded if it was detected in a recording; without recorded times over the time its dwells add up to, or event by event. Returns the file.
+---Draws load over time with rises, holds, peaks, releases and turns marked and labelled. A protocol detected in a recording is drawn over the recorded samples. Without recorded times the axis is the sum of dwells, or the event. Returns the file.
 ---@param path string an .svg, .png or .pdf under the run directory
 ---@param options? asperity.options.protocol.chart
 ---@return string
@@ -1356,7 +1372,7 @@ function Protocol:chart(path, options) end
 function Protocol:write(path) end
 
 ---@class asperity.options.law.on
----@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
+---@field rest? number|string rest of the junctions under the load before the pull; needs ageing (a time at least 0)
 
 ---A friction law of junctions.
 ---@class asperity.Law
@@ -1371,7 +1387,7 @@ local Law = {}
 ---@return asperity.Friction
 function Law:on(st, options) end
 
----A contact under load that is pulled sideways: part of it sticks, the rest slips.
+---A contact under load, pulled sideways: one part sticks, the rest slips.
 ---@class asperity.Shear
 ---@field load number force that presses the whole tile (N)
 ---@field force number force that pulls the whole tile sideways (N)
@@ -1394,18 +1410,18 @@ function Shear:field(name) end
 ---@class asperity.options.tiltStage.raise
 ---@field repeats? integer number of trials (integer from 1 to 100000, default 5)
 ---@field seed? integer of placements and scatter (integer at least 0, default 1)
----@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
+---@field rest? number|string rest of the junctions under the load before the pull; needs ageing (a time at least 0)
 
 ---@class asperity.options.tiltStage.slip_growth
 ---@field steps? integer equal steps of the angle up to the slip (integer from 1 to 10000, default 10)
 ---@field seed? integer of the placement (integer at least 0, default 1)
----@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
+---@field rest? number|string rest of the junctions under the load before the pull; needs ageing (a time at least 0)
 
 ---A tilt stage with a specimen on it.
 ---@class asperity.TiltStage
 local TiltStage = {}
 
----Raises the stage until the specimen slides, several times. angle is exact; held is the last step that held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage and tan(angle) does not.
+---Raises the stage until the specimen slides, several times. angle is exact; held is the last step that held, the source paper's measure; mu = tan(held), so mu changes in the steps of the stage and tan(angle) does not.
 ---@param options? asperity.options.tiltStage.raise
 ---@return asperity.Tilt
 function TiltStage:raise(options) end
@@ -1415,9 +1431,13 @@ function TiltStage:raise(options) end
 ---@return asperity.SlipShare[]
 function TiltStage:slip_growth(options) end
 
+---@class asperity.options.notebook.sorted
+---@field by string|string[] the column, or columns, the first one first (string|string[], required)
+---@field descending? boolean largest first (boolean, default false)
+
 ---@class asperity.options.notebook.expect
 ---@field where? table only rows in which these columns hold these values (table)
----@field near? number the value wanted, with `within` or `rel`: a number in the column's unit, or a quantity such as "10 MPa", which is converted to it (number)
+---@field near? number the value wanted, with `within` or `rel`: a quantity such as "10 MPa", or a number in SI or in the unit of the column's name (number)
 ---@field within? number greatest distance from `near` (number)
 ---@field rel? number greatest distance from `near`, relative to it (number at least 0)
 ---@field at_least? number lowest value accepted (number)
@@ -1430,7 +1450,7 @@ function TiltStage:slip_growth(options) end
 ---@class asperity.options.notebook.joined
 ---@field by string|string[] the column, or columns, in which rows that belong together are equal (string|string[], required)
 ---@field suffix? string behind the names of the other's columns that both tables have, such as "_predicted" (string)
----@field unmatched? "error"|"leave out"|"keep" what becomes of rows that find none in the other table: an error, nothing, or a row in which the other's cells are empty ("error"|"leave out"|"keep", default "error")
+---@field unmatched? "error"|"leave out"|"keep" rows without a partner in the other table: an error, nothing, or a row with empty cells for the other ("error"|"leave out"|"keep", default "error")
 
 ---@class asperity.options.notebook.mean
 ---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
@@ -1441,9 +1461,9 @@ function TiltStage:slip_growth(options) end
 ---@class asperity.options.notebook.fit
 ---@field x string the column along (string, required)
 ---@field y string the column that is fitted (string, required)
----@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
+---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(q, row) that returns y from the table q of parameters and the columns of a row, all in SI. Where the curve is drawn, row has x only ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
----@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
+---@field u? string|number standard uncertainty of y: a column, one number in SI, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
 ---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
 ---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
 ---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
@@ -1451,11 +1471,10 @@ function TiltStage:slip_growth(options) end
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
 ---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
----@field name? string what charts call it (string)
+---@field name? string its name in charts (string)
 
 ---@class asperity.options.notebook.histogram
----@field of string the column (string, required)
----@field bins? integer|number[] how many bins of equal width, or a list of their edges in the column's unit or as quantities (integer|number[], default by the rule of Freedman and Diaconis)
+---@field bins? integer|number[] how many bins of equal width, or a list of their edges: quantities, or numbers in SI or in the unit of the column's name (integer|number[], default by the rule of Freedman and Diaconis)
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field density? boolean draw the share of values per width instead of their number (boolean, default false)
 ---@field title? string above the picture (string)
@@ -1479,38 +1498,72 @@ function TiltStage:slip_growth(options) end
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
 ---@field y_label? string instead of the column's name (string)
+---@field legend? "right"|"below"|"top left"|"top right"|"bottom left"|"bottom right"|"none" the place of the names of lines; default right, of long names or with `width` below ("right"|"below"|"top left"|"top right"|"bottom left"|"bottom right"|"none")
 ---@field below? table a second panel below, with the same keys but for `file`; `x` is that of the first unless given (table)
+---@field width? number|string of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch (a length above 20 mm and below 1 m)
+---@field font_size? number of the text in print, in points; default 8, with a `width`, or 240 mm without one (number above 3 and below 40)
 ---@field file? string an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table table-<y>-<x>.svg (string)
 
----Rows of free columns, with expectations about them and charts of them.
+---A Table to which book:write{…} adds rows; the run records them in a file. Its methods read the rows written so far.
 ---@class asperity.Notebook
 ---@field name string of the notebook
 ---@field file string where its rows are kept
+---@field columns string[] the names of its columns, in order
 local Notebook = {}
 
----Adds a row. A column may carry its unit in its name: ["Ra [m]"] = s:roughness().Ra. A number is kept as it is, in that unit; a quantity such as "3 um" is converted to it.
----@param row table columns and their values: numbers, strings, booleans
-function Notebook:write(row) end
-
----Gives columns their units, for the table's header and the charts. Numbers are kept as they are, those written before too: in { z="um" } a length in metres is written as z * 1e6.
----@param units table unit of each column
+---Gives columns other display units, for the file, charts and print. Stored numbers stay.
+---@param units table display unit of each column
 function Notebook:units(units) end
 
----The rows written so far as a table, a value that later rows do not change.
+---The present rows as a Table; later rows do not change it.
 ---@return asperity.Table
 function Notebook:table() end
 
----All rows as tables.
+---All rows as tables, numbers in SI; an empty cell is nil.
 ---@return table[]
 function Notebook:rows() end
 
----States what a column should show; returns whether it does. A failed expectation makes the run exit 1 after everything is recorded.
----@param column string the column
+---The rows one after the other, numbers in SI.
+---@return fun(): table
+function Notebook:each() end
+
+---The rows in ascending order of a column. Equal rows keep their order.
+---@param options asperity.options.notebook.sorted
+---@return asperity.Table
+function Notebook:sorted(options) end
+
+---The rows with computed columns: functions of the row by column. With a unit in the name, the function returns a number in this unit, else in SI.
+---@param columns table<string, function> functions of the row, numbers in SI
+---@return asperity.Table
+function Notebook:with(columns) end
+
+---The least number of a column, in SI.
+---@param column string its name
+---@return number
+function Notebook:min(column) end
+
+---The greatest number of a column, in SI.
+---@param column string its name
+---@return number
+function Notebook:max(column) end
+
+---The sum of a column, in SI.
+---@param column string its name
+---@return number
+function Notebook:sum(column) end
+
+---On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: ["Ra [um]"]=2.8; other numbers are in SI, and "3 um" is a quantity. t:write "x.csv" writes all rows as CSV with units in the heads; lab.table.read gives them back to the bit.
+---@param row table|string columns and their values, or a .csv under the run directory
+---@return string|nil
+function Notebook:write(row) end
+
+---States an expectation of a column; returns whether it holds. A failed expectation makes the run exit 1 after everything is recorded.
+---@param column string the column; a unit in its name holds for the numbers given
 ---@param options asperity.options.notebook.expect
 ---@return boolean
 function Notebook:expect(column, options) end
 
----The rows in which these columns hold these values, as a table: numbers, strings, booleans, or lists of them, any of which may stand there. A quantity is counted in the unit of its column.
+---A table of the rows whose columns hold these values. A value is a number, a string, a boolean, or a list of alternatives. A number is in SI, or in the unit of the column's name; a quantity such as "10 MPa" has its own.
 ---@param filter table values by the names of their columns
 ---@return asperity.Table
 function Notebook:where(filter) end
@@ -1520,7 +1573,7 @@ function Notebook:where(filter) end
 ---@return any[]
 function Notebook:column(column) end
 
----Each row beside the rows of another table, or notebook, that are equal to it in the columns `by`: as measured numbers stand beside computed ones.
+---Joins each row to the rows of another table or notebook with equal values in the columns `by`: for example, measured numbers to computed ones.
 ---@param other asperity.Table|asperity.Notebook the other table
 ---@param options asperity.options.notebook.joined
 ---@return asperity.Table
@@ -1537,20 +1590,41 @@ function Notebook:mean(column, options) end
 ---@return asperity.Calibration
 function Notebook:fit(options) end
 
----How often the values of a column fall into bins; `file` draws it.
----@param options asperity.options.notebook.histogram
+---Counts of the values of a column in bins; `file` draws them.
+---@param column string the column
+---@param options? asperity.options.notebook.histogram
 ---@return asperity.Histogram
-function Notebook:histogram(options) end
+function Notebook:histogram(column, options) end
 
 ---Draws columns against a column; returns the file.
 ---@param options asperity.options.notebook.chart
 ---@return string
 function Notebook:chart(options) end
 
+---Prints all rows; with names, only these columns, in the units of the names.
+---@param columns? table names of columns, and digits=6 for the significant digits
+function Notebook:show(columns) end
+
+---@class asperity.options.table.sorted
+---@field by string|string[] the column, or columns, the first one first (string|string[], required)
+---@field descending? boolean largest first (boolean, default false)
+
+---@class asperity.options.table.expect
+---@field where? table only rows in which these columns hold these values (table)
+---@field near? number the value wanted, with `within` or `rel`: a quantity such as "10 MPa", or a number in SI or in the unit of the column's name (number)
+---@field within? number greatest distance from `near` (number)
+---@field rel? number greatest distance from `near`, relative to it (number at least 0)
+---@field at_least? number lowest value accepted (number)
+---@field at_most? number highest value accepted (number)
+---@field increasing_in? string a column with which the value must rise; rows that share it are averaged (string)
+---@field decreasing_in? string a column with which the value must fall; rows that share it are averaged (string)
+---@field should_fail? boolean a negative control: the expectation must not hold (boolean, default false)
+---@field label? string shown with the verdict (string)
+
 ---@class asperity.options.table.joined
 ---@field by string|string[] the column, or columns, in which rows that belong together are equal (string|string[], required)
 ---@field suffix? string behind the names of the other's columns that both tables have, such as "_predicted" (string)
----@field unmatched? "error"|"leave out"|"keep" what becomes of rows that find none in the other table: an error, nothing, or a row in which the other's cells are empty ("error"|"leave out"|"keep", default "error")
+---@field unmatched? "error"|"leave out"|"keep" rows without a partner in the other table: an error, nothing, or a row with empty cells for the other ("error"|"leave out"|"keep", default "error")
 
 ---@class asperity.options.table.mean
 ---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
@@ -1561,9 +1635,9 @@ function Notebook:chart(options) end
 ---@class asperity.options.table.fit
 ---@field x string the column along (string, required)
 ---@field y string the column that is fitted (string, required)
----@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
+---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(q, row) that returns y from the table q of parameters and the columns of a row, all in SI. Where the curve is drawn, row has x only ("linear"|"power"|function, required)
 ---@field start? table for a function: its parameters by name, with values to begin from (table)
----@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
+---@field u? string|number standard uncertainty of y: a column, one number in SI, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
 ---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
 ---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
 ---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
@@ -1571,11 +1645,10 @@ function Notebook:chart(options) end
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
 ---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
----@field name? string what charts call it (string)
+---@field name? string its name in charts (string)
 
 ---@class asperity.options.table.histogram
----@field of string the column (string, required)
----@field bins? integer|number[] how many bins of equal width, or a list of their edges in the column's unit or as quantities (integer|number[], default by the rule of Freedman and Diaconis)
+---@field bins? integer|number[] how many bins of equal width, or a list of their edges: quantities, or numbers in SI or in the unit of the column's name (integer|number[], default by the rule of Freedman and Diaconis)
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field density? boolean draw the share of values per width instead of their number (boolean, default false)
 ---@field title? string above the picture (string)
@@ -1599,13 +1672,16 @@ function Notebook:chart(options) end
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
 ---@field y_label? string instead of the column's name (string)
+---@field legend? "right"|"below"|"top left"|"top right"|"bottom left"|"bottom right"|"none" the place of the names of lines; default right, of long names or with `width` below ("right"|"below"|"top left"|"top right"|"bottom left"|"bottom right"|"none")
 ---@field below? table a second panel below, with the same keys but for `file`; `x` is that of the first unless given (table)
+---@field width? number|string of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch (a length above 20 mm and below 1 m)
+---@field font_size? number of the text in print, in points; default 8, with a `width`, or 240 mm without one (number above 3 and below 40)
 ---@field file? string an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table table-<y>-<x>.svg (string)
 
----Rows under named columns with units, read from a file, made of rows or taken from a notebook; an immutable value whose methods return new ones. Its numbers are in SI; those of a notebook stay in the units of its columns.
+---Rows under named columns with units, read from a file, made of rows or taken from a notebook; an immutable value whose methods return new ones. Its numbers are in SI; print, files and charts show them in the units of the columns.
 ---@class asperity.Table
 ---@field columns string[] the names of its columns, in order
----@field units table<string, string> the unit of each column that has one
+---@field units table<string, string> the display unit of each column that has one
 ---@field name string where it came from, as errors call it
 ---@field digest string of columns, units and cells: equal tables have equal digests
 local Table = {}
@@ -1614,12 +1690,47 @@ local Table = {}
 ---@return table[]
 function Table:rows() end
 
----Writes it as CSV, with units in the heads; lab.table.read gives it back to the bit.
----@param path string a .csv under the run directory
----@return string
-function Table:write(path) end
+---The rows one after the other, numbers in SI.
+---@return fun(): table
+function Table:each() end
 
----The rows in which these columns hold these values, as a table: numbers, strings, booleans, or lists of them, any of which may stand there. A quantity is counted in the unit of its column.
+---The rows in ascending order of a column. Equal rows keep their order.
+---@param options asperity.options.table.sorted
+---@return asperity.Table
+function Table:sorted(options) end
+
+---The rows with computed columns: functions of the row by column. With a unit in the name, the function returns a number in this unit, else in SI.
+---@param columns table<string, function> functions of the row, numbers in SI
+---@return asperity.Table
+function Table:with(columns) end
+
+---The least number of a column, in SI.
+---@param column string its name
+---@return number
+function Table:min(column) end
+
+---The greatest number of a column, in SI.
+---@param column string its name
+---@return number
+function Table:max(column) end
+
+---The sum of a column, in SI.
+---@param column string its name
+---@return number
+function Table:sum(column) end
+
+---On a notebook, book:write{…} adds a row. A unit in a column's name holds for its number: ["Ra [um]"]=2.8; other numbers are in SI, and "3 um" is a quantity. t:write "x.csv" writes all rows as CSV with units in the heads; lab.table.read gives them back to the bit.
+---@param row table|string columns and their values, or a .csv under the run directory
+---@return string|nil
+function Table:write(row) end
+
+---States an expectation of a column; returns whether it holds. A failed expectation makes the run exit 1 after everything is recorded.
+---@param column string the column; a unit in its name holds for the numbers given
+---@param options asperity.options.table.expect
+---@return boolean
+function Table:expect(column, options) end
+
+---A table of the rows whose columns hold these values. A value is a number, a string, a boolean, or a list of alternatives. A number is in SI, or in the unit of the column's name; a quantity such as "10 MPa" has its own.
 ---@param filter table values by the names of their columns
 ---@return asperity.Table
 function Table:where(filter) end
@@ -1629,7 +1740,7 @@ function Table:where(filter) end
 ---@return any[]
 function Table:column(column) end
 
----Each row beside the rows of another table, or notebook, that are equal to it in the columns `by`: as measured numbers stand beside computed ones.
+---Joins each row to the rows of another table or notebook with equal values in the columns `by`: for example, measured numbers to computed ones.
 ---@param other asperity.Table|asperity.Notebook the other table
 ---@param options asperity.options.table.joined
 ---@return asperity.Table
@@ -1646,17 +1757,22 @@ function Table:mean(column, options) end
 ---@return asperity.Calibration
 function Table:fit(options) end
 
----How often the values of a column fall into bins; `file` draws it.
----@param options asperity.options.table.histogram
+---Counts of the values of a column in bins; `file` draws them.
+---@param column string the column
+---@param options? asperity.options.table.histogram
 ---@return asperity.Histogram
-function Table:histogram(options) end
+function Table:histogram(column, options) end
 
 ---Draws columns against a column; returns the file.
 ---@param options asperity.options.table.chart
 ---@return string
 function Table:chart(options) end
 
----A number with its whole error. print() shows the table of its parts.
+---Prints all rows; with names, only these columns, in the units of the names.
+---@param columns? table names of columns, and digits=6 for the significant digits
+function Table:show(columns) end
+
+---A number with its whole error. print() shows the table of parts.
 ---@class asperity.Budget
 ---@field value number the number, corrected for the error of the cells
 ---@field low number lower end of its interval
@@ -1671,8 +1787,8 @@ function Table:chart(options) end
 ---@field runs integer how often `ask` was called
 ---@field seconds number time inside `ask` (s)
 ---@field parts asperity.BudgetPart[] the parts of its error, greatest share first
----@field plan asperity.BudgetPlan|nil the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it
----@field warnings string[] what to be wary of: few replicates, skewed ones, a rough fit
+---@field plan asperity.BudgetPlan|nil the cheapest way to `half_width`; nil if not requested or out of reach of computing
+---@field warnings string[] warnings: few replicates, skewed ones, a rough fit
 local Budget = {}
 
 ---Which uncertain input an answer hangs on. print() shows the table of shares.
@@ -1690,7 +1806,7 @@ local Sensitivity = {}
 ---@class asperity.options.study.cheapest
 ---@field error number greatest error, relative to the truth (absolute where the truth is 0) (number above 0, required)
 
----What a study of work and precision found. print() shows its rows and the cheapest setting for 10 %, 1 % and 0.1 %.
+---Result of a study of work and precision. print() shows its rows and the cheapest setting for 10 %, 1 % and 0.1 %.
 ---@class asperity.Study
 ---@field truth number the value that errors are measured against
 ---@field truth_seconds number what that value took; 0 if it was given (s)
@@ -1704,12 +1820,12 @@ local Study = {}
 ---@return table[]
 function Study:rows() end
 
----Draws error against time on logarithmic axes, a line per way, bars from the fastest to the slowest run, rings about what nothing beats, and marks at the rim for settings that failed or were left out; returns the file.
+---Draws error against time on logarithmic axes, a line per way, bars from the fastest to the slowest run, rings around unbeaten settings, and marks at the rim for settings that failed or were left out; returns the file.
 ---@param path? string an .svg, .png or .pdf under the run directory; default <name>.svg
 ---@return string
 function Study:chart(path) end
 
----The fastest setting whose error, and that of every finer measured setting of its way, is at most the one asked for: a setting that comes near the truth by accident, where the error changes its sign, is not taken. Settings count as finer along the list of their way (turned round where `cells` falls or `tolerance` rises). Of settings whose answers are the same bits the one listed first is taken, unless another takes less than half its time. An error says what the best reached was.
+---The fastest setting with at most the requested error, if every finer measured setting of the same way has it too: a setting near the truth by accident, where the error changes its sign, is not taken. Settings count as finer along the list of their way (turned round where `cells` falls or `tolerance` rises). Among settings with bit-identical answers the first listed is taken, unless another takes less than half its time. If no setting is good enough, the error names the best.
 ---@param options asperity.options.study.cheapest
 ---@return asperity.StudyChoice
 function Study:cheapest(options) end
@@ -1727,7 +1843,7 @@ function Study:cheapest(options) end
 local StudyChoice = {}
 
 ---@class asperity.options.calibration.chart
----@field x? string the column along; without it measured y stands against that of the fit (string)
+---@field x? string the column along; without it, measured y against fitted y (string)
 ---@field likelihood? boolean draw the profile likelihood of each parameter instead, with the limit at which its interval ends (boolean, default false)
 ---@field title? string above the chart (string)
 ---@field file? string an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood calibration-<y>-likelihood.svg (string)
@@ -1743,9 +1859,9 @@ local StudyChoice = {}
 ---@field curve asperity.FitCurve|nil of t:fit: the curve with its band, for drawing
 ---@field r_squared number|nil of t:fit: explained share of the scatter of y; nil if all y are equal
 ---@field identifiable boolean whether the rows determine every parameter
----@field verdict string what the rows determine and what not, and on what the intervals rest
----@field combinations string[] what the rows determine in the place of parameters that they do not tell apart
----@field correlation number[][] of the estimates; nan beside parameters that are not determined or stand at a bound
+---@field verdict string determined and undetermined parameters, and the basis of the intervals
+---@field combinations string[] determined combinations of parameters that the rows do not separate
+---@field correlation number[][] of the estimates; nan for parameters that are undetermined or at a bound
 ---@field condition number|nil largest over smallest singular value of the Jacobian with columns of length 1; nil where a direction is not seen
 ---@field n integer rows that were used
 ---@field left_out integer rows with an empty cell, no finite number or a weight of 0
@@ -1772,7 +1888,7 @@ local Calibration = {}
 ---@return string
 function Calibration:chart(options) end
 
----A rough surface of which each rank holds some rows.
+---A rough surface; each rank holds some rows.
 ---@class asperity.SpreadSurface
 ---@field cells integer[] cells along x and y
 ---@field size number[] length of the sides (m)
@@ -1811,17 +1927,17 @@ function SpreadContact:press(options) end
 ---@field approach number from first touch (m)
 ---@field area number real contact area (m^2)
 ---@field area_fraction number nodes in contact over all nodes
----@field contacts integer nodes in contact
+---@field nodes_in_contact integer nodes in contact
 ---@field peak_pressure number greatest pressure (Pa)
 ---@field mean_gap number mean over the tile of the gap where it is open (m)
 ---@field energy number elastic energy in the tile (J)
 ---@field plastic_fraction number share of the tile at the cap; needs plasticity
 ---@field plastic_volume number volume by which the bodies overlap at the cap; needs plasticity (m^3)
----@field certificate asperity.SpreadCertificate how far the contact conditions are from being met, each relative
+---@field certificate asperity.SpreadCertificate violations of the contact conditions, each relative
 ---@field residual number greatest entry of the certificate
 ---@field converged boolean whether every entry of the certificate is within the tolerance
 ---@field iterations integer applications of the half-space on the finest grid
----@field solver string what found the solution
+---@field solver string the method of the solution
 ---@field ranks integer over which it is spread
 ---@field cost asperity.Cost seconds and transforms; bytes is the most memory that any rank held at once for this press, its heights included
 ---@field digest string of the surface and the numbers found
@@ -1836,9 +1952,9 @@ function SpreadState:write(name, path) end
 ---@class asperity.options.lab.material
 ---@field young? number|string Young's modulus (a pressure above 0)
 ---@field poisson? number Poisson's ratio (number above -1 to 0.5)
----@field hardness? number|string indentation hardness; effects.plasticity tells how two bodies share what yields (a pressure above 0, or math.huge for never)
+---@field hardness? number|string indentation hardness; effects.plasticity states the shares of two yielding bodies (a pressure above 0, or math.huge for never)
 ---@field density? number|string mass per volume (a density above 0)
----@field name? string what to call it (string)
+---@field name? string its name (string)
 
 ---@class asperity.options.lab.stylus
 ---@field tip? number|string radius of the spherical tip; 0 is a needle that follows the surface (a length at least 0, default "2 um")
@@ -1851,8 +1967,8 @@ function SpreadState:write(name, path) end
 ---@field lower asperity.Surface the lower body, rough side up (Surface, required)
 ---@field upper asperity.Surface|asperity.Material the upper body: a rough surface that is turned over to face down, a flat of a material, or lab.rigid (Surface|Material, required)
 ---@field boundary? "free"|"periodic" whether the tile goes on beyond its rim; required for a half-space ("free"|"periodic", default "free" for boxes)
----@field effects table what the scene computes, by name, e.g. { elasticity="box" }; nothing else is (table, required)
----@field accuracy? table how close a solve must come, and what if it does not (table)
+---@field effects table computed effects by name, e.g. { elasticity="box" }; no other effect is computed (table, required)
+---@field accuracy? table required accuracy of a solve, and the action on failure (table)
 
 ---@class asperity.options.lab.friction
 ---@field tau0 number|string adhesive shear strength of a junction (a pressure at least 0, required)
@@ -1861,7 +1977,7 @@ function SpreadState:write(name, path) end
 ---@field yield_pressure? number|string sets tau_max = tau0 + alpha * yield_pressure (a pressure above 0, or math.huge for never)
 
 ---@class asperity.options.lab.tilt_stage
----@field contact asperity.Contact what lies on the stage (Contact, required)
+---@field contact asperity.Contact the contact on the stage (Contact, required)
 ---@field friction asperity.Law strength of its junctions (Law, required)
 ---@field mass number|string of the specimen (a mass above 0, required)
 ---@field specimen_area? number|string nominal area over which the weight spreads (an area above 0, default the tile)
@@ -1872,13 +1988,14 @@ function SpreadState:write(name, path) end
 ---@field scatter? number relative standard deviation of the friction force from trial to trial (number at least 0, default 0)
 
 ---@class asperity.options.lab.notebook
----@field columns? string[] the names of columns in the order in which they stand, with units or without (string[], default in the order of their names, as rows bring them)
+---@field columns? string[] the names of columns in the order in which they stand, with units or without (string[], default in the order of the rows that first have them, and by name within a row)
+---@field units? table display units of columns, as in { p="MPa" } (table)
 
 ---@class asperity.options.lab.ensemble
 ---@field over? table name -> list of values; every combination is a case, in the order of the names with the last one varying fastest (table)
 ---@field cases? table the cases themselves, a list of tables, in place of over (table)
----@field run function function(case) returning a table of results, called once a case in a fresh copy of everything it uses: what it changes is seen by no other case (function, required)
----@field on_failure? "error"|"report" what becomes of cases that fail, once all others have run: an error that names them, with the other rows kept in ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others ("error"|"report", default "error")
+---@field run function function(case) returning a table of results, called once a case in a fresh copy of everything it uses: no other case sees its changes (function, required)
+---@field on_failure? "error"|"report" failed cases, once all others have run: an error that names them, with the other rows in ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others ("error"|"report", default "error")
 
 ---@class asperity.options.lab.work_precision
 ---@field ask function function(knobs) returning the quantity, one number; nil (and a message) or an error where a setting fails (function, required)
@@ -1894,7 +2011,7 @@ function SpreadState:write(name, path) end
 ---@field y string the column that the model is to give (string, required)
 ---@field parameters table each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, or its start alone. lower and upper may be left out; step is that of differences, relative (0.001), and wants to be larger for a model with a tolerance of its own (table, required)
 ---@field replicate? table a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and their scatter a part of u that rows of one specimen share; intervals are linearised alone (table)
----@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
+---@field u? string|number standard uncertainty of y: a column, one number in SI, or a quantity; rows weigh by 1/u², and intervals rest on u, whatever the residuals are. All alike without it (string|number)
 ---@field scatter? "absolute"|"relative" constant scatter of y, or of y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
 ---@field specimen? string the column with the names of specimens; rows of one specimen are repeats, and if specimens scatter more than repeats, the fit uses their means (string)
 ---@field basis? "automatic"|"rows"|"specimens" the observations; automatic: rows, and specimens where they scatter (F test at 50 %) ("automatic"|"rows"|"specimens", default "automatic")
@@ -1925,10 +2042,10 @@ function SpreadState:write(name, path) end
 ---@field runs? integer how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
 ---@field seed? integer of the values at which `ask` is called (integer at least 0, default 1)
 
----The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.
+---The laboratory: surfaces, contacts, friction, and the notebook for results.
 ---@class asperity.lab
 ---@field rigid asperity.Material a body that does not deform
----@field materials asperity.Material[] the materials known by name, a list; lab.materials.steel is one of them
+---@field materials asperity.Material[] the materials known by name, a list; for example lab.materials.steel
 ---@field sorted function lab.sorted(t) goes through a table in the order of its keys, for a for loop, as `pairs` does in a script (numbers, strings by their bytes, booleans); other keys than numbers and strings are refused
 ---@field version string the version of the program
 local lab = {}
@@ -1958,42 +2075,47 @@ function lab.friction(options) end
 ---@return asperity.TiltStage
 function lab.tilt_stage(options) end
 
----The notebook of that name: rows kept as <name>.csv in the run directory, written as they come.
+---The notebook of that name: rows stored as <name>.csv in the run directory, written as they come.
 ---@param name string of the notebook and its file
 ---@param options? asperity.options.lab.notebook
 ---@return asperity.Notebook
 function lab.notebook(name, options) end
 
----Runs a function for every case of a study, on all threads, and returns one row a case: the case's own values and what the function returned. Order and values do not depend on the number of threads. A case that fails is told on standard error and the others run on; then `on_failure` says what becomes of it.
+---Runs a function for every case of a study, on all threads, and returns one row a case: the values of the case and the returned values. Order and values do not depend on the number of threads. A failed case is reported on standard error, and the others run on; then `on_failure` decides.
 ---@param options asperity.options.lab.ensemble
 ---@return table[]
 function lab.ensemble(options) end
 
----Measures what accuracy costs: asks for one quantity by several ways over their settings, times each as the median of `repeats` runs, and compares with the truth. Every setting is run once untimed for its answer, then all are timed in rounds; a setting that fails keeps its row. What the study will take is said first on standard error.
+---Measures the cost of accuracy: computes one quantity by several ways over their settings, times each as the median of `repeats` runs, and compares with the truth. Every setting is run once untimed for its answer, then all are timed in rounds; a setting that fails keeps its row. The expected time of the study is first printed on standard error.
 ---@param options asperity.options.lab.work_precision
 ---@return asperity.Study
 function lab.work_precision(options) end
 
----Fits parameters of a law or a model to measured rows by least squares, and says what the rows tell of each: estimate, linearised interval (Student's t), interval by profile likelihood (F), correlation, and a verdict. What the rows do not determine is given no number, and the combination that they do determine is named. Derivatives are taken by the program.
+---Fits parameters of a law or a model to measured rows by least squares, and reports for each: estimate, linearised interval (Student's t), interval by profile likelihood (F), correlation, and a verdict. A parameter that the rows do not determine gets no number; the combination that they determine is named. Derivatives are taken by the program.
 ---@param options asperity.options.lab.calibrate
 ---@return asperity.Calibration
 function lab.calibrate(options) end
 
----The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. print() adds a sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its store.
+---The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, the cost of halving each, and the cheapest way to an interval. print() adds a sheet of the inputs as the GUM has it. Presses computed before in the run are taken from its store.
 ---@param options asperity.options.lab.budget
 ---@return asperity.Budget
 function lab.budget(options) end
 
----Which uncertain input an answer hangs on: first-order and total shares of its variance with their own errors, by polynomial chaos, and which input to measure better next. The leave-one-out error of the fit is printed: below 5 % of the variance shares are good, to 20 % rough, above they are refused. Inputs are taken as independent.
+---Ranks the uncertain inputs of an answer: first-order and total shares of the variance with their errors, by polynomial chaos, and the input to measure better next. The leave-one-out error of the fit is printed: below 5 % of the variance shares are good, to 20 % rough, above they are refused. Inputs are taken as independent.
 ---@param options asperity.options.lab.sensitivity
 ---@return asperity.Sensitivity
 function lab.sensitivity(options) end
 
----What this run has done so far and what it cost, call by call and effect by effect, with what is in no line at the end.
+---Work and cost of this run so far, call by call and effect by effect; the remainder is at the end.
 ---@return asperity.Ledger
 function lab.ledger() end
 
----The files of a folder whose names match a pattern, in the order of their names, as lab.surface.read and the other readers take them: * stands for any characters, ? for one. Which files there were is recorded, and a replay tells where others are there.
+---Prints like string.format. A unit in brackets behind a directive converts the number from SI and is printed without brackets.
+---@param format string text with directives, such as "Ra %.2f [um]"
+---@param ... any a value for each directive
+function lab.say(format, ...) end
+
+---The files of a folder whose names match a pattern, in the order of their names, for lab.surface.read and the other readers: * matches any characters, ? matches one. The list is recorded, and a replay reports a different list.
 ---@param pattern string a folder and a pattern of names in it
 ---@return string[]
 function lab.files(pattern) end
@@ -2004,8 +2126,8 @@ function lab.files(pattern) end
 ---@return number
 function lab.quantity(quantity, kind) end
 
----What the laboratory can do, or one function, value or field of it, as text.
----@param topic? any what to explain: a name or part of one, a key, or the function or value itself; nothing lists the topics
+---Help as text: on the laboratory, or on one function, value or field.
+---@param topic? any the topic: a name or part of a name, a key, or the function or value itself; without it the topics are listed
 ---@return string
 function lab.help(topic) end
 
@@ -2042,7 +2164,7 @@ lab.units = {}
 ---@field seed? integer of the random phases (integer at least 0, default 1)
 ---@field phases? "golden"|function how the phases are drawn instead of from `seed`: the golden sequence that anyone can reproduce, or function(m, n) returning radians ("golden"|function)
 ---@field band? "all"|"resolved" every wave as published (those past Nyquist alias), or only what the grid carries ("all"|"resolved", default "all")
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.self_affine
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
@@ -2055,7 +2177,7 @@ lab.units = {}
 ---@field roll_off? number|string wave above which the spectrum is flat (a length above 0, default long_wave)
 ---@field short_wave number|string shortest wave, at least two cells (a length above 0, required)
 ---@field seed? integer of the random waves (integer at least 0, default 1)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.bead_blasted
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
@@ -2066,12 +2188,12 @@ lab.units = {}
 ---@field coverage? number area of all dents over that of the surface (number above 0, default 4)
 ---@field fine? table|any the fine self-affine texture on top of the dents; false leaves it out (table|false, default {})
 ---@field seed? integer of the dents and the texture (integer at least 0, default 1)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.flat
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.sine
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
@@ -2079,14 +2201,14 @@ lab.units = {}
 ---@field amplitude number|string height of a crest above the mean (a length at least 0, required)
 ---@field wavelength? number|string length of a wave (a length above 0, default size)
 ---@field directions? integer 1: cos along x; 2: cos along x times cos along y (integer from 1 to 2, default 1)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.sphere
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
 ---@field radius number|string radius of curvature (a length above 0, required)
 ---@field shape? "sphere"|"paraboloid" a true sphere, or the paraboloid r^2/2R of the same curvature ("sphere"|"paraboloid", default "sphere")
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.grain_profile
 ---@field radius number|string mean radius of the grain (a length above 0, required)
@@ -2100,21 +2222,21 @@ lab.units = {}
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
 ---@field height function function(x, y) returning the height, all in metres (function, required)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.from_table
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
 ---@field heights number[][] rows of heights in metres, heights[j+1][i+1] (number[][], required)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.surface.read
 ---@field size? number|string|table size of the map, where the file has none (a length|{a length, a length} above 0)
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
----@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
+---@field fill? "interpolate"|a length value of unmeasured points; without it they stay missing ("interpolate"|a length)
 ---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
 ---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---Rough surfaces: generated, from functions and tables, or read from files.
 ---@class asperity.lab.surface
@@ -2140,7 +2262,7 @@ function lab.surface.bead_blasted(options) end
 ---@return asperity.Surface
 function lab.surface.flat(options) end
 
----A cosine wave along x, or the product of one along x and one along y; crest at node 0.
+---A cosine wave along x, or the product of two such waves, along x and along y; crest at node 0.
 ---@param options asperity.options.lab.surface.sine
 ---@return asperity.Surface
 function lab.surface.sine(options) end
@@ -2175,7 +2297,7 @@ function lab.surface.read(path, options) end
 ---@field spacing? number|string distance between samples, where the file has none (a length above 0)
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
----@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
+---@field fill? "interpolate"|a length value of unmeasured points; without it they stay missing ("interpolate"|a length)
 ---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
 ---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
 
@@ -2183,7 +2305,7 @@ function lab.surface.read(path, options) end
 ---@class asperity.lab.profile
 lab.profile = {}
 
----A stylus trace from a file: a profiler's CSV, NPY, or text of one or two columns.
+---A stylus trace from a file: a profiler's CSV, NPY, or text with one or two columns.
 ---@param path string the file
 ---@param options? asperity.options.lab.profile.read
 ---@return asperity.Profile
@@ -2193,24 +2315,24 @@ function lab.profile.read(path, options) end
 ---@field events? "rows"|"detect" "rows": each row is an event; "detect": they are found in a recording sampled all the time ("rows"|"detect", default as the table looks: a hundred rows or more with times, and no dwell, place or turn, are a recording)
 ---@field area? number|string nominal area of the specimen that was pressed: its loads become mean pressures, as a tile of it carries them (an area above 0)
 ---@field noise? number|string|number|string standard deviation of a reading (a load|a pressure, default measured)
----@field zero? number|string|number|string what the sensor reads without load, all along (a load|a pressure, default found in the rests, and followed)
+---@field zero? number|string|number|string reading of the sensor without load, throughout (a load|a pressure, default found in the rests, and followed)
 ---@field zero_drift? number how far from the rest before a rest may lie, as a share of the highest load (number above 0 and below 0.5, default 0.01)
----@field same_load? number how far a hold may drift, and lie from the one before to be part of it, as a share of its load (number above 0 and below 0.5, default 0.02)
----@field shortest_hold? number|string what stays level for less is no hold (a time above 0, default four usual steps of time)
+---@field same_load? number greatest drift of a hold, and distance from the hold before to be part of it, as a share of its load (number above 0 and below 0.5, default 0.02)
+---@field shortest_hold? number|string a shorter level stretch is no hold (a time above 0, default four usual steps of time)
 ---@field evidence? number squares of the noise that a bend must save to be seen; fewer see more, and ghosts (number above 0, default 10 + 4 ln samples)
----@field overshoot? "press"|"ignore" what becomes of a load above the holds at both its sides: a press of its own, for flattening goes by the highest load, or nothing ("press"|"ignore", default "press")
----@field least_overshoot? number an overshoot by less is none, as a share of the load beside it; nor one within six times the noise (number above 0 and below 1, default 0.01)
+---@field overshoot? "press"|"ignore" a load above the holds on both sides: a separate press, because flattening depends on the highest load, or nothing ("press"|"ignore", default "press")
+---@field least_overshoot? number a smaller overshoot is ignored, as a share of the neighbouring load; also one within six times the noise (number above 0 and below 1, default 0.01)
 ---@field least_turn? number|string a turn by less is none (an angle above 0, default "0.5 deg")
 ---@field turn_step? number|string turns are whole multiples of this, and are rounded to them (an angle above 0, default none: turns are as they were read)
----@field equal_times? "error"|"spread" what becomes of samples of a recording that share a time, as those of a fast logger with a slow clock do: an error, or they are spread evenly until the next time ("error"|"spread", default "error")
+---@field equal_times? "error"|"spread" samples with equal times, as from a fast logger with a slow clock: an error, or spread evenly until the next time ("error"|"spread", default "error")
 ---@field columns? table own names of columns, each with its head in the file, as in { load="Kraft" }; where two heads differ in their units alone, with the unit. Or a list: the heads of a file that has none (table)
 ---@field skip? integer lines above the heads that are left out (integer at least 0, default 0)
 ---@field unit? table units of columns that the file says none for, or others than it says: { load="kN" }; "1" for plain numbers, "date" for dates that a spreadsheet wrote as numbers of days (table)
 ---@field dates? "day first"|"month first" the order in dates such as 03/04/2026 ("day first"|"month first", default as a date of the column tells that has a day after the 12th)
----@field clock? "h:min"|"min:s" what times such as 10:30 are ("h:min"|"min:s")
+---@field clock? "h:min"|"min:s" meaning of times such as 10:30 ("h:min"|"min:s")
 ---@field decimal? "."|"," the decimal sign ("."|",", default as the numbers of the file tell together)
----@field thousands? ","|"."|" "|"'" what parts thousands (","|"."|" "|"'", default nothing)
----@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
+---@field thousands? ","|"."|" "|"'" separator of thousands (","|"."|" "|"'", default nothing)
+---@field separator? ","|";"|"tab"|"blank" separator of cells (","|";"|"tab"|"blank", default as the line of heads tells)
 
 ---@class asperity.options.lab.protocol
 ---@field press? table puts a load on, as c:press does (table)
@@ -2219,12 +2341,12 @@ function lab.profile.read(path, options) end
 ---@field rotate? number|string turns the upper body by an angle, as c:rotate does (an angle)
 ---@field shift? table shifts the upper body, as c:shift does (table)
 
----Loading protocols: what is done to a contact, event by event, from tables or press logs.
+---Loading protocols: the events of a contact, from tables or press logs.
 ---@class asperity.lab.protocol
 ---@overload fun(options: asperity.options.lab.protocol[]): asperity.Protocol
 lab.protocol = {}
 
----A protocol from a press log. Its columns are named with units, such as time [s], pressure [MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, from the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are left out with a warning, those titled "result ..." without. With a row an event there may be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the lines they came from and the thresholds, and what the noise leaves uncertain is a warning or an error. Press times are those of the beginning of the hold.
+---A protocol from a press log. Its columns are named with units, such as time [s], pressure [MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, from the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are left out with a warning, those titled "result ..." without. With a row an event there may be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation from the present angle, then presses for its dwell; no pressure takes the load off, and so does a turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the lines they came from and the thresholds, and uncertainty by noise is a warning or an error. Press times are those of the beginning of the hold.
 ---@param path string the file
 ---@param options? asperity.options.lab.protocol.read
 ---@return asperity.Protocol
@@ -2273,7 +2395,7 @@ function lab.protocol.read(path, options) end
 ---@field seed? integer of the random phases (integer at least 0, default 1)
 ---@field phases? "golden"|function how the phases are drawn instead of from `seed`: the golden sequence that anyone can reproduce, or function(m, n) returning radians ("golden"|function)
 ---@field band? "all"|"resolved" every wave as published (those past Nyquist alias), or only what the grid carries ("all"|"resolved", default "all")
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 ---@field node table the node, {i, j} from 0 ({integer, integer}, required)
 
 ---Answers in closed form, to hold a computed one against.
@@ -2321,7 +2443,7 @@ function lab.exact.weierstrass_mandelbrot(options) end
 ---@field roll_off? number|string wave above which the spectrum is flat (a length above 0, default long_wave)
 ---@field short_wave number|string shortest wave, at least two cells (a length above 0, required)
 ---@field seed? integer of the random waves (integer at least 0, default 1)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.spread.sine
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
@@ -2329,32 +2451,32 @@ function lab.exact.weierstrass_mandelbrot(options) end
 ---@field amplitude number|string height of a crest above the mean (a length at least 0, required)
 ---@field wavelength? number|string length of a wave (a length above 0, default size)
 ---@field directions? integer 1: cos along x; 2: cos along x times cos along y (integer from 1 to 2, default 1)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.spread.flat
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.spread.from_function
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
 ---@field height function function(x, y) returning the height, all in metres (function, required)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.spread.read
 ---@field size number|string|table size of the map (a length|{a length, a length} above 0, required)
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0, default 1 m)
----@field material? asperity.Material what the body is made of (Material)
+---@field material? asperity.Material material of the body (Material)
 
 ---@class asperity.options.lab.spread.contact
 ---@field lower asperity.SpreadSurface the lower body, rough side up, from lab.spread (SpreadSurface, required)
 ---@field upper asperity.Material a flat of a material, or lab.rigid (Material, required)
 ---@field boundary "periodic" the tile goes on beyond its rim ("periodic", required)
----@field effects table what the scene computes: { elasticity="half_space" }, and plasticity={ hardness= } if pressure is limited (table, required)
----@field accuracy? table how close a solve must come, and what if it does not (table)
+---@field effects table computed effects: { elasticity="half_space" }, and plasticity={ hardness= } if pressure is limited (table, required)
+---@field accuracy? table required accuracy of a solve, and the action on failure (table)
 
----One contact that does not fit one process: surfaces, the half-space and its states in slabs over the ranks of `mpirun -n K asperity run`, none of which holds the whole grid. In a process alone the same with one slab. Over several ranks last digits hang on the processor and the C library.
+---One contact that does not fit one process: surfaces, the half-space and its states in slabs over the ranks of `mpirun -n K asperity run`; no rank holds the whole grid. In a process alone the same with one slab. Over several ranks last digits hang on the processor and the C library.
 ---@class asperity.lab.spread
 lab.spread = {}
 
@@ -2378,7 +2500,7 @@ function lab.spread.flat(options) end
 ---@return asperity.SpreadSurface
 function lab.spread.from_function(options) end
 
----A surface from a NPY file of shape (ny, nx), of which each rank reads its own rows.
+---A surface from a NPY file of shape (ny, nx); each rank reads its own rows.
 ---@param path string the file, which every rank must be able to read
 ---@param options asperity.options.lab.spread.read
 ---@return asperity.SpreadSurface
@@ -2394,12 +2516,12 @@ function lab.spread.contact(options) end
 ---@field skip? integer lines above the heads that are left out (integer at least 0, default 0)
 ---@field unit? table units of columns that the file says none for, or others than it says: { load="kN" }; "1" for plain numbers, "date" for dates that a spreadsheet wrote as numbers of days (table)
 ---@field dates? "day first"|"month first" the order in dates such as 03/04/2026 ("day first"|"month first", default as a date of the column tells that has a day after the 12th)
----@field clock? "h:min"|"min:s" what times such as 10:30 are ("h:min"|"min:s")
+---@field clock? "h:min"|"min:s" meaning of times such as 10:30 ("h:min"|"min:s")
 ---@field decimal? "."|"," the decimal sign ("."|",", default as the numbers of the file tell together)
----@field thousands? ","|"."|" "|"'" what parts thousands (","|"."|" "|"'", default nothing)
----@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
+---@field thousands? ","|"."|" "|"'" separator of thousands (","|"."|" "|"'", default nothing)
+---@field separator? ","|";"|"tab"|"blank" separator of cells (","|";"|"tab"|"blank", default as the line of heads tells)
 ---@field text? string|string[] columns that hold texts, whatever their cells look like (string|string[])
----@field stamps? "first"|"1970" what dates and times of day are counted from, in seconds: the first one of their column, or the beginning of 1970 ("first"|"1970", default "first")
+---@field stamps? "first"|"1970" origin of dates and times of day, in seconds: the first one of the column, or the beginning of 1970 ("first"|"1970", default "first")
 ---@field steps_back? "midnight"|"winter time" meaning of times that step back: a new day if times of day fall by more than half a day, or an hour if dates without a zone fall by about an hour ("midnight"|"winter time", default nothing)
 
 ---@class asperity.options.lab.table.from
@@ -2433,7 +2555,7 @@ function lab.table.from(rows, options) end
 ---@overload fun(options: asperity.options.lab.knob): number
 lab.knob = {}
 
----Moves a knob in the prompt: once the line has ended, what was entered is run again from its start with the new value, and heavy calls whose inputs are as they were are taken from memory. Where that fails, all stays as it was. A script cannot move its own knobs.
+---Moves a knob in the prompt. After the line has ended, all entered lines run again from the start with the new value; heavy calls with unchanged inputs are taken from memory. If the run fails, nothing changes. A script cannot move its own knobs.
 ---@param name string of a knob that was made
 ---@param value number|string between its bounds; a plain number is SI
 function lab.knob.set(name, value) end

@@ -39,7 +39,7 @@ budget_of_fig7:rises.svg
 08_press_log:volume.svg
 09_same_numbers:touching.svg'
 
-scripts() { find examples scripts/lessons -name '*.lua' ! -path 'examples/accuracy/*' ! -path 'examples/data/*'; }
+scripts() { find examples scripts/lessons -name '*.lua' ! -path 'examples/accuracy/*' ! -path 'examples/data/*' ! -path 'examples/library/*'; }
 path_of() { scripts | grep "/$1\.lua\$"; }
 kept() { printf '%s.%s' "$1" "${2##*.}"; }
 
@@ -49,7 +49,7 @@ page() {
 
 <!-- Written by docs/gallery.sh; do not edit. -->
 
-What the examples and lessons draw, each with its question and its command. Nothing was drawn by hand or touched up.
+The pictures of the examples and lessons, each with its question and its command. Nothing was drawn by hand or retouched.
 TEXT
   printf '\n## Examples\n'
   lessons=

@@ -3,8 +3,8 @@
 --
 --   asperity run examples/quick_start.lua
 --
--- Each press flattens the summits that touch. The disc is turned between presses, so that other summits touch next time.
--- Ra falls from 2.88 to 2.33 um.
+-- Each press flattens the summits that touch. The disc is turned between presses, so that other
+-- summits touch next time. Ra falls from 2.88 to 2.33 um.
 local lab = require "asperity"
 local function disc(seed)
   return lab.surface.bead_blasted{ cells=256, size="1 mm", ra="3 um", seed=seed, material=lab.material "Al-2011" }

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A prediction beside what was found, in one line: `require "asperity.guess"{ said = my_guess.percent, found = 0.26,
--- of = "the share that touches", unit = "%" }`. Where nothing was said, nothing is printed. A guess is a number, or
--- a string with one and perhaps its unit ("10 %"); what is no number is answered, not passed over. Of several guesses
--- in a table `guess.names(my_guess, "percent", "growth")` says their names: another key is an error before anything is
--- computed, as nobody would compare it.
+-- Compares a guess with the result in one line: `require "asperity.guess"{ said = my_guess.percent, found = 0.26,
+-- of = "the share that touches", unit = "%" }`. Without a guess it prints nothing. A guess is a number, or a string
+-- with a number and perhaps its unit ("10 %"); any other text gets an answer. `near=0.05` accepts 5 per cent as near,
+-- in place of 20: give it where a wrong idea is closer than that. A table of several guesses is declared by
+-- `guess.names(my_guess, "percent", "growth")`: another key is an error before the computation.
 local keys = { said=true, found=true, of=true, unit=true, near=true }
 
--- The number in a guess; nil where there is none, or where another unit stands behind it.
+-- The number in a guess; nil without a number or with another unit.
 local function number_of(said, unit)
   if type(said) ~= "string" then
-    -- Neither infinite nor nan.
+    -- Not infinite, not nan.
     return math.type(said) and math.abs(said) < math.huge and said or nil
   end
   local digits, behind = said:match "^%s*([-+]?%d*%.?%d*[eE]?[-+]?%d*)%s*(.-)%s*$"

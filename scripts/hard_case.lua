@@ -1,12 +1,12 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Functions shared by the hard cases of tests/stability/cases. Each case names the swept edge and the failures
--- elsewhere, shows its evidence, and leaves its part of docs/stability.md in the run directory: `section.md`, and
--- `row.md` for the contents. `require "asperity.hard_case"`. It computes nothing.
+-- elsewhere, shows its evidence, and writes its page for docs/stability, `page.md`, and its row of docs/stability.md,
+-- `row.md`, into the run directory. `require "asperity.hard_case"`. This module computes nothing.
 local lab = require "asperity"
 local Case = {}
 Case.__index = Case
 
--- A case: its `number` on the page, `title`, the swept `edge`, the failure `elsewhere`, and the behaviour `here`.
+-- A case: its `number` in the table, `title`, the swept `edge`, the failure `elsewhere`, and the behaviour `here`.
 local function hard_case(given)
   local name = arg[0]:match "([^/]+)%.lua$" or arg[0]
   local case = setmetatable({ name = name, failed = 0, lines = {}, refusals = {}, facts = {} }, Case)
@@ -30,12 +30,12 @@ local function text_of(format, value)
   if value == nil then return "" end
   if type(value) ~= "number" then return tostring(value) end
   if value ~= value or value == math.huge then return tostring(value) end
-  if value == 0 then return "0" end -- of an error: nothing at all
+  if value == 0 then return "0" end -- an exact result
   return (format:format(value):gsub("e([-+])0(%d)", "e%1%2"):gsub("e%+", "e"):gsub("e0$", ""))
 end
 
--- The rows of a notebook as a table, on the page and as printed: every column is { name, format, heading },
--- of which the heading may be left out. `where` chooses rows.
+-- The rows of a notebook as a table, on the page and printed. Every column is { name, format, heading }; the heading
+-- is optional. `where` selects rows.
 function Case:evidence(book, caption, columns, where)
   local heads, rules, width, rows = {}, {}, {}, {}
   for k, column in ipairs(columns) do
@@ -71,10 +71,10 @@ function Case:chart(book, caption, options)
   local file = self.name .. "_" .. options.file
   options.file = file
   book:chart(options)
-  add(self, "", ("![%s](pictures/stability/%s)"):format(caption, file))
+  add(self, "", ("![%s](../pictures/stability/%s)"):format(caption, file))
 end
 
--- Something that holds exactly or not at all.
+-- A statement that is true or false.
 function Case:holds(what, found)
   self.book_of_facts = self.book_of_facts or lab.notebook "facts"
   table.insert(self.facts, what .. (found and "" or ": **does not hold**"))
@@ -82,7 +82,7 @@ function Case:holds(what, found)
   self:expect(self.book_of_facts, "holds", { where = { what = what }, at_least = 1, label = what })
 end
 
--- A call to be refused, with an error that contains every given text. Returns the error.
+-- Expects an error that contains every given text. Returns the error.
 function Case:refused(what, call, ...)
   self.book_of_refusals = self.book_of_refusals or lab.notebook "refusals"
   local accepted, message = pcall(call)
@@ -90,7 +90,7 @@ function Case:refused(what, call, ...)
   for _, part in ipairs{ ... } do named = named and message:find(part, 1, true) ~= nil end
   message = accepted and "was accepted" or tostring(message):gsub("^[^\n]-%.lua:%d+: ",
     ""):gsub("\nstack traceback.*", "")
-    :gsub('"[^"]*/([^"/]+)"', '"%1"') -- a file's name without the folder of this run
+    :gsub('"[^"]*/([^"/]+)"', '"%1"') -- file names without the folder of this run
   self.book_of_refusals:write{ what = what, refused = named and 1 or 0, error = message }
   self:expect(self.book_of_refusals, "refused", { where = { what = what }, at_least = 1, label = what })
   table.insert(self.refusals, { what = what, message = message, named = named })
@@ -102,7 +102,7 @@ local function write(name, lines)
   file:write(table.concat(lines, "\n"), "\n")
 end
 
--- The end: the `worst` error met or the refusal, and the `verdict`, both a few words.
+-- Writes the page and the row: the `worst` error or the refusal, and the `verdict`, a few words each.
 function Case:finish(given)
   local verdict = self.failed == 0 and given.verdict or ("**fails: %d**"):format(self.failed)
   if #self.facts > 0 then
@@ -116,16 +116,15 @@ function Case:finish(given)
         (refusal.message:gsub("|", "\\|"):gsub("\n%s*", "; "))))
     end
   end
-  local anchor = self.title:lower():gsub("[^%w%s-]", ""):gsub("%s", "-")
-  write("row.md", { ("%03d| [%s](#%s) | %s | %s | %s |"):format(self.number, self.title, anchor, self.edge,
-    given.worst,
-    verdict) })
-  table.move(self.lines, 1, #self.lines, 8)
-  local head = { "## " .. self.title, "", "*What goes wrong elsewhere.* " .. self.elsewhere, "",
-    "*What happens here.* " .. self.here, "",
-    ("Script: `tests/stability/cases/%s.lua`."):format(self.name) }
+  write("row.md", { ("%03d| [%s](stability/%s.md) | %s | %s | %s |"):format(self.number, self.title, self.name,
+    self.edge, given.worst, verdict) })
+  local head = { "# " .. self.title, "", "<!-- Generated by tests/stability/report.sh; do not edit. -->", "",
+    "[All hard cases](../stability.md)", "", "**Failures elsewhere.** " .. self.elsewhere, "",
+    "**This program.** " .. self.here, "",
+    ("`asperity run tests/stability/cases/%s.lua` prints these numbers."):format(self.name) }
+  table.move(self.lines, 1, #self.lines, #head + 1)
   table.move(head, 1, #head, 1, self.lines)
-  write("section.md", self.lines)
+  write("page.md", self.lines)
   print(("\n  exact facts: %d, refusals: %d; worst: %s; verdict: %s"):format(#self.facts, #self.refusals,
     given.worst,
     verdict))

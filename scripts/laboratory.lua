@@ -6,8 +6,8 @@
 local lab = require "asperity"
 local laboratory = {}
 
--- The paper's nominal stresses, and the one it repeated up to eight times. Each press lasted ten minutes, the
--- reference time of hardness. So the scripts need no creep and no dwell.
+-- The paper's nominal stresses, and the stress of the repeated events (up to eight). Each press lasted ten minutes,
+-- the reference time of hardness. So the scripts need no creep and no dwell.
 local MPa = lab.units.MPa
 laboratory.stresses = { 20.37 * MPa, 40.74 * MPa, 61.11 * MPa, 101.86 * MPa, 152.78 * MPa, 203.72 * MPa }
 laboratory.event = { pressure = 152.78 * MPa }
@@ -15,12 +15,11 @@ laboratory.event = { pressure = 152.78 * MPa }
 laboratory.kinds = { "self-affine", "bead-blasted" }
 laboratory.probe = "3 MPa" -- on quartz: enough nodes touch, and area still grows in proportion to load
 
--- A tile of one millimetre with Ra = 3 um. A grid of 256 cells leaves the shortest wave four cells, too few
+-- A tile of 1 mm with Ra = 3 um. A grid of 256 cells leaves the shortest wave four cells, too few
 -- to resolve it: ratios hold, absolute areas need finer cells.
 local function specimen(kind, cells, seed, material)
-  local options = {
-    cells = cells or 256, size = "1 mm", ra = "3 um", seed = seed, material = material or lab.material "Al-2011",
-  }
+  local options = { cells = cells or 256, size = "1 mm", ra = "3 um", seed = seed,
+    material = material or lab.material "Al-2011" }
   if kind == "self-affine" then
     options.hurst, options.roll_off, options.short_wave = 0.8, "250 um", "16 um"
     return lab.surface.self_affine(options)
@@ -40,18 +39,14 @@ end
 -- Both on the bench: elastic half-spaces whose pressure is capped by hardness. Away from its axis a turned disc
 -- touches a fresh surface; on one periodic tile `place` represents this turn.
 function laboratory.bench(lower, upper)
-  return lab.contact{
-    lower = lower, upper = upper, boundary = "periodic",
-    effects = { elasticity = "half_space", plasticity = {} },
-  }
+  return lab.contact{ lower = lower, upper = upper, boundary = "periodic",
+    effects = { elasticity = "half_space", plasticity = {} } }
 end
 
 -- The specimen on flat quartz, touched elastically; with a `hardness` (Pa) its spots yield as well.
 function laboratory.on_quartz(specimen, hardness)
-  return lab.contact{
-    lower = specimen, upper = lab.material "quartz", boundary = "periodic",
-    effects = { elasticity = "half_space", plasticity = hardness and { hardness = hardness } },
-  }
+  return lab.contact{ lower = specimen, upper = lab.material "quartz", boundary = "periodic",
+    effects = { elasticity = "half_space", plasticity = hardness and { hardness = hardness } } }
 end
 
 -- Profile length over the whole area, along both directions, at 24 steps in equal ratios from one cell to a
@@ -70,8 +65,7 @@ end
 -- D - 1 by the paper's profile length (eq. 3).
 function laboratory.excess(surface) return by_length(surface).D - 1 end
 
--- Profile length against resolution: the steps in metres, and at each by what share the profiles are longer
--- than straight lines, L/L0 - 1.
+-- Profile length against resolution: the steps in metres, and the excess length over straight lines, L/L0 - 1.
 function laboratory.lengths(surface)
   local found, h, steps, stretch = by_length(surface), surface.size[1] / surface.cells[1], {}, {}
   for k, step in ipairs(found.steps) do steps[k], stretch[k] = step * h, found.lengths[k] - 1 end
@@ -96,22 +90,20 @@ function laboratory.over_hardness(surface)
   return st.pressure / st.corrected_area_fraction / H, st.peak_pressure / H, above / load, nodes
 end
 
--- Ra and amplitude (m) over the whole map, and as the paper read them: the mean of five traces of 2 mm by a
--- tip of 2 um, a sample every quarter of a micrometre, each levelled. The same seed goes over the same
--- lines of every specimen.
+-- Ra and amplitude (m) over the whole map, and by the paper's method: the mean of five levelled traces of 2 mm by
+-- a tip of 2 um, a sample every quarter of a micrometre. A seed selects the same lines of every specimen.
 function laboratory.roughness(surface, seed)
   local stylus = lab.stylus{ tip = "2 um", length = "2 mm", speed = "50 um/s", rate = "200 Hz" }
-  local map, traces = surface:roughness(), stylus:scan(surface, { count = 5, seed = seed })
-  local row = { Ra = map.Ra, amplitude = map.amplitude, traced_Ra = 0, traced_amplitude = 0 }
+  local map, traces, Ra, amplitude = surface:roughness(), stylus:scan(surface, { count = 5, seed = seed }), 0, 0
   for _, trace in ipairs(traces) do
     local along = trace:levelled():roughness()
-    row.traced_Ra = row.traced_Ra + along.Ra / #traces
-    row.traced_amplitude = row.traced_amplitude + along.amplitude / #traces
+    Ra, amplitude = Ra + along.Ra / #traces, amplitude + along.amplitude / #traces
   end
-  return row
+  return { ["Ra [m]"] = map.Ra, ["amplitude [m]"] = map.amplitude, ["traced_Ra [m]"] = Ra,
+    ["traced_amplitude [m]"] = amplitude }
 end
 
--- The lower specimen after one event at each stress, every one from the same virgin pair.
+-- The lower specimen after one event at each stress, always from the virgin pair.
 function laboratory.after_stress(lower, upper)
   local found = {}
   for k, stress in ipairs(laboratory.stresses) do
@@ -123,8 +115,8 @@ function laboratory.after_stress(lower, upper)
   return found
 end
 
--- The lower specimen after each of `events` (8) at 152.78 MPa, put down afresh from a `seed` before all but
--- the first; with `turning = false`, always as it lay.
+-- The lower specimen after each of `events` (8) at 152.78 MPa. A new placement, drawn from `seed`, precedes each
+-- event but the first; with `turning = false` the specimens keep their place.
 function laboratory.after_events(lower, upper, given)
   local bench, found = laboratory.bench(lower, upper), {}
   for N = 1, given.events or 8 do
@@ -136,15 +128,11 @@ function laboratory.after_events(lower, upper, given)
   return found
 end
 
--- Controls, which must not show the paper's effect.
-
--- The lower face cut by one plane. The plane removes the same volume as plastic flow under `stress` (Pa) does node by
--- node.
+-- A control: the lower face cut by one plane, which removes the volume of the plastic flow under `stress` (Pa).
 function laboratory.cut_to_a_plane(lower, upper, stress)
   local st = laboratory.bench(lower, upper):press{ pressure = stress }
   local taken = st.plastic_volume / 2 / (lower.size[1] * lower.size[2]) -- a mean height
-  local mean = lower:roughness().mean
-  local less, more = 0, 1 -- shares of the amplitude
+  local mean, less, more = lower:roughness().mean, 0, 1 -- less and more: shares of the amplitude
   for _ = 1, 30 do
     local middle = (less + more) / 2
     local cut = mean - lower:cut{ fraction = middle }:roughness().mean
@@ -153,24 +141,19 @@ function laboratory.cut_to_a_plane(lower, upper, stress)
   return lower:cut{ fraction = more }
 end
 
--- The surface after interpolation at every turn: moved by part of a cell, `times` times, each time a mean of four
--- neighbours.
+-- A control: the surface after `times` interpolations, each a shift by part of a cell with a mean of four neighbours.
 function laboratory.interpolated(surface, times)
   local hx, hy = surface.size[1] / surface.cells[1], surface.size[2] / surface.cells[2]
-  local function weighted(s, weight) return s:scaled{ amplitude = weight * s.peak_to_valley } end
   for _ = 1, times do
     local a, b = math.random(), math.random()
-    surface = weighted(surface, (1 - a) * (1 - b))
-      :plus(weighted(surface:shifted{ x = hx }, a * (1 - b)))
-      :plus(weighted(surface:shifted{ y = hy }, (1 - a) * b))
-      :plus(weighted(surface:shifted{ x = hx, y = hy }, a * b))
-      :levelled{ degree = 0 } -- `scaled` keeps the mean, so that the sum has four of them
+    surface = (1 - a) * (1 - b) * surface + a * (1 - b) * surface:shifted{ x = hx }
+      + (1 - a) * b * surface:shifted{ y = hy } + a * b * surface:shifted{ x = hx, y = hy }
   end
   return surface
 end
 
--- As the paper measured: five stylus traces of 2 mm, a sample every quarter of a micrometre, and of each Ra and D - 1
--- by profile length at steps of 0.25 to 250 um. Means over the traces; the same seed goes over the same lines.
+-- The paper's measurement: five stylus traces of 2 mm, a sample every quarter of a micrometre. Returns the means of
+-- Ra and of D - 1 by profile length at steps of 0.25 to 250 um. A seed selects the same lines.
 function laboratory.scanned(surface, seed)
   local stylus = lab.stylus{ tip = "2 um", length = "2 mm", speed = "50 um/s", rate = "200 Hz" }
   local traces, steps = stylus:scan(surface, { count = 5, seed = seed }), {}
@@ -187,46 +170,25 @@ function laboratory.scanned(surface, seed)
   return { Ra = Ra, excess = excess }
 end
 
--- Evaluation of the numbers.
-
--- Mean and standard deviation (n - 1) of a list of numbers.
-function laboratory.average(numbers)
-  local sum, squares = 0, 0
-  for _, x in ipairs(numbers) do sum = sum + x end
-  local mean = sum / #numbers
-  for _, x in ipairs(numbers) do squares = squares + (x - mean) ^ 2 end
-  return mean, #numbers > 1 and math.sqrt(squares / (#numbers - 1)) or 0
-end
-
--- The remaining share of every number: last row / first row, column by column.
-function laboratory.left(rows)
-  local first, last, ratios = rows[1], rows[#rows], {}
-  for column, number in pairs(first) do ratios[column] = last[column] / number end
-  return ratios
-end
-
--- A column of a row of `paper.means`, as text: the mean, and its scatter over specimens where there is one.
-function laboratory.with_scatter(row, column)
-  local scatter = row[column .. "_sd"]
-  return ("%.3f"):format(row[column]) .. (scatter and (" +- %.3f"):format(scatter) or "")
-end
-
--- A line of a printed table: a name, then a column of every row, in a unit and with so many decimals.
-function laboratory.across(name, rows, column, unit, decimals)
-  local text = { ("  %-21s"):format(name) }
-  for _, row in ipairs(rows) do text[#text + 1] = ("%8." .. decimals .. "f"):format(row[column] / unit) end
-  return table.concat(text)
+-- The rows whose `column` is `last`, with each roughness divided by that of the rows whose `column` is `first`. Rows
+-- that belong together are equal in the columns `keys`.
+function laboratory.left(rows, column, first, last, keys)
+  local ratios = {}
+  for _, name in ipairs{ "Ra", "amplitude", "traced_Ra", "traced_amplitude" } do
+    ratios[name] = function(row) return row[name] / row[name .. "_first"] end
+  end
+  local before = rows:where{ [column] = first }
+  return rows:where{ [column] = last }:joined(before, { by = keys, suffix = "_first" }):with(ratios)
 end
 
 -- The least-squares line y = intercept + slope x, and the share r2 of the variance of y that it explains.
 function laboratory.line(x, y)
-  local mx, my = laboratory.average(x), laboratory.average(y)
-  local xx, xy, yy = 0, 0, 0
+  local mx, my, xx, xy, yy = 0, 0, 0, 0, 0
+  for k = 1, #x do mx, my = mx + x[k] / #x, my + y[k] / #x end
   for k = 1, #x do
     xx, xy, yy = xx + (x[k] - mx) ^ 2, xy + (x[k] - mx) * (y[k] - my), yy + (y[k] - my) ^ 2
   end
-  local slope = xy / xx
-  return { slope = slope, intercept = my - slope * mx, r2 = xy * xy / (xx * yy) }
+  return { slope = xy / xx, intercept = my - xy / xx * mx, r2 = xy * xy / (xx * yy) }
 end
 
 return laboratory

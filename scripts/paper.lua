@@ -21,30 +21,26 @@ paper.pressure = 0.01 * paper.young
 -- tenth of the side at every D ("constant amplitude"). `unscaled` leaves eq. (2)'s own heights.
 function paper.surface(given)
   local cells = given.cells or 150
-  local s = lab.surface.weierstrass_mandelbrot{
-    cells = cells, D = given.D, seed = given.seed, span = paper.spans[given.preset],
-    L = "50 um", G = "5 um", material = paper.box,
-  }
+  local s = lab.surface.weierstrass_mandelbrot{ cells = cells, D = given.D, seed = given.seed,
+    span = paper.spans[given.preset], L = "50 um", G = "5 um", material = paper.box }
   return given.unscaled and s or s:scaled{ amplitude = 0.1 * (cells - 1) * s.size[1] / cells }
 end
 
--- The contact of such a surface with the rigid flat. A box is as stiff as a column of height A, which is
--- the surface's own peak-to-valley height unless it is given in metres.
+-- The contact of a fractal surface with the rigid flat. A box is as stiff as a column of height A (m), by default
+-- the surface's peak-to-valley height.
 function paper.contact(surface, A)
-  return lab.contact{
-    lower = surface, upper = lab.rigid,
-    effects = { elasticity = A and { model = "box", stiffness = paper.young / A } or "box" },
-  }
+  return lab.contact{ lower = surface, upper = lab.rigid,
+    effects = { elasticity = A and { model = "box", stiffness = paper.young / A } or "box" } }
 end
 
--- The same surfaces on an elastic half-space, free, at one load (0.006 E): means over `seeds` seeds for each preset
--- and D = 2.0 and 2.9; friction is computed with tau0 = 0.01 E and r = 0.1, without a cap.
+-- Such surfaces on an elastic half-space, free, at one load (0.006 E): means over `seeds` seeds for each preset at
+-- D = 2.0 and 2.9. Friction has tau0 = 0.01 E and r = 0.1, without a cap.
 function paper.on_half_space(seeds)
   local unit = lab.material{ young = 1, poisson = 0 }
   local rows = lab.ensemble{
     over = { preset = paper.presets, D = { 2.0, 2.9 }, seed = paper.count(seeds) },
     run = function(case)
-      local span = require("asperity.paper").spans[case.preset]
+      local span = paper.spans[case.preset]
       local s = lab.surface.weierstrass_mandelbrot{ cells = 150, D = case.D, span = span, seed = case.seed, material = unit }
       local c = lab.contact{ lower = s:scaled{ amplitude = 5 * span }, upper = lab.rigid, boundary = "free",
                              effects = { elasticity = "half_space" }, accuracy = { tolerance = 1e-5 } }
@@ -56,56 +52,82 @@ function paper.on_half_space(seeds)
   return paper.means(rows, { "preset", "D" })
 end
 
-function paper.count(n)
+-- The list of `n` whole numbers from `first` (1) on.
+function paper.count(n, first)
   local list = {}
-  for k = 1, n do list[k] = k end
+  for k = 1, n do list[k] = (first or 1) + k - 1 end
   return list
 end
 
--- The rows in which these columns hold these values.
-function paper.where(rows, wanted)
-  local found = {}
-  for _, row in ipairs(rows) do
-    local all = true
-    for column, value in pairs(wanted) do all = all and row[column] == value end
-    if all then found[#found + 1] = row end
-  end
-  return found
-end
-
--- One row for each combination of the columns `keys`, in order of first appearance: the mean of every other column of
--- numbers, except `seed` and `pair`, which name a specimen, and its standard deviation (n - 1) as NAME_sd.
-function paper.means(rows, keys)
-  local groups, order, is_key = {}, {}, {}
+-- Means of the columns of numbers, one row for each combination of the columns `keys`, and their standard deviations
+-- (n - 1) as NAME_sd. `seed` and `pair` name a specimen and have no mean. `file` is a CSV.
+function paper.means(rows, keys, file)
+  local groups, means, is_key = {}, {}, {}
   for _, key in ipairs(keys) do is_key[key] = true end
-  for _, row in ipairs(rows) do
-    local parts = {}
-    for k, key in ipairs(keys) do parts[k] = tostring(row[key]) end
-    local name = table.concat(parts, "|")
-    if not groups[name] then
-      groups[name] = {}
-      order[#order + 1] = name
-    end
-    table.insert(groups[name], row)
+  for _, row in ipairs(rows:sorted{ by = keys }) do
+    local group = groups[#groups]
+    local same = group ~= nil
+    for _, key in ipairs(keys) do same = same and group[1][key] == row[key] end
+    if same then table.insert(group, row) else table.insert(groups, { row }) end
   end
-  local result = {}
-  for k, name in ipairs(order) do
-    local group, mean = groups[name], {}
+  for k, group in ipairs(groups) do
+    means[k] = {}
     for column, value in pairs(group[1]) do
       if is_key[column] then
-        mean[column] = value
+        means[k][column] = value
       elseif math.type(value) and column ~= "seed" and column ~= "pair" then
         local sum, squares = 0, 0
         for _, row in ipairs(group) do sum = sum + row[column] end
-        local centre = sum / #group
-        for _, row in ipairs(group) do squares = squares + (row[column] - centre) ^ 2 end
-        mean[column] = centre
-        if #group > 1 then mean[column .. "_sd"] = math.sqrt(squares / (#group - 1)) end
+        local mean = sum / #group
+        for _, row in ipairs(group) do squares = squares + (row[column] - mean) ^ 2 end
+        means[k][column], means[k][column .. "_sd"] = mean, math.sqrt(squares / (#group - 1))
       end
     end
-    result[k] = mean
   end
+  local result = lab.table.from(means)
+  if file then result:write(file) end
   return result
+end
+
+-- A table with one row for each entry of the list `list` of every case: the cells of the case and of the entry.
+function paper.unfolded(cases, list, file)
+  local rows = {}
+  for _, case in ipairs(cases) do
+    for _, entry in ipairs(case[list]) do
+      local row = {}
+      for name, value in pairs(case) do row[name] = type(value) ~= "table" and value or nil end
+      for name, value in pairs(entry) do row[name] = value end
+      table.insert(rows, row)
+    end
+  end
+  local result = lab.table.from(rows)
+  if file then result:write(file) end
+  return result
+end
+
+-- Prints one line for each combination of the columns `keys`, with the cells of the column `of` for each value of the
+-- column `across`.
+function paper.show_across(rows, given)
+  local names, wide = { digits = given.digits, table.unpack(given.keys) }, nil
+  for _, value in ipairs(given.values) do
+    local name = ("%s = %g"):format(given.across, value)
+    local part = rows:where{ [given.across] = value }:with{ [name] = function(row) return row[given.of] end }
+    wide = wide and wide:joined(part, { by = given.keys, suffix = " at " .. name }) or part
+    table.insert(names, name)
+  end
+  wide:show(names)
+end
+
+-- Expects known values. A line of `known` holds the values of the columns `keys`, which select a row, and then those
+-- of the columns in `within`, a list of { column, greatest distance }.
+function paper.agree(rows, keys, within, known)
+  for _, line in ipairs(known) do
+    local where = {}
+    for k, key in ipairs(keys) do where[key] = line[k] end
+    for k, of in ipairs(within) do
+      rows:expect(of[1], { where = where, near = line[#keys + k], within = of[2] })
+    end
+  end
 end
 
 return paper

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The events of a press log, drawn and replayed: `asperity press-log FILE` runs this script. Arguments: log, area,
+-- Draws and replays the events of a press log: `asperity press-log FILE` runs this script. Arguments: log, area,
 -- skip, columns ("load=Kraft,time=Zeit"), turn_step, specimen (a script), cells, seed, and other keys of
 -- lab.protocol.read with a number, a quantity or a word.
 local lab = require "asperity"
@@ -68,7 +68,7 @@ end
 local bench = options.specimen == "" and rough_pair() or dofile(options.specimen)
 if type(bench) == "function" then bench = bench(p) end
 
--- 3. Replayed.
+-- 3. The replay.
 local before = bench:lower():roughness().Ra
 local book, pressed = lab.notebook "events", 0
 print "\n  event                            yielded    touching"

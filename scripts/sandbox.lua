@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What a script may reach. Called once with the host's functions before a script is loaded; leaves
--- Lua's own libraries less what acts outside the run: no other programs, no C libraries, no bytecode,
--- no hooks or metatables of native values, and files are written only under the run directory.
--- With `trusted` nothing is taken away. Globals are strict either way.
+-- Limits the reach of a script. Called once with the host's functions before a script is loaded. Removes every
+-- action outside the run from Lua's libraries: other programs, C libraries, bytecode, hooks and metatables of native
+-- values. Files are written only under the run directory. With `trusted` nothing is removed. Globals are strict in
+-- both cases.
 local host, trusted = ...
 
 local error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall, ipairs, tonumber =
@@ -11,8 +11,8 @@ local getinfo, open, find = debug.getinfo, io.open, string.find
 
 os.exit = host.exit
 
--- An error at the line of the script that is running, however deep the functions of Lua and of this file
--- stand between: pcall(os.execute) has no line of its own.
+-- Raises an error at the running line of the script, below any depth of functions of Lua and of this file:
+-- pcall(os.execute) has no line of its own.
 local function fail(message)
   local place = ""
   for level = 3, 16 do
@@ -26,15 +26,15 @@ local function fail(message)
   error(place .. message, 0)
 end
 
--- Arithmetic with a quantity written as a string.
+-- Arithmetic with quantities written as strings.
 local strings, known = getmetatable "", { string=true, number=true }
 for _, event in ipairs{ "__add", "__sub", "__mul", "__div", "__mod", "__pow", "__idiv", "__unm" } do
   local original = strings[event]
   strings[event] = function(a, b)
     local text = type(a) == "string" and not tonumber(a) and a or type(b) == "string" and not tonumber(b) and b
     if text and known[type(a)] and known[type(b)] then
-      fail("the string \"" .. text .. "\" was used in arithmetic; quantities are strings where a key takes"
-        .. " them, and in sums plain SI numbers: write 1e-6 or 1 * lab.units.um for \"1 um\"")
+      fail("the string \"" .. text .. "\" was used in arithmetic, where a quantity is a plain SI number; write"
+        .. " 1e-6 or 1 * lab.units.um for \"1 um\"")
     end
     return original(a, b)
   end
@@ -43,7 +43,7 @@ end
 -- The host reads script files: a run records and copies them, and a replayed or resumed run loads its copies. Lua
 -- itself reports a file that cannot be read.
 local load_any, loadfile_original, searchpath, path_of = load, loadfile, package.searchpath, package
-local all_modes = trusted and "bt" or "t" -- bytecode can be made to crash the interpreter
+local all_modes = trusted and "bt" or "t" -- forged bytecode can crash the interpreter
 local function load_script(path, is_module, mode, ...)
   if type(path) == "string" then
     local text, message = host.script_text(path, is_module)
@@ -101,8 +101,8 @@ if not trusted then
   io.popen = refused("io.popen")
   io.tmpfile = refused("io.tmpfile", "give the file a name: it goes to the run directory")
 
-  -- Files are read anywhere and written under the run directory only. A dry run writes none: it looks
-  -- at the name and gives the place `instead`.
+  -- Scripts read files anywhere and write files under the run directory only. A dry run writes no file: it
+  -- checks the name and returns `instead`.
   local function destination(path, instead)
     if type(path) ~= "string" then fail("a file name must be a string, and is a " .. type(path)) end
     local place, message = host.output_path(path)
@@ -121,7 +121,7 @@ if not trusted then
     end
     return open(path, mode)
   end
-  -- Whatever is read is found, and known to have been read, in the same way.
+  -- All reads resolve and record their file here.
   local function source(path)
     if type(path) ~= "string" then return path end
     local place, message = host.input_path(path)
@@ -129,7 +129,7 @@ if not trusted then
     return place
   end
   local lines, input = io.lines, io.input
-  -- One that cannot be opened is the script's error, at its line.
+  -- A file that cannot be opened is an error at the script's line.
   local function readable(path)
     local place = source(path)
     if type(place) == "string" then
@@ -175,7 +175,7 @@ if not trusted then
   package.loadlib, package.cpath = nil, ""
   package.searchers = { package.searchers[1], package.searchers[2] } -- package.preload, and script files
 
-  -- Facts about a running function without the function itself, because the removed originals may be on the stack.
+  -- Facts about a running function, but not the function: the removed originals may be on the stack.
   local running = coroutine.running
   local function getinfo_without_functions(thread, of, what)
     if type(thread) ~= "thread" then thread, of, what = running(), thread, of end
@@ -188,7 +188,7 @@ if not trusted then
   package.loaded.debug = debug
 end
 
--- Strict globals: a name that was never set is a slip, not nil; a function may not make new ones.
+-- Strict globals: reading an unset name is an error, and functions may not create globals.
 local meta = getmetatable(_G) or {}
 function meta.__index(_, name)
   local message = host.unknown_global(name, _G)

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- lab.sorted(t): goes through a table in the order of its keys, numbers first, then names, so that a
--- script does the same in an interpreter whose pairs() promises no order.
+-- lab.sorted(t): iterates over a table in the order of its keys, numbers first, then names. pairs() guarantees no
+-- order, so a script could differ between interpreters.
 local function before(a, b)
   if type(a) == type(b) then return a < b end
   return type(a) == "number"

@@ -65,13 +65,8 @@ int terminal_columns() {
   return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string cut(const std::string& text, std::size_t columns) {
-  if (characters(text) <= columns) return text;
+  if (characters_of(text) <= columns) return text;
   std::size_t end = 0, shown = 0;
   while (end < text.size() && shown + 3 < columns) {
     ++end;
@@ -283,7 +278,7 @@ AsperityEditAnswer LineReader::answer(std::string_view line, std::size_t before)
     if (all.size() == 1 && all.front().kind == "key") common += "=";
     const bool goes_on = common.size() > typed.size() || (all.size() == 1 && common != typed);
     if (goes_on) {
-      answer.take_away = characters(typed);
+      answer.take_away = characters_of(typed);
       insert_ = common;
     } else if (all.size() > 1) {
       list_ = candidate_list(all, terminal_columns());

@@ -16,8 +16,8 @@
 namespace asperity::cli {
 
 // The prompt's history in $XDG_STATE_HOME/asperity/history (default ~/.local/state/asperity/history), mode
-// 0600. Lines are appended at once, so that parallel or killed sessions lose nothing; a session's start cuts
-// the file to a thousand lines. Errors are ignored.
+// 0600. Lines are appended at once: parallel and killed sessions lose nothing; a session's start cuts the
+// file to a thousand lines. Ignores errors.
 class LineHistory {
  public:
   static constexpr std::size_t most_lines = 1000;
@@ -27,7 +27,7 @@ class LineHistory {
   static std::filesystem::path default_file();
 
   const std::vector<std::string>& lines() const { return lines_; }
-  // Skips empty lines, lines with a leading space, and repetitions.
+  // Skips empty lines, leading spaces, and repetitions.
   bool add(const std::string& line);
 
  private:
@@ -39,7 +39,7 @@ class LineReader {
  public:
   using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
 
-  // Blocks the stop signals in this thread and later threads: construct first.
+  // Blocks the stop signals in this and later threads: construct first.
   LineReader(LineHistory history, Complete complete);
   ~LineReader();
   LineReader(const LineReader&) = delete;
@@ -48,7 +48,7 @@ class LineReader {
   bool terminal() const { return terminal_; }
   enum class Event { line, given_up, end };
   Event read(const std::string& prompt, std::string& line);
-  // The signal that ended the input, or 0.
+  // The input's end signal, or 0.
   int ended_by() const;
 
  private:
@@ -63,7 +63,7 @@ class LineReader {
   std::string insert_, list_;
 };
 
-// The lines for a terminal of `columns`; short lists have descriptions.
+// For a terminal of `columns`; short lists have descriptions.
 std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
 
 }  // namespace asperity::cli

@@ -21,7 +21,7 @@
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/mpi/messages.hpp"
-#include "engine/core/slabs/mpi_team.hpp"
+#include "engine/core/slabs/team.hpp"
 
 namespace asperity::cli {
 
@@ -32,28 +32,28 @@ constexpr LoadedPart part{"mpi", "cases are spread over the ranks of mpirun", "l
 // How long rank 0 waits for the other ranks at its end.
 constexpr auto patience_done = std::chrono::seconds(60), patience_failed = std::chrono::seconds(3);
 
-std::optional<int> whole(const std::optional<std::string>& text) {
-  if (!text || text->empty() || text->size() > 8 ||
-      text->find_first_not_of("0123456789") != std::string::npos)
-    return {};
-  return std::stoi(*text);
+// In the environment.
+std::optional<int> whole(const char* name) {
+  const char* const given = std::getenv(name);
+  const std::string text = given == nullptr ? "" : given;
+  if (text.empty() || text.size() > 8 || text.find_first_not_of("0123456789") != std::string::npos) return {};
+  return std::stoi(text);
 }
 
-// For `srun -n 3`. A batch script, one process, also has SLURM_NTASKS. Only srun sets the step's number of
-// tasks, and only PMIx sets the rank.
+// For `srun -n 3`. Only srun sets the step's number of tasks, and only PMIx the rank; a batch script, one
+// process, has SLURM_NTASKS.
 std::optional<LaunchedRank> started_by_srun(bool share) {
-  const auto rank = whole(environment_variable("PMIX_RANK"));
-  const auto tasks = whole(environment_variable(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS"));
-  const auto task = rank ? rank : whole(environment_variable("SLURM_PROCID"));
+  const auto rank = whole("PMIX_RANK");
+  const auto tasks = whole(rank ? "SLURM_NTASKS" : "SLURM_STEP_NUM_TASKS");
+  const auto task = rank ? rank : whole("SLURM_PROCID");
   if (share || !tasks || !task || *tasks < 2) return {};
-  if (!rank || !environment_variable("PMIX_NAMESPACE"))
+  if (!rank || std::getenv("PMIX_NAMESPACE") == nullptr)
     throw Error(
         ErrorCode::bad_value,
         "srun started " + std::to_string(*tasks) + " tasks without MPI, and each would run the whole script",
         "use srun --mpi=pmix or mpirun; for separate runs give each --shard i/n, or start it by "
         "env -u PMIX_RANK -u SLURM_STEP_NUM_TASKS");
-  return LaunchedRank{*task, *tasks,
-                      std::max(1, whole(environment_variable("SLURM_TASKS_PER_NODE")).value_or(1))};
+  return LaunchedRank{*task, *tasks, std::max(1, whole("SLURM_TASKS_PER_NODE").value_or(1))};
 }
 
 }  // namespace
@@ -63,10 +63,10 @@ std::optional<LaunchedRank> launched_rank(bool share) {
   for (const Names& names :
        {Names{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE"},
         Names{"PMI_SIZE", "PMI_RANK", "MPI_LOCALNRANKS"}}) {
-    const auto size = whole(environment_variable(names[0])), rank = whole(environment_variable(names[1]));
+    const auto size = whole(names[0]), rank = whole(names[1]);
     if (!size || !rank) continue;
     if (*size < 2) return {};
-    return LaunchedRank{*rank, *size, std::max(1, whole(environment_variable(names[2])).value_or(1))};
+    return LaunchedRank{*rank, *size, std::max(1, whole(names[2]).value_or(1))};
   }
   return started_by_srun(share);
 }
@@ -102,7 +102,7 @@ MpiRanks::MpiRanks(int started) {
 }
 
 Team& MpiRanks::team() {
-  if (!team_) team_ = std::make_unique<MpiTeam>(part, rank_, size_);
+  if (!team_) team_ = team_of_mpi(part, rank_, size_);
   return *team_;
 }
 
@@ -132,7 +132,7 @@ int MpiRanks::leave(int status) {
   return 0;
 }
 
-// Rank 0 ends all ranks when its record is safe, or has already ended.
+// Rank 0 ends all ranks once its record is safe.
 void MpiRanks::leave_stopped(int status) {
   const auto begun = Clock::now();
   for (;;) {
@@ -169,7 +169,7 @@ int MpiRanks::leave_leading(int status) {
       if (lost(other)) ended.insert(other);
     if (Clock::now() - begun > patience) {
       std::fprintf(stderr,
-                   "asperity: rank 0 came to its end and %d of the other ranks did not: they are ended\n",
+                   "asperity: rank 0 has ended, and %d of the other ranks have not: they are stopped\n",
                    size_ - 1 - static_cast<int>(ended.size()));
       mpi_->abort(status == 0 ? 1 : status);
     }

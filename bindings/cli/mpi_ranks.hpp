@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ranks of `mpirun -n K asperity run SCRIPT`. MPI is loaded only after a launch by mpirun, as shown by
-// the environment.
+// The ranks of `mpirun -n K asperity run SCRIPT`. MPI is loaded only after a launch by mpirun.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "bindings/cli/shard.hpp"
-#include "engine/core/files/temporary_folder.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/run/ranks.hpp"
 
 struct AsperityMpi;
 
 namespace asperity::cli {
 
-// From the launcher, before MPI starts; none for a single process, or for srun tasks that `share` a store.
-// Throws Error{bad_value} for srun tasks without MPI.
+// From the launcher's environment; none for a single process, or for srun tasks that `share` a store. Throws
+// Error{bad_value} for srun tasks without MPI.
 struct LaunchedRank {
   int rank = 0, size = 1;
   int on_this_machine = 1;
 };
 std::optional<LaunchedRank> launched_rank(bool share);
-// Default threads: the machine's processors divided among its ranks.
+// Default: the machine's processors divided among its ranks.
 int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public Ranks {
@@ -34,11 +32,11 @@ class MpiRanks final : public Ranks {
 
   Team& team() override;
 
-  // For files of a rank other than 0.
+  // For ranks other than 0.
   std::string scratch_folder() const { return scratch_->path().string() + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
 
-  // Waits for the other ranks and returns the exit status; aborts all after a time limit.
+  // Waits for the other ranks; aborts all after a time limit. Returns the exit status.
   int leave(int status);
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/plain_streams.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,10 +20,10 @@ namespace {
 struct PlainStream {
   int descriptor;
   Keeps keeps;
-  std::string tail{};  // of an incomplete character or sequence
+  std::string tail{};  // incomplete character or sequence
 };
 
-// Length of a leading "ESC [ 1 ; 31 m"; 0 for other text, npos if incomplete.
+// Leading "ESC [ 1 ; 31 m"; 0 for other text, npos if incomplete.
 std::size_t colour_sequence(std::string_view text) {
   constexpr std::size_t longest = 32;
   for (std::size_t k = 0; k < std::min(text.size(), longest); ++k) {
@@ -73,7 +74,7 @@ ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
 
 // Null if out of memory.
 FILE* plain_stream(int descriptor, Keeps keeps) {
-  // Never freed: C streams are flushed after all destructors.
+  // Never freed: C streams flush after all destructors.
   static std::array<PlainStream*, STDERR_FILENO + 1> kept{};
   PlainStream*& stream = kept.at(static_cast<std::size_t>(descriptor));
   if (stream == nullptr) stream = new PlainStream{descriptor, keeps};
@@ -101,6 +102,21 @@ void make_output_plain(Keeps keeps) {
 void erase_shown_line() {
   std::fflush(stderr);
   write_all(STDERR_FILENO, erase_line);
+}
+
+Muted::Muted() {
+  std::fflush(stdout);
+  kept_ = ::dup(STDOUT_FILENO);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
+  if (nowhere >= 0) ::close(nowhere);
+}
+
+Muted::~Muted() {
+  std::fflush(stdout);
+  if (kept_ < 0) return;
+  ::dup2(kept_, STDOUT_FILENO);
+  ::close(kept_);
 }
 
 }  // namespace asperity::cli

@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "bindings/cli/plain_streams.hpp"
-#include "bindings/cli/run_observer.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
@@ -16,7 +15,6 @@ namespace {
 constexpr double quiet_seconds = 1.0;   // shorter work shows nothing
 constexpr double redraw_seconds = 0.2;  // on a terminal
 constexpr double relist_seconds = 5.0;  // elsewhere
-}  // namespace
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::llround(std::fmin(seconds, 1e9)));
@@ -25,35 +23,37 @@ std::string duration_text(double seconds) {
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+}  // namespace
+
 TerminalMonitor::TerminalMonitor() : terminal_(isatty(STDERR_FILENO) != 0) {}
 TerminalMonitor::~TerminalMonitor() {
   tell_alike();
   clear();
 }
 
-void TerminalMonitor::progress(std::string_view what, double done) {
+void TerminalMonitor::progress(std::string_view what, double fraction) {
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
-  if (what != current_ || done < last_done_) {
+  if (what != current_ || fraction < last_done_) {
     current_ = what;
     started_ = now;
     shown_ = now - std::chrono::hours(1);
   }
-  last_done_ = done;
+  last_done_ = fraction;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
   if (elapsed < quiet() || std::chrono::duration<double>(now - shown_).count() < pause()) return;
   shown_ = now;
-  show(current_, done, elapsed);
+  show(current_, fraction, elapsed);
 }
 
-void TerminalMonitor::progress_of_parts(std::string_view what, double done, std::string_view part,
+void TerminalMonitor::progress_of_parts(std::string_view what, double fraction, std::string_view part,
                                         double seconds) {
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   current_.clear();
   if (seconds < quiet() || std::chrono::duration<double>(now - parts_shown_).count() < pause()) return;
   parts_shown_ = now;
-  show(std::string(what) + ", " + std::string(part), done, seconds);
+  show(std::string(what) + ", " + std::string(part), fraction, seconds);
 }
 
 double TerminalMonitor::pause() const {
@@ -62,12 +62,13 @@ double TerminalMonitor::pause() const {
 
 double TerminalMonitor::quiet() const { return observer_ != nullptr ? redraw_seconds : quiet_seconds; }
 
-void TerminalMonitor::show(const std::string& title, double done, double seconds) {
+void TerminalMonitor::show(const std::string& title, double fraction, double seconds) {
   if (observer_ != nullptr)
-    return observer_->progress(title, done, done > 0 ? seconds / done * (1 - done) : -1);
-  const std::string left = done > 0 ? ", about " + duration_text(seconds / done * (1 - done)) + " left" : "";
+    return observer_->progress(title, fraction, fraction > 0 ? seconds / fraction * (1 - fraction) : -1);
+  const std::string left =
+      fraction > 0 ? ", about " + duration_text(seconds / fraction * (1 - fraction)) + " left" : "";
   char percent[16];
-  std::snprintf(percent, sizeof percent, "%.0f %%", 100 * done);
+  std::snprintf(percent, sizeof percent, "%.0f %%", 100 * fraction);
   const std::string line = title + ": " + percent + left;
   if (terminal_) {
     erase_shown_line();

@@ -7,7 +7,10 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 
+#include "bindings/lua/registry/value.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {
@@ -16,7 +19,26 @@ class RunDirectory;
 
 namespace asperity::cli {
 
-class RunObserver;
+// Receives a terminal's content as values, for example for the page. Called by the run's threads; calls of
+// one kind never overlap.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  // `done` in [0, 1]; negative `seconds_left`: unknown.
+  virtual void progress(std::string_view task, double done, double seconds_left) = 0;
+  // After writing the journal line.
+  virtual void recorded(std::string_view event, const Json& fields) = 0;
+  // Results of a heavy call.
+  virtual void found(const std::string& call, const lua::Values& results) = 0;
+  // Enables found().
+  virtual bool looks_at_results() const { return false; }
+  // During a check; the last mistake ended it.
+  virtual void mistake(const std::string&) {}
+  // After a check, as RunKnobs::json().
+  virtual void made_knobs(const Json&) {}
+  // `why`: reason of a failure, or "". May be the process's last call.
+  virtual void ended(int status, StopReason stopped, const std::string& why) = 0;
+};
 
 class TerminalMonitor final : public Monitor {
  public:
@@ -46,7 +68,7 @@ class TerminalMonitor final : public Monitor {
  private:
   using Clock = std::chrono::steady_clock;
   double pause() const;  // s, between lines
-  double quiet() const;  // s, before the first line
+  double quiet() const;  // s, before the first
   void show(const std::string& title, double done, double seconds);
   void clear_line();
 
@@ -64,7 +86,5 @@ class TerminalMonitor final : public Monitor {
   bool count_alike_ = false;
   WarningKinds kinds_;
 };
-
-std::string duration_text(double seconds);
 
 }  // namespace asperity::cli

@@ -23,7 +23,7 @@ const sigset_t& stop_signals() {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
-    // For nohup: a blocked signal arrives even if ignored.
+    // For nohup: blocked signals arrive even if ignored.
     struct sigaction hang_up {};
     if (::sigaction(SIGHUP, nullptr, &hang_up) != 0 || hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
     return set;

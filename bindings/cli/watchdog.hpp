@@ -2,7 +2,7 @@
 // Ctrl-C and limits. A thread receives SIGINT, SIGTERM and SIGHUP and watches the clock. A stop raises the
 // stop flag for native work and sets a hook for Lua code. Work that reacts to neither (endless pattern
 // backtracking) is ended after a grace period: journal and notebooks are made safe, and the process exits. A
-// second Ctrl-C ends the process at once. At a prompt, only a second Ctrl-C after the grace period does.
+// second Ctrl-C ends the process at once; at a prompt, only after the grace period.
 #pragma once
 
 #include <atomic>
@@ -19,8 +19,8 @@ namespace asperity::cli {
 
 class Watchdog {
  public:
-  // Blocks the signals in this thread and later threads: construct first. The watchdog's thread calls
-  // `last_words` before the process ends.
+  // Blocks the signals in this and later threads: construct first. The watchdog's thread calls `last_words`
+  // before the process ends.
   enum class CtrlC { ends_within_grace, waits };
   Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
            CtrlC ctrl_c = CtrlC::ends_within_grace);
@@ -31,7 +31,7 @@ class Watchdog {
   // After SIGTERM or SIGHUP, which end the whole program.
   bool terminated() const { return terminated_.load(); }
 
-  // During its lifetime, stops reach this state; destroy before closing the state.
+  // Stops reach this state; destroy before closing the state.
   class Watching {
    public:
     Watching(Watchdog& watchdog, lua_State* L) : watchdog_(watchdog) { watchdog_.watch(L); }
@@ -50,16 +50,16 @@ class Watchdog {
 
   std::function<void(StopReason)> last_words_;
   CtrlC ctrl_c_;
-  std::mutex mutex_;  // state_ must not close between read and interrupt
+  std::mutex mutex_;  // state_ must stay open for interrupt
   lua_State* state_ = nullptr;
   std::atomic<bool> done_{false}, terminated_{false};
   std::thread thread_;
 };
 
-// SIGINT, SIGTERM, and SIGHUP unless ignored at start (nohup). Call first before any handler is set.
+// SIGINT, SIGTERM, and SIGHUP unless ignored at start (nohup). Call before setting handlers.
 const sigset_t& stop_signals();
 
-// For signals 128 plus the number: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.
+// 128 plus the signal: 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.
 int exit_status(StopReason reason);
 
 }  // namespace asperity::cli

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module lab: help, quantities as numbers, unit factors of lab.units.
+// The module lab: help, quantities, unit factors.
+#include <array>
 #include <numbers>
 #include <string>
 
+#include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/editor/help.hpp"
-#include "bindings/lua/ensemble/ensemble.hpp"
+#include "bindings/lua/ensemble/scripted_cases.hpp"
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/metrology/stylus.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/record.hpp"
-#include "bindings/lua/run/ledger.hpp"
-#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/runtime/base_library.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/specimen/protocol.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
+#include "bindings/lua/spread/spread.hpp"
 #include "bindings/lua/study/study.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -23,10 +28,13 @@
 namespace asperity::lua {
 
 Function files_function();
+const Module& protocol_module();
+Module exact_module();
+Module spread_module();
 
 namespace {
 
-// Help on a Lua value: a function of the laboratory, a module, an object, a result.
+// A function, a module, an object, a result.
 std::string help_on(const Argument& value) {
   lua_State* L = value.state();
   const Argument::StackGuard guard(L);
@@ -74,7 +82,7 @@ Dimension kind_given(const std::string& text) {
   }
 }
 
-Values quantity_value(Call& call) {
+Values si_value(Call& call) {
   if (call.argument(1).is_number()) return {call.argument(1).number()};
   const std::string text = call.text(1, "quantity");
   if (!call.given(2)) return {parse_quantity(text).value};
@@ -84,7 +92,7 @@ Values quantity_value(Call& call) {
 Function quantity_function() {
   return {
       .name = "quantity",
-      .body = quantity_value,
+      .body = si_value,
       .sentence =
           "A quantity as a number in SI, as every key of the language takes it: lab.quantity \"250 um\" is "
           "2.5e-4. A plain number stays as it is.",
@@ -101,47 +109,45 @@ Value factor() {
 
 }  // namespace
 
-const Module& lab_module() {
-  static const Module module = [] {
-    Module m;
-    m.path = "lab";
-    m.sentence = "The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.";
-    m.functions = {material_function(), stylus_function(),     contact_function(),
-                   friction_function(), tilt_stage_function(), notebook_function()};
-    m.functions.push_back(ensemble_function());
-    m.functions.push_back(work_precision_function());
-    m.functions.push_back(calibrate_function());
-    m.functions.push_back(budget_function());
-    m.functions.push_back(sensitivity_function());
-    m.functions.push_back(ledger_function());
-    m.functions.push_back(files_function());
-    m.functions.push_back(quantity_function());
-    m.functions.push_back(
-        {.name = "help",
-         .body = help,
-         .sentence = "What the laboratory can do, or one function, value or field of it, as text.",
-         .parameters = {{"topic", "any?",
-                         "what to explain: a name or part of one, a key, or the function or value itself; "
-                         "nothing lists the topics"}},
-         .returns = "string",
-         .example = "print(lab.help \"surface.sine\")"});
-    m.constants = {
-        {"rigid", "Material", "a body that does not deform", rigid_value},
-        {"materials", "Material[]", "the materials known by name, a list; lab.materials.steel is one of them",
-         materials_list},
-        {"sorted", "function",
-         "lab.sorted(t) goes through a table in the order of its keys, for a for loop, as `pairs` does in a "
-         "script (numbers, strings by their bytes, booleans); other keys than numbers and strings are "
-         "refused",
-         [] { return Value(Script{"sorted"}); }},
-        {"version", "string", "the version of the program", [] { return Value(version_text()); }}};
-    return m;
-  }();
-  return module;
+Module lab_module() {
+  Module m{"lab", "The laboratory: surfaces, contacts, friction, and the notebook for results."};
+  m.functions = {material_function(),
+                 stylus_function(),
+                 contact_function(),
+                 friction_function(),
+                 tilt_stage_function(),
+                 notebook_function(),
+                 ensemble_function(),
+                 work_precision_function(),
+                 calibrate_function(),
+                 budget_function(),
+                 sensitivity_function(),
+                 ledger_function(),
+                 say_function(),
+                 files_function(),
+                 quantity_function(),
+                 {.name = "help",
+                  .body = help,
+                  .sentence = "Help as text: on the laboratory, or on one function, value or field.",
+                  .parameters = {{"topic", "any?",
+                                  "the topic: a name or part of a name, a key, or the function or value "
+                                  "itself; without it the topics are listed"}},
+                  .returns = "string",
+                  .example = "print(lab.help \"surface.sine\")"}};
+  m.constants = {
+      {"rigid", "Material", "a body that does not deform", [] { return object(rigid_material()); }},
+      {"materials", "Material[]", "the materials known by name, a list; for example lab.materials.steel",
+       [] { return detail::value_of_held(named_materials()); }},
+      {"sorted", "function",
+       "lab.sorted(t) goes through a table in the order of its keys, for a for loop, as `pairs` does in a "
+       "script (numbers, strings by their bytes, booleans); other keys than numbers and strings are refused",
+       [] { return Value(Script{"sorted"}); }},
+      {"version", "string", "the version of the program", [] { return Value(version_text()); }}};
+  return m;
 }
 
-const Module& units_module() {
-  static const Module module = {
+Module units_module() {
+  return {
       .path = "lab.units",
       .sentence = "SI values of units, for printing: st.approach / lab.units.um is in micrometres.",
       .constants = {{"m", "number", "metre", factor<1>},
@@ -162,7 +168,53 @@ const Module& units_module() {
                     {"rad", "number", "radian", factor<1>},
                     {"deg", "number", "degree", [] { return Value(std::numbers::pi / 180.0); }}},
   };
-  return module;
+}
+
+// All modules and classes of the language, one per line.
+const std::vector<const Module*>& modules() {
+  static const std::array<Module, 9> made{lab_module(),     units_module(),    surface_module(),
+                                          profile_module(), protocol_module(), exact_module(),
+                                          spread_module(),  table_module(),    knob_module()};
+  static const std::vector<const Module*> all = [] {
+    std::vector<const Module*> listed;
+    for (const Module& module : made) listed.push_back(&module);
+    return listed;
+  }();
+  return all;
+}
+const std::vector<const Class*>& classes() {
+  static const std::vector<const Class*> all = {
+      &class_of<Material>(),
+      &class_of<Surface>(),
+      &class_of<Profile>(),
+      &class_of<ArealParameters>(),
+      &class_of<MaterialRatioCurve>(),
+      &class_of<Autocorrelation>(),
+      &class_of<SpecimenPair>(),
+      &class_of<asperity::State>(),
+      &class_of<StateError>(),
+      &class_of<StateBounds>(),
+      &class_of<DiscretisationError>(),
+      &class_of<NamedField>(),
+      &class_of<Plan>(),
+      &class_of<LedgerReport>(),
+      &class_of<Stylus>(),
+      &class_of<Protocol>(),
+      &class_of<JunctionLaw>(),
+      &class_of<PartialSlip>(),
+      &class_of<TiltStage>(),
+      &class_of<Notebook>(),
+      &class_of<asperity::Table>(),
+      &class_of<Budget>(),
+      &class_of<Sensitivity>(),
+      &class_of<Study>(),
+      &class_of<StudyChoice>(),
+      &class_of<CalibrationReport>(),
+      &class_of<SlabSurface>(),
+      &class_of<SpreadContact>(),
+      &class_of<SpreadState>(),
+  };
+  return all;
 }
 
 }  // namespace asperity::lua

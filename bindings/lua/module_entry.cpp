@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loadable module: `require "asperity"` from any Lua 5.4. The module links no Lua library and records no
-// run.
+// The loadable module: `require "asperity"` from any Lua 5.4, without a Lua library of its own and without
+// recorded runs.
 #include "bindings/lua/registry/embedded.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/run/run_directory.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/web/serve_command.hpp"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -14,19 +15,22 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "bindings/cli/commands/shared_options.hpp"
-#include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/watchdog.hpp"
 #include "bindings/web/api/api.hpp"
-#include "bindings/web/confined/barrier_report.hpp"
-#include "bindings/web/places.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/sandbox/frames.hpp"
-#include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
 
 extern char** environ;
 
@@ -34,10 +38,151 @@ namespace asperity::web {
 
 namespace {
 
-constexpr const char* open_page = "open.html";
-constexpr int usual_port = 8137;  // browsers store edits by address and port
+namespace fs = std::filesystem;
 
-// Api needs the port for the allowed Host values.
+constexpr const char* open_page = "open.html";
+constexpr int usual_port = 8137;  // fixed: browsers store edits by address
+
+constexpr int most_students = 400;
+
+bool is_v6(const std::string& address) {
+  in6_addr parsed{};
+  return ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
+}
+
+void check_address(const std::string& address) {
+  in_addr v4{};
+  if (::inet_pton(AF_INET, address.c_str(), &v4) != 1 && !is_v6(address))
+    throw Error(
+        ErrorCode::bad_value, "`--classroom` names " + asperity::quoted(address) + ", which is no address",
+        "give the address this machine has in the room, such as 192.168.1.20 (`ip -brief address` shows it)");
+  if (address == "0.0.0.0" || address == "::")
+    throw Error(ErrorCode::bad_value,
+                "`--classroom` names " + asperity::quoted(address) + ", which is every network at once",
+                "give the one address this machine has in the room");
+}
+
+std::vector<std::string> names_in(const std::string& path) {
+  std::ifstream file(path);
+  if (!file)
+    throw Error(ErrorCode::bad_file, "there is no file " + asperity::quoted(path) + " that can be read",
+                "give the students' names in it, one per line");
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (std::string line; std::getline(file, line);) {
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
+      line.pop_back();
+    if (line.empty()) continue;
+    if (!seen.insert(line).second)
+      throw Error(ErrorCode::bad_file,
+                  asperity::quoted(path) + " names " + asperity::quoted(line) + " twice");
+    names.push_back(plain_text(line));
+  }
+  return names;
+}
+
+// Owner and students. Throws Error{bad_value} or Error{bad_file}.
+std::vector<Person> people_of(const ServeCommand& command) {
+  std::vector<std::string> names;
+  if (command.classroom.empty()) {
+    if (command.students > 0 || !command.names.empty())
+      throw Error(ErrorCode::bad_value, "students were named and no room",
+                  "add --classroom ADDRESS, the address this machine has there");
+    return {{"you", new_token()}};
+  }
+  check_address(command.classroom);
+  names.emplace_back("teacher");
+  if (!command.names.empty())
+    for (std::string& name : names_in(command.names)) names.push_back(std::move(name));
+  else
+    for (int k = 1; k <= command.students; ++k) names.push_back("student " + std::to_string(k));
+  if (names.size() == 1)
+    throw Error(ErrorCode::bad_value, "a room was named and no students",
+                "add --students 30, or --names FILE, one name a line");
+  if (names.size() > most_students + 1)
+    throw Error(ErrorCode::bad_value, std::to_string(names.size() - 1) + " students were named",
+                "at most " + std::to_string(most_students) + " can be served together");
+  std::vector<Person> people;
+  for (std::string& name : names) people.push_back({std::move(name), new_token()});
+  return people;
+}
+
+// Without folder and barriers.
+QueueSetup queue_of(const ServeCommand& command) {
+  const bool room = !command.classroom.empty();
+  const int processors = thread_count();
+  QueueSetup setup;
+  setup.shared = room;
+  setup.at_once = command.runs > 0 ? command.runs : room ? processors : 2;
+  setup.most_waiting_of_one = room ? 20 : 500;
+  setup.most_bytes_of_one = (room ? std::int64_t{1} : std::int64_t{8}) << 30;
+  RunLimits& limits = setup.limits;
+  limits.threads = room ? 1 : processors;
+  limits.seconds = command.limit_time.value_or(room ? 60 : 600);
+  const std::int64_t share = memory::of_machine() / 2 / setup.at_once, least = std::int64_t{256} << 20;
+  limits.memory_bytes = command.limit_memory.value_or(
+      std::clamp(share, least, (room ? std::int64_t{1} : std::int64_t{8}) << 30));
+  limits.directory_bytes = (room ? std::int64_t{64} : std::int64_t{1024}) << 20;
+  return setup;
+}
+
+// runs/serve-<n>, or the named empty folder.
+fs::path session_folder(const ServeCommand& command) {
+  std::error_code problem;
+  if (!command.out.empty()) {
+    fs::create_directories(command.out, problem);
+    if (problem) throw_file_error("make the folder", command.out, problem.value());
+    if (!fs::is_empty(command.out, problem) || problem)
+      throw Error(ErrorCode::bad_value,
+                  "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
+                  "give a new folder");
+    if (::chmod(command.out.c_str(), 0700) != 0)
+      throw_file_error("restrict to yourself the folder", command.out, errno);
+    return fs::canonical(command.out);
+  }
+  fs::create_directories("runs", problem);
+  if (problem) throw_file_error("make the folder", "runs", problem.value());
+  for (int n = 1;; ++n) {
+    const fs::path folder = fs::path("runs") / ("serve-" + std::to_string(n));
+    if (::mkdir(folder.c_str(), 0700) == 0) return fs::canonical(folder);
+    if (errno != EEXIST) throw_file_error("make the folder", folder, errno);
+  }
+}
+
+// In URL form.
+std::string shown_address(const ServeCommand& command) {
+  if (command.classroom.empty()) return "127.0.0.1";
+  return is_v6(command.classroom) ? "[" + command.classroom + "]" : command.classroom;
+}
+
+std::vector<std::string> hosts_of(const ServeCommand& command, int port) {
+  std::vector<std::string> names{shown_address(command)};
+  if (command.classroom.empty()) names.emplace_back("localhost");
+  std::vector<std::string> hosts;
+  for (const std::string& name : names) {
+    hosts.push_back(name + ":" + std::to_string(port));
+    if (port == 80) hosts.push_back(name);
+  }
+  return hosts;
+}
+
+// The first existing: share/asperity/<installed> next to an installation's bin, <build>/<built>,
+// <sources>/<built>.
+std::optional<fs::path> shared_folder(const std::string& installed, const std::string& built) {
+  std::error_code problem;
+  const fs::path own = fs::canonical("/proc/self/exe", problem).parent_path();
+  if (problem) return {};
+  std::vector<fs::path> places{(own / "../share/asperity" / installed).lexically_normal()};
+  if (fs::canonical(ASPERITY_BUILD_FOLDER, problem) == own && !problem) {
+    places.push_back(own / built);
+    places.push_back(fs::path(ASPERITY_SOURCE_FOLDER) / built);
+  }
+  for (const fs::path& place : places)
+    if (fs::is_directory(place, problem)) return place;
+  return {};
+}
+
+// Api needs the port for its Host values.
 class LateHandler final : public HttpHandler {
  public:
   std::unique_ptr<Api> api;
@@ -67,9 +212,9 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
   return server;
 }
 
-// Through a page that redirects: the address contains the token, and every user can read program arguments.
-void open_in_browser(const std::string& url, const std::filesystem::path& folder) {
-  const std::filesystem::path page = folder / open_page;
+// Through a page that redirects: the address contains the token, and program arguments are public.
+void open_in_browser(const std::string& url, const fs::path& folder) {
+  const fs::path page = folder / open_page;
   const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   const bool written =
       file >= 0 && write_all(file,
@@ -106,7 +251,7 @@ void print_addresses(const ServeCommand& command, const Access& access, int port
     std::printf("%s%s\n", begin.c_str(), access.people()[0].token.c_str());
   } else {
     std::printf(
-        "one address for each; it is a key, and what follows the # is not sent over the network by "
+        "one address for each; it is a key, and the part after the # is not sent over the network by "
         "itself\n\n");
     for (const Person& person : access.people())
       std::printf("%-*s  %s%s\n", static_cast<int>(widest), person.name.c_str(), begin.c_str(),
@@ -116,34 +261,26 @@ void print_addresses(const ServeCommand& command, const Access& access, int port
   std::fflush(stdout);
 }
 
-// Before any thread, which inherits the mask.
-sigset_t block_stop_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
-
 void wait_for_end(const sigset_t& signals) {
   int signal = 0;
   while (::sigwait(&signals, &signal) != 0) {
   }
 }
 
-// Removes `folder` without recorded runs; names it otherwise.
-void clean_up(const std::filesystem::path& folder, const std::filesystem::path& scratch) {
+// Removes `folder` without recorded runs, or names it.
+void clean_up(const fs::path& folder, const fs::path& scratch) {
   std::error_code ignored;
-  std::filesystem::remove_all(scratch, ignored);
-  std::filesystem::remove(folder / open_page, ignored);
-  if (std::filesystem::is_empty(folder, ignored))
-    std::filesystem::remove(folder, ignored);
+  fs::remove_all(scratch, ignored);
+  fs::remove(folder / open_page, ignored);
+  if (fs::is_empty(folder, ignored))
+    fs::remove(folder, ignored);
   else
-    std::fprintf(stderr, "what the runs recorded is in %s\n", folder.c_str());
+    std::fprintf(stderr, "the records of the runs are in %s\n", folder.c_str());
 }
 
 int serve_until_stopped(const ServeCommand& command) {
-  const sigset_t signals = block_stop_signals();
+  const sigset_t& signals = cli::stop_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // threads inherit the mask
   std::signal(SIGPIPE, SIG_IGN);
   allow_many_files();
 
@@ -152,34 +289,34 @@ int serve_until_stopped(const ServeCommand& command) {
   LateHandler handler;
   const std::unique_ptr<HttpServer> server = listen(command, handler);
   queue.folder = session_folder(command);
-  const std::filesystem::path scratch = queue.folder / "scratch", folder = queue.folder;
-  if (::mkdir(scratch.c_str(), 0700) != 0) throw_file_error("make the folder", scratch, errno);
+  const fs::path scratch = queue.folder / "scratch", folder = queue.folder;
+  private_folder(scratch);
 
   const BarrierReport barriers = try_out_barriers(scratch.string());
   if (!command.classroom.empty() && !barriers.all_hold()) {
-    std::filesystem::remove_all(folder);
+    fs::remove_all(folder);
     throw Error(
         ErrorCode::not_permitted,
-        "this machine does not keep the scripts of others in:\n" + barriers.text() + "a room is not served",
-        "a kernel with Landlock (Linux 5.13) or user namespaces, and the part asperity-sandbox.so, would");
+        "this machine cannot confine the scripts of others:\n" + barriers.text() + "a room is not served",
+        "use a kernel with Landlock (Linux 5.13) or user namespaces, and asperity-sandbox.so");
   }
   queue.barriers = barriers.made;
   const int at_once = queue.at_once;
   const RunLimits limits = queue.limits;
   const Access access(hosts_of(command, server->port()), people);
   const auto pages = shared_folder("page", "page");
-  const PageFiles page(pages);
+  const PageFiles page(pages, "/", page_needs);
   RunQueue runs(std::move(queue));
   const bool room = !command.classroom.empty();
   LiveSessions live({scratch, limits, barriers.made, at_once, room ? people.size() : 16, room ? 2U : 8U});
   handler.api = std::make_unique<Api>(ApiSetup{limits, at_once, room, barriers.made, scratch}, access, runs,
-                                      live, page);
+                                      live, page, shared_folder("site", "build/site"));
 
   std::thread answering([&] { server->serve(); });
   print_addresses(command, access, server->port());
   if (!page.built()) std::fprintf(stderr, "asperity: %s; until then /api is served alone\n", page_needs);
-  std::fprintf(stderr, "runs are kept in %s; %d at once, each at most %.0f s and %.0f MiB\n", folder.c_str(),
-               at_once, limits.seconds, static_cast<double>(limits.memory_bytes) / 0x1p20);
+  std::fprintf(stderr, "runs are stored in %s; %d at once, each at most %.0f s and %.0f MiB\n",
+               folder.c_str(), at_once, limits.seconds, static_cast<double>(limits.memory_bytes) / 0x1p20);
   std::fprintf(stderr, "what a run cannot do here:\n%sCtrl-C ends it\n", barriers.text().c_str());
   if (!barriers.all_hold())
     std::fprintf(
@@ -201,12 +338,8 @@ int serve_until_stopped(const ServeCommand& command) {
 }
 
 cli::CommandReader declare_serve(CLI::App& options) {
-  struct Given {
-    ServeCommand serve;
-    std::string time, memory;
-  };
-  const auto given = std::make_shared<Given>();
-  ServeCommand& asked = given->serve;
+  const auto given = std::make_shared<ServeCommand>();
+  ServeCommand& asked = *given;
   options.add_option("--port", asked.port, "of the address (default 8137, or any where that is taken)")
       ->check(CLI::Range(1, 65535));
   options.add_flag("--open", asked.open, "open the page in this machine's browser");
@@ -215,9 +348,9 @@ cli::CommandReader declare_serve(CLI::App& options) {
   options
       .add_option("--runs", asked.runs, "scripts that run at once (default 2; in a room one per processor)")
       ->check(CLI::Range(1, 256));
-  options.add_option("--limit-time", given->time, "of one run (default 10 min; in a room 60 s)");
-  options.add_option("--limit-memory", given->memory,
-                     "of one run (default: its share of half the machine's)");
+  cli::add_seconds(options, "--limit-time", asked.limit_time, "of one run (default 10 min; in a room 60 s)");
+  cli::add_bytes(options, "--limit-memory", asked.limit_memory, "a memory limit",
+                 "of one run (default: its share of half the machine's)");
   CLI::Option* room = options.add_option("--classroom", asked.classroom,
                                          "serve a room on this address of the machine, with a key for each "
                                          "student; without it only this machine is");
@@ -230,11 +363,7 @@ cli::CommandReader declare_serve(CLI::App& options) {
       "Each run is a process of its own that reaches no other file, process or network; what holds it on "
       "this machine is tried and shown at the start.");
 
-  return [given]() -> cli::CommandWork {
-    given->serve.limit_time = cli::seconds_of(given->time);
-    given->serve.limit_memory = cli::bytes_of(given->memory);
-    return [given] { return web::serve(given->serve); };
-  };
+  return [given]() -> cli::CommandWork { return [given] { return web::serve(*given); }; };
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity serve`: the page on the loopback address, or for a classroom on another.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +12,18 @@ namespace asperity::web {
 struct ServeCommand {
   int port = 0;                              // 0: any free port
   bool open = false;                         // in this machine's browser
-  std::string classroom;                     // address; "": this machine only
+  std::string classroom;                     // "": this machine only
   int students = 0;                          // number
-  std::string names;                         // file of names, one a line
+  std::string names;                         // one name a line
   std::string out;                           // "": runs/serve-<n>
-  int runs = 0;                              // 0: chosen for the machine
+  int runs = 0;                              // 0: by machine
   std::optional<double> limit_time;          // seconds for a run
   std::optional<std::int64_t> limit_memory;  // bytes for a run
 };
 
 cli::Command serve_command();
 
-// 0 after Ctrl-C, 2 if the server cannot start.
+// 0 after Ctrl-C, 2 without a server.
 int serve(const ServeCommand& command);
 
 }  // namespace asperity::web

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,7 +17,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/part_monitor.hpp"
+#include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
@@ -37,6 +35,7 @@ constexpr double with_coarser = 4.0 / 3;  // work including all coarser grids
 bool is_area(std::string_view quantity) {
   return quantity == "corrected_area_fraction" || quantity == "area_fraction" || quantity == "area";
 }
+bool only_areas(const AskedError& asked) { return std::ranges::all_of(asked.of, is_area); }
 bool is_corrected_area(std::string_view quantity) { return quantity == "corrected_area_fraction"; }
 
 double rms_of(const Field& heights) {
@@ -92,7 +91,7 @@ GridsToTry grids_to_try(const Scene& scene, const Plan& plan) {
     if (std::max(grid.nx, grid.ny) > asked.most_cells)
       why = "within " + std::to_string(asked.most_cells) + " cells a side";
     else if (grid.nx > given.nx && !can_be_made_again(scene))
-      why = "of which the heights are known";
+      why = "with known heights";
     else if (bytes_on(grid, given, plan) > most_bytes)
       why = "within " + format_bytes(static_cast<std::int64_t>(most_bytes)) + " of memory";
     else if (seconds_up_to(grid, given, plan) > asked.most_seconds)
@@ -113,38 +112,20 @@ struct Placed {
 };
 
 std::string_view word(AtCells::How how) {
-  switch (how) {
-    case AtCells::How::unchanged:
-      return "as given";
-    case AtCells::How::sampled:
-      return "nodes of the cells given";
-    case AtCells::How::made_again:
-      return "generated again";
-    default:
-      return "interpolated";
-  }
+  constexpr std::string_view words[] = {"as given", "nodes of the cells given", "generated again",
+                                        "interpolated"};
+  return words[static_cast<std::size_t>(how)];
 }
 
-// The upper body node over node as on the given cells, in its own frame.
+// Node over node as on the given cells, in its own frame.
 AtCells upper_on(const Surface& upper, const Grid& grid, const LatticeIsometry& given, Boundary boundary,
                  const LatticeIsometry& lattice, Monitor& monitor) {
-  Field seen(grid.nx, grid.ny);
-  AtCells::How how = AtCells::How::sampled;
-  if (grid.nx < given.nx()) {
-    const int ratio_x = given.nx() / grid.nx, ratio_y = given.ny() / grid.ny;
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i) {
-        const LatticeIsometry::Node own = given.to_upper(LatticeIsometry::Node{i * ratio_x, j * ratio_y});
-        seen(i, j) = upper.heights()(own.i, own.j);
-      }
-  } else {
-    const AtCells finer = at_cells(upper, grid.nx, grid.ny, monitor);
-    seen = over_lower(finer.surface.heights(), given, boundary);
-    how = finer.how;
-  }
+  const AtCells own = grid.nx < given.nx() ? AtCells{upper, AtCells::How::sampled}
+                                           : at_cells(upper, grid.nx, grid.ny, monitor);
+  const Field seen = sampled(over_lower(own.surface.heights(), given, boundary), grid.nx, grid.ny);
   SurfaceTraits traits = upper.traits();
   traits.aliased_share.reset();
-  return {Surface(grid, lattice.to_upper(seen), std::move(traits)), how};
+  return {Surface(grid, lattice.to_upper(seen), std::move(traits)), own.how};
 }
 
 Placed placed_on(const Scene& scene, const Pose& pose, const Grid& grid, Monitor& monitor) {
@@ -168,9 +149,9 @@ Placed placed_on(const Scene& scene, const Pose& pose, const Grid& grid, Monitor
 
 // --- the error of a state
 
-// Whether the combined heights have waves shorter than four cells, by mean square slopes or bends (which
-// decide peaks between nodes). Over two cells, a wave of m cells has c = 2(1 + cos(2 pi/m)) times the square
-// slope and c² times the square bend. Smooth heights have c = 4, white noise c = 1; a kink bends by 6.
+// Waves shorter than four cells, by mean square slopes or bends (which decide peaks between nodes). Over two
+// cells, a wave of m cells has c = 2(1 + cos(2 pi/m)) times the square slope, c² times the square bend.
+// Smooth heights: c = 4, white noise: c = 1; a kink: 6 for bends.
 bool waves_are_missed(const State& state, bool bends) {
   constexpr double smooth_slopes = 2.8, smooth_bends = 5;
   const Field& h = state.geometry().combined();
@@ -196,39 +177,6 @@ bool waves_are_missed(const State& state, bool bends) {
   return mean_square(2) < (bends ? smooth_bends : smooth_slopes) * mean_square(1);
 }
 
-// Relative random error of a corrected area, for 19 scenes in 20. A tenth of the correction is wrong on every
-// grid.
-double chance_of_corrected_area(const State& state) {
-  constexpr double margin_of_doubt = 1.2;
-  if (state.outline()) return margin_of_doubt * state.outline()->doubt;
-  constexpr double on_every_grid = 0.1, by_chance = 4;
-  constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
-  const double area = state.corrected_area_fraction(), correction = state.area_fraction() - area;
-  const double edges = correction / excess * static_cast<double>(state.grid().nodes());
-  return edges > 0 ? correction / area * (on_every_grid + by_chance / std::sqrt(edges)) : 0.0;
-}
-
-// A small step between grids may be chance, so the previous step counts too.
-double corrected_area_error(const State& state) {
-  constexpr double of_a_step = 0.7, of_the_step_before = 0.15;
-  double finer = state.corrected_area_fraction();
-  if (finer <= 0) return state.area_fraction() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
-  double error = chance_of_corrected_area(state), share = of_a_step;
-  for (const CompanionGrids::Level& level : state.companion_grids()->levels()) {
-    const double coarser = level.state.corrected_area_fraction();
-    const double least = std::min(finer, coarser);
-    error = std::max(error, share * std::abs(finer - coarser) / (least > 0 ? least : finer));
-    finer = coarser;
-    share = of_the_step_before;
-  }
-  return error;
-}
-
-struct Judged {
-  double error = 0, algebraic = 0;  // relative; `error` includes `algebraic`
-  std::string of;
-};
-
 // At most a tenth of the doubtful nodes change sides.
 double algebraic_share(const State& state, std::string_view name) {
   constexpr double of_areas = 0.1;
@@ -237,78 +185,56 @@ double algebraic_share(const State& state, std::string_view name) {
   return (is_area(name) ? of_areas : 1) * quantity->bound(state).value_or(0);
 }
 
-// Computes bounds only if the estimates suffice. `values`: from the first press, or empty.
-Judged judged(const State& state, const AskedError& asked, const std::vector<double>& values = {}) {
+// `chosen.values`: from the first press, or empty. Returns the algebraic part.
+double judge(const State& state, ChosenAccuracy& chosen) {
   constexpr double no_value = 1e-9;
-  std::vector<double> estimates, scales;
-  Judged result;
-  for (std::size_t k = 0; k < asked.of.size(); ++k) {
-    const DiscretisationEstimate estimate = discretisation_estimate(state, asked.of[k]);
+  const std::vector<double> first = std::exchange(chosen.values, {});
+  double algebraic = 0;
+  for (std::size_t k = 0; k < chosen.asked.of.size(); ++k) {
+    const std::string& name = chosen.asked.of[k];
+    const DiscretisationEstimate estimate = discretisation_estimate(state, name);
     double scale = std::abs(estimate.value);
-    if (k < values.size() && scale < no_value * std::abs(values[k])) scale = std::abs(values[k]);
-    const double error = is_corrected_area(asked.of[k]) ? corrected_area_error(state) * scale
-                                                        : estimate.margin * estimate.error;
-    estimates.push_back(error == 0 ? 0.0 : error / scale);
-    scales.push_back(scale);
-    if (result.of.empty() || estimates[k] > result.error) {
-      result.error = estimates[k];
-      result.of = asked.of[k];
-    }
+    if (k < first.size() && scale < no_value * std::abs(first[k])) scale = std::abs(first[k]);
+    const double bound = algebraic_share(state, name), error = estimate.margin * estimate.error + bound;
+    const double relative = error == 0 ? 0.0 : error / scale;
+    chosen.values.push_back(estimate.value);
+    if (k > 0 && !(relative > chosen.error)) continue;
+    chosen.error = relative;
+    chosen.of = name;
+    algebraic = bound == 0 ? 0.0 : bound / scale;
   }
-  if (!(result.error <= asked.error)) return result;
-  for (std::size_t k = 0; k < asked.of.size(); ++k) {
-    const double bound = algebraic_share(state, asked.of[k]);
-    const double algebraic = bound == 0 ? 0.0 : bound / scales[k];
-    if (estimates[k] + algebraic > result.error) {
-      result.error = estimates[k] + algebraic;
-      result.of = asked.of[k];
-    }
-    result.algebraic = std::max(result.algebraic, algebraic);
-  }
-  return result;
+  chosen.outline_between_nodes = state.outline().has_value();
+  return algebraic;
 }
 
-// Adds outlines between nodes on every grid, if requested and possible.
+// On every grid, if requested and possible.
 State outlined(State state, const Plan& plan, const AskedError& asked) {
-  const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
-  if ((half_spaces != nullptr && half_spaces->share) || plan.attracts() ||
-      std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
+  if (plan.elasticity->wave_share() != nullptr || std::ranges::none_of(asked.of, is_corrected_area))
     return state;
-  const bool boxes = half_spaces == nullptr;
-  const double modulus = boxes ? std::get<BoxOperator>(plan.elasticity).stiffness : half_spaces->modulus;
+  const double modulus = plan.elasticity->modulus;
   const CompanionGrids& coarser = *state.companion_grids();
   std::vector<CompanionGrids::Level> levels(coarser.levels().begin(), coarser.levels().end());
   for (CompanionGrids::Level& level : levels)
-    if (!level.state.outline()) level.state = level.state.with_outline(modulus, boxes);
+    if (!level.state.outline()) level.state = level.state.with_outline(modulus);
   return state.beside(std::make_shared<const CompanionGrids>(coarser.request(), std::move(levels)))
-      .with_outline(modulus, boxes);
+      .with_outline(modulus);
 }
 
 [[noreturn]] void refuse_accuracy(const ChosenAccuracy& reached, const std::string& where) {
   const bool endless = !std::isfinite(reached.error);
   const std::string& note = reached.tried.back().note;
-  throw Error(
-      ErrorCode::not_converged,
-      "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
-          " was requested, and " + where + " it comes to " + percent_text(reached.error) +
-          (note.empty() ? "" : " (" + note + ")"),
-      (endless ? "it grows from grid to grid without end or is zero there: request another quantity"
-               : "it needs some " + std::to_string(reached.cells_needed()) + " cells a side or more, and " +
-                     reached.limit + "; press a smaller piece (`cropped`)" +
-                     (reached.error < 0.5 ? ", request " + format_short(2 * reached.error, 1) : "")) +
-          ", or give on_failure=\"best\" to have what was reached");
+  throw Error(ErrorCode::not_converged,
+              "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
+                  " was requested, and " + where + " it comes to " + percent_text(reached.error) +
+                  (note.empty() ? "" : " (" + note + ")"),
+              (endless ? "it grows without limit on finer grids, or the quantity is zero: request another one"
+                       : "it needs about " + std::to_string(reached.cells_needed()) + " cells a side, and " +
+                             reached.limit + "; press a smaller piece (`cropped`)" +
+                             (reached.error < 0.5 ? ", request " + format_short(2 * reached.error, 1) : "")) +
+                  ", or accept the best result with on_failure=\"best\"");
 }
 
 // --- the choice
-
-struct Trial {
-  Scene scene;
-  std::shared_ptr<const ContactGeometry> geometry;
-  Plan plan;
-  std::shared_ptr<const Solver> solver;
-  std::optional<State> state;
-  Cost press{};  // without other grids
-};
 
 class Choice {
  public:
@@ -322,16 +248,16 @@ class Choice {
     chosen_.asked = *scene.accuracy.asked;
     chosen_.limit = grids_.limit;
     chosen_.precision = scene.accuracy.precision;
-    chosen_.why_precision = scene.accuracy.precision_named               ? "as named"
-                            : !scene.elasticity.model().moves_every_node ? "boxes are solved in no other"
-                                                                         : "single saves no time";
+    chosen_.why_precision = scene.accuracy.precision_named      ? "as named"
+                            : scene.elasticity.model().is_local ? "boxes are solved in no other"
+                                                                : "single saves no time";
   }
 
   AccuracyChoice run() {
-    std::optional<Step> step = Step{grids_.first, first_tolerance(chosen_.asked)};
+    std::optional<Step> step = Step{grids_.first, before_choice(scene_.accuracy).tolerance};
     while (step) {
       try_grid(*step);
-      judge(*step);
+      judge_grid(*step);
       step = next(*step);
     }
     if (!chosen_.met() && scene_.accuracy.on_failure == Accuracy::OnFailure::error)
@@ -346,11 +272,11 @@ class Choice {
   };
 
   void try_grid(const Step& step);
-  void judge(const Step& step);
+  void judge_grid(const Step& step);
   std::optional<Step> next(const Step& step) const;
   AccuracyChoice result();
   std::string why_it_does_not_count(const Grid& grid) const;
-  // True if a generator failed on these cells, for example with random heights.
+  // After failure of a generator, for example random heights.
   bool is_interpolated(const Grid& grid) const {
     return grid.nx > geometry_.grid().nx && chosen_.source.find("interpolated") != std::string::npos;
   }
@@ -364,12 +290,13 @@ class Choice {
   const CostScope scope_;
   const PartMonitor::Clock::time_point begun_ = PartMonitor::Clock::now();
   ChosenAccuracy chosen_;
-  std::optional<Trial> trial_;
+  std::optional<AccuracyChoice> trial_;
+  Cost press_{}, tried_{};        // of the trial, without and with other grids
   std::optional<State> coarser_;  // previous grid
   double algebraic_ = 0;
 };
 
-// The first time, also solves the coarser grids of the estimate.
+// At first, also solves coarser grids of the estimate.
 void Choice::try_grid(const Step& step) {
   const double parts = elementary::log2(static_cast<double>(grids_.finest.nx) / grids_.first.nx) + 1;
   const double part_now = elementary::log2(static_cast<double>(step.grid.nx) / grids_.first.nx);
@@ -377,64 +304,57 @@ void Choice::try_grid(const Step& step) {
                    (part_now + 1) / parts, begun_);
   part.begin();
   const CostScope here;
-  const std::optional<State> guess = trial_ ? trial_->state : std::nullopt;
+  const std::optional<State> guess = trial_ ? std::optional(trial_->state) : std::nullopt;
   if (guess && guess->grid() != step.grid) coarser_ = guess;
+  trial_.reset();
   Placed placed = placed_on(scene_, geometry_.pose(), step.grid, part);
   chosen_.source = std::move(placed.source);
-  trial_ = Trial{std::move(placed.scene), {}, {}, {}, {}};
-  Accuracy& accuracy = trial_->scene.accuracy;
-  accuracy.tolerance = step.tolerance;
-  accuracy.estimate = Accuracy::Estimate::coarser;
-  accuracy.chosen = true;
-  trial_->geometry = std::make_shared<const ContactGeometry>(trial_->scene, placed.pose);
-  trial_->plan = plan_with_estimate(trial_->scene, *trial_->geometry);
-  Plan lenient = trial_->plan;
+  Scene scene = std::move(placed.scene);
+  scene.accuracy.tolerance = step.tolerance;
+  scene.accuracy.estimate = Accuracy::Estimate::coarser;
+  scene.accuracy.chosen = true;
+  const auto geometry = std::make_shared<const ContactGeometry>(scene, placed.pose);
+  Plan plan = plan_with_estimate(scene, *geometry), lenient = plan;
   lenient.accuracy.on_failure = Accuracy::OnFailure::best;
-  trial_->solver = make_solver(lenient, trial_->geometry);
-  const State state = press_from_coarser(*trial_->solver, guess ? &*guess : nullptr, request_, part)
-                          .costing_also(trial_->solver->preparation());
-  trial_->press = here.so_far();
-  std::shared_ptr<const CompanionGrids> levels;
-  if (!coarser_) {
-    levels = solve_coarser(trial_->scene, *trial_->geometry, trial_->plan, request_, part);
-  } else {
-    std::vector<CompanionGrids::Level> two{{coarser_->beside(nullptr), 2.0},
-                                           coarser_->companion_grids()->levels().front()};
-    levels = std::make_shared<const CompanionGrids>(request_, std::move(two));
-  }
-  trial_->state = outlined(state.beside(std::move(levels)), trial_->plan, chosen_.asked);
-  chosen_.tried.push_back({step.grid.nx, step.grid.ny, step.tolerance, 0, {}, {}, here.so_far()});
+  const std::shared_ptr<const Solver> solver = make_solver(lenient, geometry);
+  State state = press_from_coarser(*solver, guess ? &*guess : nullptr, request_, part)
+                    .costing_also(solver->preparation());
+  press_ = here.so_far();
+  const auto levels =
+      coarser_
+          ? std::make_shared<const CompanionGrids>(
+                request_, std::vector<CompanionGrids::Level>{{coarser_->beside(nullptr), 2.0},
+                                                             coarser_->companion_grids()->levels().front()})
+          : solve_coarser(scene, *geometry, plan, request_, part);
+  state = outlined(state.beside(levels), plan, chosen_.asked);
+  trial_ = AccuracyChoice{std::move(scene), geometry, std::move(plan), solver, std::move(state)};
+  tried_ = here.so_far();
 }
 
-// Reason to reject the estimate on this grid; empty if none.
+// Reason to reject this grid; empty if none.
 std::string Choice::why_it_does_not_count(const Grid& grid) const {
   constexpr double alike = 0.1;
-  const State& state = *trial_->state;
+  const State& state = trial_->state;
   if (!state.converged()) return "the tolerance was missed";
   if (is_interpolated(grid)) return "the heights are not known there";
   if (grid.nx < geometry_.grid().nx &&
       std::abs(rms_of(trial_->geometry->combined()) - rms_given_) > alike * rms_given_)
     return "the heights were not carried";
   if (grid.nx >= grids_.finest.nx) return {};
-  const bool areas = std::all_of(chosen_.asked.of.begin(), chosen_.asked.of.end(), is_area);
+  const bool areas = only_areas(chosen_.asked);
   if (std::max(grid.nx, grid.ny) < (areas ? fewest_of_an_area : fewest_of_others))
     return "too few grids to compare";
   return waves_are_missed(state, !areas) ? "waves have fewer than four cells" : "";
 }
 
-void Choice::judge(const Step& step) {
-  const Judged found = judged(*trial_->state, chosen_.asked);
-  TriedGrid& tried = chosen_.tried.back();
-  tried.error = found.error;
-  tried.of = found.of;
-  tried.note = why_it_does_not_count(step.grid);
+void Choice::judge_grid(const Step& step) {
   chosen_.nx = step.grid.nx;
   chosen_.ny = step.grid.ny;
   chosen_.tolerance = step.tolerance;
-  chosen_.error = found.error;
-  chosen_.of = found.of;
-  chosen_.outline_between_nodes = trial_->state->outline().has_value();
-  algebraic_ = found.algebraic;
+  chosen_.values.clear();
+  algebraic_ = judge(trial_->state, chosen_);
+  chosen_.tried.push_back({step.grid.nx, step.grid.ny, step.tolerance, chosen_.error, chosen_.of,
+                           why_it_does_not_count(step.grid), tried_});
 }
 
 std::optional<Choice::Step> Choice::next(const Step& step) const {
@@ -451,7 +371,7 @@ std::optional<Choice::Step> Choice::next(const Step& step) const {
     std::size_t endless = 0;
     for (const TriedGrid& tried : chosen_.tried)
       endless = std::isinf(tried.error) && std::max(tried.nx, tried.ny) >= fewest_of_others ? endless + 1 : 0;
-    // Coarse grids overestimate the required cells by less than this factor.
+    // Coarse grids overestimate the required cells by less.
     constexpr double far_beyond = 4;
     if (endless == in_a_row ||
         (std::isfinite(last.error) && chosen_.cells_needed() > far_beyond * grids_.finest.nx))
@@ -467,26 +387,25 @@ AccuracyChoice Choice::result() {
     surplus +=
         (1 - transform_work({tried.nx, tried.ny, 1, 1}) / transform_work(grid)) * tried.cost.transforms;
   cost::count_transforms(-surplus);
-  for (const std::string& quantity : chosen_.asked.of)
-    chosen_.values.push_back(discretisation_estimate(*trial_->state, quantity).value);
   Cost others = scope_.so_far();
-  others.seconds -= trial_->press.seconds;
-  others.transforms -= trial_->press.transforms;
+  others.seconds -= press_.seconds;
+  others.transforms -= press_.transforms;
   plan_choice(trial_->scene, trial_->plan);
   trial_->solver = make_solver(trial_->plan, trial_->geometry);
-  State state = trial_->state->costing_also({others, {{"choice", others}}})
-                    .chosen_as(std::make_shared<const ChosenAccuracy>(std::move(chosen_)));
-  return {std::move(trial_->scene), std::move(trial_->geometry), std::move(trial_->plan),
-          std::move(trial_->solver), std::move(state)};
+  trial_->state = trial_->state.costing_also({others, {{"choice", others}}})
+                      .chosen_as(std::make_shared<const ChosenAccuracy>(std::move(chosen_)));
+  return *std::move(trial_);
 }
 
 }  // namespace
 
-double first_tolerance(const AskedError& asked) {
-  // Shares of the request for which the algebraic bound is almost always below the discretisation error.
+Accuracy before_choice(Accuracy accuracy) {
+  // Shares of the request: algebraic bounds almost always below the discretisation error.
   constexpr double of_areas = 1e-2, of_others = 3e-4, loosest = 1e-3;
-  const bool areas = std::all_of(asked.of.begin(), asked.of.end(), is_area);
-  return std::clamp((areas ? of_areas : of_others) * asked.error, tightest, loosest);
+  if (!accuracy.asked) return accuracy;
+  const double share = only_areas(*accuracy.asked) ? of_areas : of_others;
+  accuracy.tolerance = std::clamp(share * accuracy.asked->error, tightest, loosest);
+  return accuracy;
 }
 
 void plan_choice(const Scene& scene, Plan& plan) {
@@ -501,7 +420,7 @@ void plan_choice(const Scene& scene, Plan& plan) {
   const GridsToTry grids = grids_to_try(scene, plan);
   plan.choice = "the first press chooses cells and tolerance for an error of " + error + ", from " +
                 cells_text(grids.first.nx, grids.first.ny) + " on; " + grids.limit +
-                ", and memory and time are theirs";
+                ", the grid of the memory and time below";
   plan.transforms *= with_coarser;
   plan.seconds = seconds_up_to(grids.finest, given, plan);
   plan.buffers = {
@@ -517,13 +436,7 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
 State held_to(const State& given, const ChosenAccuracy& chosen, const Scene& scene, const Plan& plan) {
   ChosenAccuracy now = chosen;
   const State state = outlined(given, plan, chosen.asked);
-  now.outline_between_nodes = state.outline().has_value();
-  const Judged found = judged(state, chosen.asked, chosen.values);
-  now.error = found.error;
-  now.of = found.of;
-  now.values.clear();
-  for (const std::string& quantity : now.asked.of)
-    now.values.push_back(discretisation_estimate(state, quantity).value);
+  judge(state, now);
   if (!now.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
     refuse_accuracy(now,
                     "on the " + cells_text(now.nx, now.ny) + " that the first press of this contact chose");

@@ -24,23 +24,22 @@ struct AccuracyChoice {
   std::shared_ptr<const ContactGeometry> geometry;
   Plan plan;
   std::shared_ptr<const Solver> solver;
-  State state;  // with estimate, choice, and the cost of every grid
+  State state;  // with estimate, choice, cost of every grid
 };
 
-// For a load above zero without earlier events. Throws errors of a press. Unless the scene accepts the best
-// grid, throws Error{not_converged} if no permitted grid meets the request, naming the limit and the required
-// cells.
+// For a load above zero without earlier events. Throws errors of a press, and Error{not_converged} naming
+// limit and required cells if no permitted grid meets the request, unless the scene accepts the best.
 AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
                                const PressRequest& request, Monitor& monitor = Monitor::silent());
 
-// Records the error of a later press on the chosen cells. Throws Error{not_converged} above the request,
-// unless `scene` accepts the best grid.
+// A later press on the chosen cells. Throws Error{not_converged} above the request, unless `scene` accepts
+// the best grid.
 State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& scene, const Plan& plan);
 
-double first_tolerance(const AskedError& asked);
+// Tolerance of a first try, if an error is requested.
+Accuracy before_choice(Accuracy accuracy);
 
-// Adds the choice to `plan`. Before the choice, its memory and time become those of the finest permitted
-// grid.
+// Before the choice, memory and time become those of the finest permitted grid.
 void plan_choice(const Scene& scene, Plan& plan);
 
 }  // namespace asperity

@@ -13,7 +13,7 @@ namespace asperity {
 struct TriedGrid {
   int nx = 0, ny = 0;
   double tolerance = 0;
-  // Largest relative error of the requested quantities, with margin and algebraic bound (no bound within an
+  // Largest relative error of the requested quantities, with margin and algebraic bound (none within an
   // outline); infinite if the value grows from grid to grid, or is zero with an error.
   double error = 0;
   std::string of;    // its quantity
@@ -33,14 +33,14 @@ struct ChosenAccuracy {
   std::string limit;                   // "4096 x 4096 cells are the most within 4 GiB of memory"
   bool outline_between_nodes = false;  // of the corrected area (contact/outline_area.hpp)
   std::vector<TriedGrid> tried;
-  // Requested quantities. Values below 1e-9 of the first press count as zero (no new yield under less load),
-  // with errors relative to the first value.
+  // Requested. Below 1e-9 of the first press they count as zero (no new yield under less load), with errors
+  // relative to the first value.
   std::vector<double> values;
 
   bool met() const { return error <= asked.error && tried.back().note.empty(); }
   // Null if none.
   const TriedGrid* before() const;
-  // Cells along x to meet the request, by the order of the error.
+  // Along x, by the order of the error.
   int cells_needed() const;
   std::string reason() const;
   std::string values_text() const;  // "requested: corrected_area_fraction 0.0421, within 0.9 %"

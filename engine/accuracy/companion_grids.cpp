@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/contact/solver.hpp"
@@ -30,12 +29,14 @@ constexpr double loose_enough = 1e-5, close_enough = 1e-6;
 int halved(int cells) { return cells < 2 * fewest_cells ? cells : (cells + 1) / 2; }
 
 Field on_cells(const Field& field, const Grid& from, const Grid& to, bool periodic) {
-  return at_cells(Surface(from, field, {.material = {}, .periodic = periodic, .aliased_share = {}}), to.nx,
-                  to.ny)
-      .surface.heights();
+  if (from.nx % to.nx == 0 && from.ny % to.ny == 0) return sampled(field, to.nx, to.ny);
+  return resampled(
+             Surface::with_holes(from, field, {.material = {}, .periodic = periodic, .aliased_share = {}}),
+             to.nx, to.ny)
+      .measured_heights();
 }
 
-// Limited to the range of the given nodes.
+// Limited to the range of given nodes.
 Field hardness_on_cells(const Field& hardness, const Grid& from, const Grid& to) {
   Field result = on_cells(hardness, from, to, false);
   const Range known = range(hardness.values());
@@ -48,7 +49,7 @@ bool periodic_together(const Scene& scene) {
   return scene.lower.traits().periodic && (upper == nullptr || upper->traits().periodic);
 }
 
-// Marks missing heights (no opposite surface) and sets the lowest height.
+// Marks missing heights and sets the lowest height.
 Array<std::uint8_t> taken_out(Field& heights) {
   Array<std::uint8_t> uncovered;
   if (known_count(heights.values()) == heights.size()) return uncovered;
@@ -61,37 +62,27 @@ Array<std::uint8_t> taken_out(Field& heights) {
   return uncovered;
 }
 
-// Missing if a neighbouring node of the given grid is missing.
-Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool periodic) {
-  const Grid& given = geometry.grid();
-  if (!geometry.overhangs()) return on_cells(geometry.combined(), given, grid, periodic);
-  Field known = geometry.combined();
-  const Array<std::uint8_t> uncovered = taken_out(known);
-  Field heights = on_cells(known, given, grid, periodic);
-  const auto beside = [](int k, int coarse, int fine) {
-    const double at = static_cast<double>(k) * fine / coarse;
-    const int low = std::min(static_cast<int>(at), fine - 1);
-    return std::pair{low, std::min(fine - 1, at > low ? low + 1 : low)};
+std::vector<Grid> other_grids(const Grid& grid, Accuracy::Estimate estimate) {
+  if (estimate == Accuracy::Estimate::none) return {};
+  return estimate == Accuracy::Estimate::finer ? std::vector{finer_grid(grid)} : coarser_grids(grid);
+}
+
+// Similar shape. Multiples of four admit nested grids.
+Grid trial_grid(const Grid& grid) {
+  constexpr double most_nodes = 128 * 128;
+  const double share = std::sqrt(most_nodes / static_cast<double>(grid.nodes()));
+  if (share >= 1) return grid;
+  const auto fewer = [&](int n) {
+    return std::max(std::min(n, fewest_cells), static_cast<int>(n * share) / 4 * 4);
   };
-  for (int j = 0; j < grid.ny; ++j) {
-    const auto [below, above] = beside(j, grid.ny, given.ny);
-    for (int i = 0; i < grid.nx; ++i) {
-      const auto [left, right] = beside(i, grid.nx, given.nx);
-      for (const int row : {below, above})
-        for (const int column : {left, right})
-          if (uncovered[static_cast<std::size_t>(row) * static_cast<std::size_t>(given.nx) +
-                        static_cast<std::size_t>(column)] != 0)
-            heights(i, j) = std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  return heights;
+  return {fewer(grid.nx), fewer(grid.ny), grid.size_x, grid.size_y};
 }
 
 }  // namespace
 
 State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
                          Monitor& monitor) {
-  // From a coarser start, nested grids are cheaper.
+  // From a coarser start, nested grids cost less.
   constexpr double near_enough = 4;
   const int nx = solver.geometry().grid().nx;
   if (coarser == nullptr || !coarser->converged() || nx > near_enough * coarser->grid().nx)
@@ -112,10 +103,9 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   if (upper != nullptr)
     there.upper = Surface(grid, Field(grid.nx, grid.ny),
                           {.material = upper->material(), .periodic = true, .aliased_share = {}});
-  there.accuracy.tolerance = std::max(scene.accuracy.tolerance, tolerance);
-  there.accuracy.on_failure = Accuracy::OnFailure::best;
-  there.accuracy.estimate = Accuracy::Estimate::none;
-  there.accuracy.asked.reset();
+  there.accuracy = {.tolerance = std::max(scene.accuracy.tolerance, tolerance),
+                    .precision = scene.accuracy.precision,
+                    .on_failure = Accuracy::OnFailure::best};
   there.effects = scene.effects.of_solve();
 
   const LatticeIsometry flat_pose(grid.nx, grid.ny);
@@ -149,11 +139,9 @@ double transform_work(const Grid& grid) {
 
 double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy) {
   const Grid& grid = geometry.grid();
-  if (accuracy.estimate == Accuracy::Estimate::none) return 0;
-  if (accuracy.estimate == Accuracy::Estimate::finer)
-    return transform_work(finer_grid(grid)) / transform_work(grid);
   double work = 0;
-  for (const Grid& coarser : coarser_grids(grid)) work += transform_work(coarser) / transform_work(grid);
+  for (const Grid& other : other_grids(grid, accuracy.estimate))
+    work += transform_work(other) / transform_work(grid);
   return work;
 }
 
@@ -171,9 +159,9 @@ std::vector<Grid> coarser_grids(const Grid& grid) {
 
 void check_estimate(const Grid& grid) {
   if (coarser_grids(grid).empty())
-    refuse("`estimate` was asked for a tile of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+    refuse("`estimate` is given for a tile of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
                " cells",
-           "an estimate compares with half the cells: give at least " + std::to_string(2 * fewest_cells) +
+           "it also presses on half the cells: give at least " + std::to_string(2 * fewest_cells) +
                " along x or y, or leave `estimate` out");
 }
 
@@ -187,13 +175,13 @@ std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const Co
   for (std::size_t k = grids.size(); k-- > 0;) {
     const Grid &grid = grids[k], &finer = k > 0 ? grids[k - 1] : geometry.grid();
     const State* const coarser = scene.accuracy.chosen && !levels.empty() ? &levels.back().state : nullptr;
-    State state = press_on(grid, combined_on_cells(geometry, grid, periodic), loose_enough, scene, geometry,
-                           plan, request, monitor, coarser);
+    State state = press_on(grid, on_cells(geometry.combined(), geometry.grid(), grid, periodic), loose_enough,
+                           scene, geometry, plan, request, monitor, coarser);
     const double across = static_cast<double>(finer.nx) / grid.nx,
                  up = static_cast<double>(finer.ny) / grid.ny;
     levels.push_back({std::move(state), std::max(across, up)});
   }
-  std::reverse(levels.begin(), levels.end());
+  std::ranges::reverse(levels);
   return std::make_shared<const CompanionGrids>(request, std::move(levels));
 }
 
@@ -216,42 +204,63 @@ std::int64_t bytes_held_with_other_grids(const State& state) {
 }
 
 void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
-  if (plan.accuracy.estimate == Accuracy::Estimate::none) return;
-  const Grid& fine = geometry.grid();
-  const double work = estimate_work(geometry, plan.accuracy);
-  double kept = 0;
-  if (plan.accuracy.estimate == Accuracy::Estimate::finer) {
-    const Grid grid = finer_grid(fine);
-    const auto held = static_cast<std::int64_t>(3 * static_cast<double>(grid.nodes()) * sizeof(double));
-    const double solve = static_cast<double>(plan.bytes_grown()) * static_cast<double>(grid.nodes()) /
-                         static_cast<double>(fine.nodes());
-    plan.estimate = "the same press on " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
-                    " cells, with it about " + format_short(1 + work, 2) +
-                    " times the cost of the press alone, by effect as `estimate`";
-    plan.buffers.push_back({"heights, pressures and gaps of the finer grid", held});
-    plan.buffers.push_back({"the solve on the finer grid",
-                            std::max<std::int64_t>(0, static_cast<std::int64_t>(solve) - held), false});
-    plan.transforms *= 1 + work;
-    plan.seconds *= 1 + work;
-    return;
-  }
+  const Grid& given = geometry.grid();
+  const bool finer = plan.accuracy.estimate == Accuracy::Estimate::finer;
+  const std::vector<Grid> grids = other_grids(given, plan.accuracy.estimate);
+  if (grids.empty()) return;
   std::vector<std::string> cells;
-  for (const Grid& grid : coarser_grids(fine)) {
-    kept += static_cast<double>(grid.nodes());
+  double nodes = 0;
+  for (const Grid& grid : grids) {
+    nodes += static_cast<double>(grid.nodes());
     cells.push_back(std::to_string(grid.nx) + " x " + std::to_string(grid.ny));
   }
-  if (cells.empty()) return;
-  plan.estimate = "the same press on " + joined(cells, " and ") + " cells, by effect as `estimate`";
-  plan.buffers.push_back({"heights, pressures and gaps of the coarser grids",
-                          static_cast<std::int64_t>(3 * kept * sizeof(double))});
-  plan.transforms *= 1 + work;
-  plan.seconds *= 1 + work;
+  const double times = 1 + estimate_work(geometry, plan.accuracy);
+  plan.estimate = "the same press on " + joined(cells, " and ") + " cells, with it about " +
+                  format_short(times, 2) + " times the cost of the press alone, by effect as `estimate`";
+  const auto held = static_cast<std::int64_t>(3 * nodes * sizeof(double));
+  const double solve = static_cast<double>(plan.bytes_grown()) * nodes / static_cast<double>(given.nodes());
+  plan.buffers.push_back({finer ? "heights, pressures and gaps of the finer grid"
+                                : "heights, pressures and gaps of the coarser grids",
+                          held});
+  if (finer)
+    plan.buffers.push_back({"the solve on the finer grid",
+                            std::max<std::int64_t>(0, static_cast<std::int64_t>(solve) - held), false});
+  plan.transforms *= times;
+  plan.seconds *= times;
 }
 
 Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan = make_plan(scene, geometry);
   plan_estimate(geometry, plan);
   return plan;
+}
+
+Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
+                   const PressRequest& request) {
+  check(request, plan.attracts());
+  Plan result = plan;
+  result.press = "by " + quoted(name(request.by));
+  if (request.by == PressBy::flatten) hold_flattening(result);
+  const bool unknown_cells = scene.accuracy.asked && !scene.accuracy.chosen;
+  if (plan.transforms == 0 || unknown_cells) return result;
+  const Grid &given = geometry.grid(), grid = trial_grid(given);
+  const std::string cells = (grid == given ? "all " : "") + cells_text(grid.nx, grid.ny);
+  const double before = cost::transforms();
+  try {
+    const State trial =
+        press_on(grid, sampled(geometry.combined(), grid.nx, grid.ny), 0, scene, geometry, plan, request);
+    const double spent = cost::transforms() - before;
+    result.transforms = trial.cost().total.transforms * (1 + estimate_work(geometry, plan.accuracy));
+    result.seconds *= result.transforms / plan.transforms;
+    result.press += ", from a trial on " + cells + " that took " + format_short(spent, 3);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::infeasible && error.code() != ErrorCode::bad_value &&
+        error.code() != ErrorCode::not_converged)
+      throw;
+    result.press += ", a rough guess: in a trial on " + cells + " " + error.sentence();
+  }
+  cost::count_transforms(before - cost::transforms());
+  return result;
 }
 
 }  // namespace asperity

@@ -18,12 +18,12 @@
 
 namespace asperity {
 
-// One press on one or two coarser grids (finer first) or on one finer grid.
+// One or two coarser grids (finer first) or one finer grid.
 class CompanionGrids {
  public:
   struct Level {
     State state;
-    double ratio = 2;  // of cell widths to the next finer grid; below 1: a finer grid
+    double ratio = 2;  // of cell widths to the next finer grid; below 1: finer
   };
   CompanionGrids(const PressRequest& request, std::vector<Level> levels)
       : request_(request), levels_(std::move(levels)) {}
@@ -37,23 +37,22 @@ class CompanionGrids {
   std::vector<Level> levels_;
 };
 
-// Half and a quarter of the cells per side, down to 8 along x or y; sides below 16 cells stay. Odd numbers
-// round up.
+// Half and a quarter of the cells per side, at least 8; sides below 16 cells stay. Odd numbers round up.
 std::vector<Grid> coarser_grids(const Grid& grid);
 
-// Starts from a coarser grid if this saves transforms. The answer agrees within the tolerance.
+// From a coarser grid if this saves transforms; equal within the tolerance.
 State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
                          Monitor& monitor);
 
-// Solves `request` on coarser grids, with the history in `geometry` and `plan`, to 1e-5 or the looser
-// tolerance of the scene. Heights are sampled at every second node, for odd cells interpolated. For a
-// requested error, each grid starts from the coarser grid. Costs 1/4 + 1/16 of the press. Throws errors of a
-// press, and Error{bad_value} naming `estimate` for too few cells.
+// Coarser grids with the history in `geometry` and `plan`, to 1e-5 or the looser tolerance of the scene.
+// Samples every second node; interpolates for odd cells. For a requested error, each grid starts from the
+// coarser one. Costs 1/4 + 1/16 of the press. Throws errors of a press, and Error{bad_value} naming
+// `estimate` for too few cells.
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor = Monitor::silent());
 
-// On three times the cells per side (finer_heights.hpp), to 1e-6 or the looser tolerance of the scene. Costs
+// Three times the cells per side (finer_heights.hpp), to 1e-6 or the looser tolerance of the scene. Costs
 // nine to twelve presses; throws errors of finer_grid.
 std::shared_ptr<const CompanionGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
                                                   const Plan& plan, const PressRequest& request,
@@ -63,8 +62,8 @@ std::shared_ptr<const CompanionGrids> solve_finer(const Scene& scene, const Cont
 std::int64_t bytes_held_with_other_grids(const State& state);
 
 // The press on `grid` with combined `heights`, NaN without an opposite surface, to the looser of `tolerance`
-// and the scene's tolerance, or the best reached; starts from `coarser` if not null. The cost counts
-// transforms of the grid of `geometry`, the state those of `grid`.
+// and the scene's tolerance, or the best reached; `coarser` may be null. The cost counts transforms of the
+// grid of `geometry`, the state those of `grid`.
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
                const ContactGeometry& geometry, const Plan& plan, const PressRequest& request,
                Monitor& monitor = Monitor::silent(), const State* coarser = nullptr);
@@ -80,5 +79,10 @@ double transform_work(const Grid& grid);
 void plan_estimate(const ContactGeometry& geometry, Plan& plan);
 // make_plan plus plan_estimate.
 Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry);
+
+// `plan` with transforms, time and sentence of this press, from a trial on up to about 128² nodes: transforms
+// hardly depend on the nodes. Leaves cost counters, laws and contacts unchanged. Throws as check(request).
+Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
+                   const PressRequest& request);
 
 }  // namespace asperity

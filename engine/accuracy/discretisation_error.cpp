@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
 #include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
@@ -24,12 +24,12 @@ using Kind = CellError::Kind;
 
 const StateQuantity& quantity_of(std::string_view name) { return *find_quantity(name); }
 
-// Remaining error of a corrected area, as a share of the outline correction.
+// Error of a corrected area, as a share of the correction.
 constexpr double share_of_outline = 0.1;
-// Weight of the differences next to an error by outline or first touch: at weight 1, they exceed three times
-// the error in a quarter and a sixth of the scenes.
+// Weight of differences next to an error by outline or first touch: at weight 1, they exceed three times the
+// error in a quarter and a sixth of the scenes.
 constexpr double share_beside_outline = 0.5, share_beside_touch = 0.3;
-// In outline corrections: excess of the true area over the corrected area, and its scatter.
+// In outline corrections: excess of the true area, and its scatter.
 constexpr double share_of_finer_outline = 0.08, doubt_of_outline = 0.02;
 
 double lacks_by_touch(const State& state, const StateQuantity& quantity) {
@@ -64,7 +64,7 @@ Differences differences(const State& state, const StateQuantity& quantity, doubl
   const double r = elementary::pow(levels[0].ratio, order), s = elementary::pow(levels[1].ratio, order);
   const double first = (fine - half) / (r - 1), second = (half - quarter) / ((s - 1) * r);
   if (!std::isfinite(first) || !std::isfinite(second))
-    return {fine == half && half == quarter ? 0.0 : std::numeric_limits<double>::infinity()};
+    return {fine == half && half == quarter ? 0.0 : infinity};
   constexpr double noticeable = 0.01;
   const double step = fine - half, step_before = half - quarter;
   return {std::max(std::abs(first), std::abs(second)), first * second > 0 ? first : 0.0,
@@ -82,7 +82,7 @@ double area_unit(const State& state, const StateQuantity& quantity) {
   return quantity.dimension == dimension::area ? state.geometry().grid().area() : 1.0;
 }
 
-// The error of the finer grid is a fraction of the error of the state.
+// The error of the finer grid is a fraction of the state's.
 void estimate_by_finer(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                        DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
@@ -108,6 +108,23 @@ void estimate_by_finer(const State& state, const StateQuantity& quantity, bool b
   result.extrapolated = better;
 }
 
+// With margin: the random error for 19 scenes in 20. A small step may be chance, so the previous step counts
+// too.
+double error_within_outline(const State& state) {
+  constexpr double of_doubt = 1.2, of_a_step = 0.7, of_the_step_before = 0.15;
+  const double area = state.corrected_area_fraction();
+  if (area <= 0) return state.area_fraction() == 0 ? 0.0 : infinity;
+  double error = of_doubt * state.outline()->doubt, share = of_a_step, finer = area;
+  for (const CompanionGrids::Level& level : state.companion_grids()->levels()) {
+    const double coarser = level.state.corrected_area_fraction();
+    const double least = std::min(finer, coarser);
+    error = std::max(error, share * std::abs(finer - coarser) / (least > 0 ? least : finer));
+    finer = coarser;
+    share = of_the_step_before;
+  }
+  return error * area;
+}
+
 void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                          DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
@@ -118,15 +135,14 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
     result.extrapolated += lacks;
     return;
   }
-  // At a prescribed approach, errors follow the highest node.
+  // At a prescribed approach, errors follow the top.
   const Differences d = differences(state, quantity, by_approach ? std::min(cells.order, 1.0) : cells.order);
   switch (cells.kind) {
+    case Kind::steady:
+      result.extrapolated += d.correction;
+      [[fallthrough]];
     case Kind::grid:
       result.error = d.error;
-      break;
-    case Kind::steady:
-      result.error = d.error;
-      result.extrapolated += d.correction;
       break;
     case Kind::raw_area: {
       const double area = area_unit(state, quantity);
@@ -137,12 +153,10 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
       break;
     }
     case Kind::corrected:
-      if (state.outline()) {
-        result.error = state.outline()->doubt * result.value / result.margin;
-        break;
-      }
-      result.error = std::max(share_beside_outline * d.error,
-                              share_of_outline * std::abs(state.area_fraction() - result.value));
+      result.error = state.outline()
+                         ? error_within_outline(state) / result.margin
+                         : std::max(share_beside_outline * d.error,
+                                    share_of_outline * std::abs(state.area_fraction() - result.value));
       break;
     case Kind::approach: {
       if (by_approach) {
@@ -156,7 +170,7 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
       break;
     }
     case Kind::peak:
-      result.error = d.diverges ? std::numeric_limits<double>::infinity() : d.error;
+      result.error = d.diverges ? infinity : d.error;
       if (d.error > 0)
         result.error = std::max(result.error, rise_between_nodes(*state.field("pressure"), wraps));
       break;
@@ -165,11 +179,29 @@ void estimate_by_coarser(const State& state, const StateQuantity& quantity, bool
 
 bool prescribes_approach(PressBy by) { return by == PressBy::approach || by == PressBy::indentation; }
 
+void check(const AskedError& asked, const Effects& named) {
+  require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
+          "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
+  if (asked.of.empty()) refuse("`of` names no quantity", "give one, such as \"corrected_area_fraction\"");
+  const std::span<const std::string> known = estimated_quantities();
+  for (const std::string& quantity : asked.of) {
+    if (std::ranges::find(known, quantity) == known.end())
+      throw Error(
+          ErrorCode::unknown_name,
+          "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
+          "give one of " + joined(known, " and "));
+    if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !named.names(effect))
+      refuse("`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
+                 ", and this scene names no such effect",
+             "name " + quoted(effect) + ", or request the error of another quantity");
+  }
+}
+
 }  // namespace
 
 double DiscretisationEstimate::relative() const {
   if (error == 0) return 0;
-  return value == 0 ? std::numeric_limits<double>::infinity() : error / std::abs(value);
+  return value == 0 ? infinity : error / std::abs(value);
 }
 
 std::span<const std::string> estimated_quantities() {
@@ -182,35 +214,12 @@ std::span<const std::string> estimated_quantities() {
   return names;
 }
 
-namespace {
-
-void check(const AskedError& asked, const Effects& named) {
-  require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
-          "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
-  if (asked.of.empty()) refuse("`of` names no quantity", "give one, such as \"corrected_area_fraction\"");
-  const std::span<const std::string> known = estimated_quantities();
-  for (const std::string& quantity : asked.of) {
-    if (std::find(known.begin(), known.end(), quantity) == known.end())
-      throw Error(
-          ErrorCode::unknown_name,
-          "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
-          "give one of " + joined(known, " and "));
-    if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !named.names(effect))
-      refuse("`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
-                 "; this scene does not name it",
-             "name " + quoted(effect) + ", or ask for the error of another quantity");
-  }
-}
-
-}  // namespace
-
 void check_accuracy(const Scene& scene) {
   const Accuracy& accuracy = scene.accuracy;
   const Grid& grid = scene.lower.grid();
   if (accuracy.estimate == Accuracy::Estimate::finer && accuracy.asked)
     refuse("`estimate` = \"finer\" and `error` are both given",
-           "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
-           "both out");
+           "`error` compares with the coarser grids that it has tried: leave one of the two out");
   if (accuracy.estimate == Accuracy::Estimate::finer) finer_grid(grid);
   if (accuracy.estimate == Accuracy::Estimate::coarser || accuracy.asked) check_estimate(grid);
   if (accuracy.asked) check(*accuracy.asked, scene.effects);
@@ -239,7 +248,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     return {state.secant_stiffness(), 0, state.secant_stiffness(), cells.margin};
   if (found->name == "secant_stiffness" && state.companion_grids()->request().by != PressBy::flatten &&
       state.companion_grids()->request().by != PressBy::indentation) {
-    // The error of pressure or approach, whichever is free.
+    // From pressure or approach, whichever is free.
     const auto part = discretisation_estimate(state, by_approach ? "pressure" : "approach");
     result.value = result.extrapolated = state.secant_stiffness();
     result.error = result.value * part.relative();
@@ -273,16 +282,15 @@ double rise_between_nodes(const Field& field, bool wraps) {
   const auto values = field.values();
   // NaN is below every number.
   const auto below = [](double a, double b) { return std::isnan(a) ? !std::isnan(b) : a < b; };
-  const auto top =
-      static_cast<std::size_t>(std::max_element(values.begin(), values.end(), below) - values.begin());
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(values, below) - values.begin());
   const int nx = field.nx(), ny = field.ny();
   const int i = static_cast<int>(top % static_cast<std::size_t>(nx));
   const int j = static_cast<int>(top / static_cast<std::size_t>(nx));
   const double peak = values[top];
   const auto inside = [&](int k, int n) { return n >= 3 && (wraps || (k > 0 && k + 1 < n)); };
   const auto at = [&](int a, int b) { return field((i + a + nx) % nx, (j + b + ny) % ny); };
-  // Missing heights (no opposite surface) form a rim too.
-  const double lowest = wraps ? -std::numeric_limits<double>::infinity() : known_range(values).min;
+  // Missing heights form a rim too.
+  const double lowest = wraps ? -infinity : known_range(values).min;
   const bool along_x = inside(i, nx) && at(-1, 0) > lowest && at(1, 0) > lowest;
   const bool along_y = inside(j, ny) && at(0, -1) > lowest && at(0, 1) > lowest;
   const auto slope_and_bend = [&](double before, double after) {

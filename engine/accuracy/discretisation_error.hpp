@@ -20,10 +20,10 @@ namespace asperity {
 
 struct DiscretisationEstimate {
   double value = 0;
-  // In the unit of the quantity: 0 if prescribed; infinite if the value grows over two coarser grids, for
-  // example the peak pressure at a cut rim.
+  // In the unit of the quantity: 0 if prescribed; infinite if the value grows over two coarser grids, as the
+  // peak pressure at a cut rim.
   double error = 0;
-  // Corrected by an error of known sign: area, approach, …; with a finer grid, every quantity.
+  // Corrected by an error of known sign: area, approach, …; on a finer grid, every quantity.
   double extrapolated = 0;
   double margin = 1;        // `margin` × `error` covers 19 of 20 scenes
   double relative() const;  // infinite for a zero value with an error
@@ -31,18 +31,18 @@ struct DiscretisationEstimate {
 
 // area_fraction, corrected_area_fraction, area, approach, …
 std::span<const std::string> estimated_quantities();
-// Throws Error{bad_value} or Error{unknown_name} for an impossible request: both kinds of grids, too few
-// cells, an unknown quantity, a share outside 1e-6 … 1. O(1).
+// Throws Error{bad_value} or Error{unknown_name} for both kinds of grids, too few cells, an unknown quantity,
+// a share outside 1e-6 … 1. O(1).
 void check_accuracy(const Scene& scene);
 // Throws Error{unknown_name}, Error{bad_state} without accuracy={ estimate=true }, and errors of the
-// quantity. The first call computes the quantity on each grid (`stiffness`: a solve). Thread-safe.
+// quantity. The first call computes each grid (`stiffness`: a solve). Thread-safe.
 DiscretisationEstimate discretisation_estimate(const State& state, std::string_view quantity);
 
 // "error of the grid, estimated: approach 6.6 nm, …"; empty without an estimate.
 std::string discretisation_text(const State& state);
 
-// Rise of the parabolas through the highest node above this node, ≥ 0, in the unit of the field. 0 at a rim
-// without wrap, of the tile or of the lowest nodes.
+// Rise of parabolas through the highest node, ≥ 0, in the unit of the field. 0 at a rim without wrap, of the
+// tile or of the lowest nodes.
 double rise_between_nodes(const Field& field, bool wraps);
 
 }  // namespace asperity

@@ -29,7 +29,7 @@ double between(const Field& field, double x, double y, int last_x, int last_y, d
          v * ((1 - u) * field(i, above) + u * field(right, above));
 }
 
-// Turns about the middle of the contact nodes (every third node); NaN outside the body.
+// About the middle of the contact nodes (every third node); NaN outside the body.
 Field turned_about(const Field& field, const Grid& given, const Grid& fine, double angle) {
   const double c = elementary::cos(angle), s = elementary::sin(angle);
   const int last_x = (given.nx - 1) * (fine.nx / given.nx), last_y = (given.ny - 1) * (fine.ny / given.ny);
@@ -47,7 +47,7 @@ Field turned_about(const Field& field, const Grid& given, const Grid& fine, doub
   return result;
 }
 
-// Adds combined off-lattice flattening, which only `geometry` stores unmapped.
+// Adds off-lattice flattening, which only `geometry` stores unmapped.
 void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, const Grid& fine, Field& h) {
   const Grid& given = geometry.grid();
   const ContactGeometry mapped(scene, geometry.pose());
@@ -69,7 +69,7 @@ void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, 
 Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary) {
   const int nx = upper.nx(), ny = upper.ny();
   const int factor_x = nx / lattice.nx(), factor_y = ny / lattice.ny();
-  // Without shift, the isometry is affine in the nodes.
+  // Affine in the nodes without shift.
   const LatticeIsometry turned = LatticeIsometry(lattice.nx(), lattice.ny()).turned(lattice.quarters());
   const LatticeNode origin = turned.to_upper(LatticeNode{0, 0});
   const auto step = [&](LatticeNode over) {
@@ -96,7 +96,7 @@ Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary bo
 }
 
 Grid finer_grid(const Grid& grid) {
-  const std::string asked = "`estimate` = \"finer\" was asked for a tile of " + std::to_string(grid.nx) +
+  const std::string asked = "`estimate` = \"finer\" is given for a tile of " + std::to_string(grid.nx) +
                             " x " + std::to_string(grid.ny) + " cells";
   if (std::max(grid.nx, grid.ny) < 2) refuse(asked, "give at least 2 along x or y");
   if (std::max(grid.nx, grid.ny) > max_cells / times_finer)

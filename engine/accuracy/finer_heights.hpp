@@ -10,17 +10,16 @@
 
 namespace asperity {
 
-// Remaining energy error, median over 150 scenes: a quarter on twice the cells, a ninth on three times.
+// Median energy error of 150 scenes: a quarter on twice the cells, a ninth on three times.
 inline constexpr int times_finer = 3;
 
-// Sides of one cell stay. Throws Error{bad_value} naming `estimate` for a single cell or more than 65536 per
-// side.
+// Sides of one cell stay. Throws Error{bad_value} naming `estimate` for one cell or more than 65536 per side.
 Grid finer_grid(const Grid& grid);
 
-// Upper heights over the nodes of a lower grid, finer by whole factors than the cells of `lattice`.
+// Upper heights at lower nodes, finer by whole factors than `lattice`.
 Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary);
 
-// h on finer_grid(geometry.grid()), m, after the events of the bodies. No solve.
+// h on finer_grid(geometry.grid()), m, after all events. No solve.
 Field finer_heights(const Scene& scene, const ContactGeometry& geometry,
                     Monitor& monitor = Monitor::silent());
 

@@ -15,7 +15,7 @@ struct AfterEvent {
   Surface lower;
   UpperBody upper;
   BodyMemory memory;
-  // m, removed from both bodies, at the nodes of the lower one; none: heights unchanged.
+  // m, from both bodies, at the lower body's nodes; none: heights unchanged.
   std::optional<Field> yielded{};
   // Mapped over intended volume of the upper body, before rescaling.
   double mapped_volume = 1;

@@ -2,10 +2,8 @@
 #include "engine/contact/distribution.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 
 namespace asperity {
@@ -35,11 +33,6 @@ std::vector<double> geometric_edges(double least, double greatest, int bins) {
 }  // namespace
 
 Histogram make_histogram(std::span<const double> values, const HistogramOptions& options) {
-  if (options.bins < 1 || options.bins > 100000)
-    throw Error(ErrorCode::bad_value, "`bins` is " + std::to_string(options.bins),
-                "give a whole number from 1 to 100000");
-  if (values.empty()) throw Error(ErrorCode::bad_state, "there are no values to distribute over bins");
-
   const Range limits = range(values);
   Histogram result;
   result.edges = options.log ? geometric_edges(limits.min, limits.max, options.bins)

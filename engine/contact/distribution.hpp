@@ -15,14 +15,13 @@ struct HistogramOptions {
 
 struct Histogram {
   std::vector<double> edges;         // bins + 1, ascending, in the unit of the values
-  std::vector<std::int64_t> counts;  // values in [edge k, edge k+1); the last bin includes its upper edge
+  std::vector<std::int64_t> counts;  // in [edge k, edge k+1); the last bin includes its upper edge
   std::vector<double> density;       // counts / (values · bin width): integrates to 1
   std::int64_t values = 0;
   double mean = 0;
 };
 
-// Values positive and finite. O(values). Throws Error{bad_value} for `bins` out of range, {bad_state}
-// without values.
+// Values positive and finite, at least one. O(values).
 Histogram make_histogram(std::span<const double> values, const HistogramOptions& options);
 
 }  // namespace asperity

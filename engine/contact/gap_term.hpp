@@ -19,14 +19,12 @@ struct GapTerm {
   double range = 0;  // ρ, m
   // Dugdale: the traction falls to zero from (1 − edge)ρ to (1 + edge)ρ, at equal work. Nodes would stick at
   // a sharp end.
-  double edge = 0;
+  static constexpr double edge = 0.5;
 
   double greatest() const { return work / range; }  // Pa, at touch
   // Pa, for g >= 0.
   double traction(double g) const {
-    if (law == GapLaw::dugdale)
-      return greatest() * (edge > 0 ? std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0)
-                                    : static_cast<double>(g < range));
+    if (law == GapLaw::dugdale) return greatest() * std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0);
     return greatest() * elementary::exp(-g / range);
   }
 };

@@ -28,9 +28,8 @@ constexpr std::array<Value, 6> by_next_inside{
     {{0, -0.105}, {1, -0.062}, {1.4, -0.052}, {1.8, -0.060}, {2.5, -0.060}, {4, -0.136}}};
 constexpr double within = 0.239, beyond = -0.165;
 constexpr std::array<double, 3> turns{0, -0.004, 0.065};  // for one, two, three or more edges
-// Nine errors in ten are below coefficient · edges^grows_with_edges, in cells, for wrapped and for open
-// tiles: 84 scenes outside the fit (bench/requested_error.lua, seeds 901 to 906 and 1101 to 1106), 50 to
-// 20,000 edges, resolved waves.
+// Nine errors in ten are below coefficient · edges^grows_with_edges cells: 84 scenes outside the fit
+// (bench/requested_error.lua, seeds 901 to 906 and 1101 to 1106), 50 to 20,000 edges, resolved waves.
 constexpr double grows_with_edges = 0.62, in_nine_of_ten_wrapped = 0.13, in_nine_of_ten_open = 0.20;
 
 constexpr int fewest_cells = 8;
@@ -44,8 +43,8 @@ double between_values(double ratio) {
   return low.w + (high.w - low.w) * (x - low.at) / (high.at - low.at);
 }
 
-// Solves 4/3 (1 - t)^(3/2) / sqrt(t) = r for t: with s = 1 - t and u = (3r/4)², s³ + u s - u = 0; Newton's
-// steps from 1 fall to the root.
+// Solves 4/3 (1 - t)^(3/2) / sqrt(t) = r: with s = 1 - t and u = (3r/4)², s³ + u s - u = 0; Newton's steps
+// from 1 fall to the root.
 double share_within(double r) {
   constexpr double largest = 1e6, close = 1e-12;
   const double u = 0.5625 * std::min(r, largest) * std::min(r, largest);
@@ -66,12 +65,12 @@ double cells_beyond(double gap, double next) {
   return grows > 1 ? 1 / grows : 1.0;
 }
 
-// Pressures of the touching node and the next inside, gaps of the next two outside, cell width.
+// Pressures of the touching node and the next inside, gaps of two outside, cell width.
 struct Edge {
   double p, inside, g, further, width;
 };
 
-// In cells. Boxes: linear across the outline; each direction gives half of the area.
+// In cells. Boxes: linear across the outline; each direction gives half the area.
 double added_by(const Edge& edge, double modulus, OutlineLaw law) {
   if (law == OutlineLaw::boxes) return 0.5 * (edge.p / (edge.p + modulus * edge.g) - 0.5);
   return between_values(edge.inside / edge.p) +
@@ -88,7 +87,7 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
   if (std::min(nx, ny) < fewest_cells || hx > longest_cell * hy || hy > longest_cell * hx) return {};
   const auto pressures = pressure.values(), gaps = gap.values();
   double counted = 0, edges = 0, capped = 0, added = 0, rising = 0;
-  // -1 past the rim of an open tile.
+  // -1: past the rim of an open tile.
   constexpr std::ptrdiff_t none = -1;
   const auto beside = [&](int i, int j, int steps_x, int steps_y) -> std::ptrdiff_t {
     int a = i + steps_x, b = j + steps_y;
@@ -114,7 +113,7 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
         const Edge edge{p, in == none ? 0.0 : pressures[static_cast<std::size_t>(in)], g,
                         next == none ? g : gaps[static_cast<std::size_t>(next)], x != 0 ? hx : hy};
         edges += 1;
-        // Flattened up to the outline: counts whole.
+        // Flat up to the outline: counts whole.
         if (law == OutlineLaw::capped && std::abs(edge.inside - p) <= alike * p) {
           capped += 1;
           continue;
@@ -128,7 +127,7 @@ std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap,
     }
   const double area = counted + added;
   if (!(edges > 0) || !(area > 0) || rising > most_rising * edges) return {};
-  // A capped outline may run anywhere in the next cell: two to three times the elastic errors in 30 blasted
+  // A capped outline may be anywhere in the next cell: two to three times the elastic errors in 30 blasted
   // scenes (bench/requested_error.lua, seeds 11 to 40).
   const double doubt = (wraps ? in_nine_of_ten_wrapped : in_nine_of_ten_open) *
                        elementary::pow(edges, grows_with_edges) * (1 + 2 * capped / edges);

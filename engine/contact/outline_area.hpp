@@ -21,15 +21,15 @@ enum class OutlineLaw {
 
 struct OutlineArea {
   double fraction = 0;  // of the tile
-  // Bounds |fraction − limit on ever finer cells| / fraction in nine scenes of ten if the waves of the
-  // bodies have about seven cells or more.
+  // Bounds |fraction − limit on ever finer cells| / fraction in nine scenes of ten, for waves of about seven
+  // cells or more.
   double doubt = 0;
 };
 
 // `pressure` in Pa, above 0 on touching nodes; `gap` in m; `modulus`: E* in Pa, or the stiffness of boxes in
-// Pa/m. Without `wraps` the rim of the tile is no outline. None if nothing or everything touches, for cells
-// of aspect over 1.25, for fewer than 8 cells along a side, and if most pressures rise towards the outline,
-// as under a flat punch. O(n).
+// Pa/m. Without `wraps` the rim is no outline. None if nothing or everything touches, for cell aspects over
+// 1.25, under 8 cells along a side, or if most pressures rise towards the outline, as under a flat punch.
+// O(n).
 std::optional<OutlineArea> outline_area(const Field& pressure, const Field& gap, const Grid& grid,
                                         double modulus, bool wraps, OutlineLaw law = OutlineLaw::elastic);
 

@@ -2,6 +2,7 @@
 #include "engine/contact/plan.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/files/json.hpp"
@@ -29,8 +30,30 @@ void line(std::string& text, std::string_view label, const std::string& content)
 std::string of_which_press(const Plan& plan) {
   if (!plan.press.empty()) return " of the press " + plan.press;
   if (plan.transforms == 0) return {};
-  return " of a press by `pressure`, a rough guess; c:explain{ approach= }, with the keys of c:press, tells "
-         "more";
+  return " of a press by `pressure`, a rough guess; c:explain{ approach= } takes the keys of c:press";
+}
+
+Plan planned(const Scene& scene, const ContactGeometry& geometry,
+             std::shared_ptr<const ElasticOperator> elasticity) {
+  Plan plan;
+  plan.title = tile_text(geometry.grid(), scene.boundary);
+  plan.overlap = geometry.overlap_fraction();
+  plan.accuracy = scene.accuracy;
+  plan.elasticity = std::move(elasticity);
+  if (!geometry.upper_is_flat())
+    plan.buffers.push_back(
+        {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
+  plan.terms.push_back({std::string(elasticity_effect), plan.elasticity->sentence});
+  plan.elasticity->plan(geometry, plan);
+  plan.effects = scene.effects;
+  for (const Effect* effect : known_effects())
+    if (const std::any* options = scene.effects.options_of(*effect)) effect->plan(*options, geometry, plan);
+  plan.elasticity->plan_after_effects(geometry, plan);
+  for (const PlannedTerm& term : plan.terms)
+    if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
+      plan.effects_run.push_back(term.effect);
+  plan.effects_off = effects_not_in(plan.effects_run);
+  return plan;
 }
 
 }  // namespace
@@ -47,7 +70,7 @@ std::int64_t Plan::bytes_of(bool PlannedBuffer::*which) const {
 
 void hold_flattening(Plan& plan) {
   if (plan.bytes_to_flatten == 0) return;
-  plan.buffers.push_back({"while what flattens so much is sought", plan.bytes_to_flatten, false});
+  plan.buffers.push_back({"search for the load of a press by `flatten`", plan.bytes_to_flatten, false});
   plan.bytes_to_flatten = 0;
 }
 
@@ -77,38 +100,11 @@ std::string Plan::text() const {
 }
 
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
-  Plan plan;
-  plan.title = tile_text(geometry.grid(), scene.boundary);
-  plan.overlap = geometry.overlap_fraction();
-  plan.accuracy = scene.accuracy;
-  if (!geometry.upper_is_flat())
-    plan.buffers.push_back(
-        {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
-  const ElasticModel& model = scene.elasticity.model();
-  plan.model = &model;
-  model.plan(scene.elasticity.options(), geometry, plan);
-  plan.effects = scene.effects;
-  for (const Effect* effect : known_effects())
-    if (const std::any* options = scene.effects.options_of(*effect)) effect->plan(*options, geometry, plan);
-  if (model.finish != nullptr) model.finish(geometry, plan);
-  for (const PlannedTerm& term : plan.terms)
-    if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
-      plan.effects_run.push_back(term.effect);
-  plan.effects_off = effects_not_in(plan.effects_run);
-  return plan;
+  return planned(scene, geometry, scene.elasticity.model().make(scene.elasticity.options(), geometry));
 }
 
 Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry) {
-  Scene same = scene;
-  if (const ElasticModel& model = same.elasticity.model(); model.as_planned != nullptr)
-    same.elasticity = Elasticity(model, model.as_planned(same.elasticity.options(), before));
-  Plan plan = make_plan(same, geometry);
-  plan.elasticity = before.elasticity;
-  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == elasticity_effect; };
-  const auto known = std::find_if(before.terms.begin(), before.terms.end(), of_elasticity);
-  if (known != before.terms.end())
-    std::replace_if(plan.terms.begin(), plan.terms.end(), of_elasticity, *known);
-  return plan;
+  return planned(scene, geometry, before.elasticity);
 }
 
 Json to_json(const Plan& plan) {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "engine/contact/solution.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
@@ -13,7 +12,7 @@ namespace asperity {
 double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio) {
   if (!std::isfinite(upper_hardness)) return 1;
   if (!std::isfinite(lower_hardness)) return 0;
-  // One body takes all beyond; the exponential must not overflow.
+  // Beyond, one body takes all; the exponential must not overflow.
   constexpr double least = 1e-3, most = 1e3, greatest_exponent = 700;
   const double ratio = std::clamp(lower_hardness / upper_hardness, least, most);
   const double exponent = 1.5 * (ratio * ratio - 1 / (ratio * ratio));

@@ -16,9 +16,8 @@
 
 namespace asperity {
 
-// A load carried as placed. Its pressures exactly solve the same load again without further yield; lighter
-// loads have no greater pressures. More yield in a repeated press is solver error and must not wear the
-// specimen.
+// A load carried as placed: same or lighter loads cause no further yield. Computed further yield is solver
+// error and must not wear the specimen.
 struct CarriedLoad {
   double pressure = 0;   // Pa, mean over the tile
   double softening = 1;  // hardness in the press over stated hardness
@@ -33,20 +32,27 @@ inline bool covered(const std::vector<CarriedLoad>& carried, const CarriedLoad& 
   return std::any_of(carried.begin(), carried.end(), [&](const CarriedLoad& c) { return c.covers(load); });
 }
 
-// Adds a load and erases the loads covered by it.
+// Adds `load` and erases the loads it covers.
 inline void carry(std::vector<CarriedLoad>& carried, const CarriedLoad& load) {
   if (covered(carried, load)) return;
   std::erase_if(carried, [&](const CarriedLoad& c) { return load.covers(c); });
   carried.push_back(load);
 }
 
-struct PlasticChange;
+// Permanent, after a press.
+struct PlasticChange {
+  Field approach;  // w, m: plastic part of the local approach, both bodies
+  // Pa, at the reference dwell; 0 at nodes without yield. Empty without hardening.
+  Field hardness;
+  // None if the solve missed its tolerance.
+  std::optional<CarriedLoad> carried{};
+};
 
 // A body without a share has infinite hardness.
 struct PlannedYield {
-  double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
+  double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before events
   double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
-  // E of the lower over E of the upper body; 1 if unknown or without elasticity.
+  // E_lower/E_upper; 1 if unknown or without elasticity.
   double modulus_ratio = 1;
   // H(dwell, s)/H; none: independent of the dwell.
   std::function<double(std::optional<double> dwell)> softening{};
@@ -59,17 +65,16 @@ struct PlannedYield {
   double softened(std::optional<double> dwell) const { return softening ? softening(dwell) : 1.0; }
 };
 
-// Share of the plastic approach of the lower body,
+// Lower body's share of the plastic approach,
 //   s = 1/(1 + exp(1.5 (ρ² − ρ⁻²)) E_lower/E_upper),  ρ = H_lower/H_upper:
-// ½ for like bodies; .25, .06, .004 for a body 1.2, 1.5, 2 times as hard as the other. Within .03 of J2
-// plasticity below the surface with one Poisson's ratio; exact for equal hardness (strains ~ 1/E). 0 or 1 if
-// the other hardness is infinite.
+// ½ for like bodies; .25, .06, .004 for a body 1.2, 1.5, 2 times as hard. Within .03 of J2 plasticity below
+// the surface with one Poisson's ratio; exact for equal hardness. 0 or 1 if the other hardness is infinite.
 double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
 
-// BodyMemory: hardness of each node after hardening, Pa at the reference dwell.
+// BodyMemory: hardness of hardened nodes, Pa at the reference dwell.
 inline constexpr std::string_view hardness_memory = "hardness";
 
-// Hardness of each node of both bodies as placed, at the nodes of the lower body; none if uniform.
+// Both bodies as placed, at the lower body's nodes; none if uniform.
 MetMemory local_hardness(const ContactGeometry& geometry, const PlannedYield& yield);
 
 // With the hardness scaled by `factor`.
@@ -84,7 +89,7 @@ struct YieldedBodies {
   double mapped_volume = 1;
 };
 
-// Removes `change` from the bodies. Only the increment is mapped; heights are never resampled. O(n).
+// Maps only the increment; heights are never resampled. O(n).
 YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
                              const PlasticChange& change);
 

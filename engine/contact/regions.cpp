@@ -2,10 +2,8 @@
 #include "engine/contact/regions.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {
@@ -15,13 +13,11 @@ namespace {
 class Forest {
  public:
   std::uint32_t add(std::int64_t nodes) {
-    if (parent_.size() >= std::numeric_limits<std::uint32_t>::max())
-      throw Error(ErrorCode::internal, "more runs of contact than can be numbered");
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     nodes_.push_back(nodes);
     return parent_.back();
   }
-  // The root is the lowest number: regions keep the order of their first run.
+  // Lowest number as root: regions keep the order of first runs.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a);
     b = root(b);
@@ -69,7 +65,7 @@ void cut_into_runs(std::span<const std::uint8_t> row, Forest& forest, Row& runs)
   }
 }
 
-// `diagonal`: 1 if corners join, 0 otherwise.
+// `diagonal`: 1 joins corners.
 void join_rows(const Row& above, const Row& below, int diagonal, int nx, bool wrap, Forest& forest) {
   std::size_t a = 0, b = 0;
   while (a < above.size() && b < below.size()) {
@@ -108,6 +104,39 @@ Array<std::int64_t> region_sizes(std::span<const std::uint8_t> mask, int nx, int
   }
   if (wrap && ny > 1) join_rows(previous, first, diagonal, nx, wrap, forest);
   return forest.sizes();
+}
+
+bool has_open_path(std::span<const std::uint8_t> mask, int nx, int ny, PathDirection along, bool wrap) {
+  const bool by_columns = along == PathDirection::x;
+  const int length = by_columns ? nx : ny, width = by_columns ? ny : nx;
+  const auto node = [&](int step, int across) {
+    return by_columns ? static_cast<std::size_t>(across) * static_cast<std::size_t>(nx) +
+                            static_cast<std::size_t>(step)
+                      : static_cast<std::size_t>(step) * static_cast<std::size_t>(nx) +
+                            static_cast<std::size_t>(across);
+  };
+  struct Place {
+    int step, across;
+  };
+  Array<std::uint8_t> seen(mask.begin(), mask.end());
+  std::vector<Place> next;
+  const auto visit = [&](int step, int across) {
+    if (wrap) across = (across + width) % width;
+    if (step < 0 || across < 0 || across >= width || seen[node(step, across)] != 0) return;
+    seen[node(step, across)] = 1;
+    next.push_back({step, across});
+  };
+  for (int across = 0; across < width; ++across) visit(0, across);
+  while (!next.empty()) {
+    const Place at = next.back();
+    next.pop_back();
+    if (at.step == length - 1) return true;
+    visit(at.step + 1, at.across);
+    visit(at.step, at.across + 1);
+    visit(at.step, at.across - 1);
+    visit(at.step - 1, at.across);
+  }
+  return false;
 }
 
 BoundaryEdges boundary_edges(std::span<const std::uint8_t> mask, int nx, int ny, bool wrap) {

@@ -12,12 +12,17 @@ namespace asperity {
 
 enum class Neighbours { four, eight };  // joined by an edge, or also by a corner
 
-// Nodes in each region of mask != 0 (nx·ny values, row by row), in order of first occurrence. `wrap`: the
-// last column touches the first, the last row the first.
+// Nodes in each region of mask != 0 (nx·ny values, row by row), in order of first occurrence. `wrap`: first
+// and last columns and rows touch.
 Array<std::int64_t> region_sizes(std::span<const std::uint8_t> mask, int nx, int ny, Neighbours neighbours,
                                  bool wrap);
 
-// Edges between a node in the set and one outside; the rim of a tile without `wrap` does not count.
+enum class PathDirection { x, y };
+// Whether nodes with mask == 0 join the first column to the last one (along x) or the first row to the last
+// (along y), by edges. `wrap`: across the path, the tile is periodic.
+bool has_open_path(std::span<const std::uint8_t> mask, int nx, int ny, PathDirection along, bool wrap);
+
+// Between a node in the set and one outside; without `wrap` the rim does not count.
 struct BoundaryEdges {
   std::int64_t between_columns = 0;  // between (i, j) and (i+1, j)
   std::int64_t between_rows = 0;     // between (i, j) and (i, j+1)

@@ -5,121 +5,112 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/certificate.hpp"
-#include "engine/contact/planned_yield.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/core/cost.hpp"
 
 namespace asperity {
 
-// Nodes in contact, divided at a pressure.
+// Contacts, divided at a pressure.
 struct PressureSplit {
   std::int64_t above = 0;  // p >= threshold
   std::int64_t below = 0;  // 0 < p < threshold
   double sum_below = 0;    // Σ p of `below`, Pa
 };
 
-// Permanent change of the bodies after a press.
-struct PlasticChange {
-  Field approach;  // w, m: plastic part of the local approach, both bodies
-  // Pa, at the reference dwell, of yielded nodes; 0 elsewhere. Empty without hardening.
-  Field hardness;
-  // None if the solve missed its tolerance.
-  std::optional<CarriedLoad> carried{};
+struct PlacedContact {
+  std::shared_ptr<const Plan> plan;
+  std::shared_ptr<const ContactGeometry> geometry;
 };
 
 class Solution {
  public:
+  struct Numbers {
+    double load = 0;            // N on the tile
+    double pressure = 0;        // Pa, load over nominal area
+    double approach = 0;        // m
+    double peak_pressure = 0;   // Pa
+    std::int64_t contacts = 0;  // nodes with p > 0
+    std::int64_t yielded = 0;   // nodes at the cap, or past the yield pressure
+    int iterations = 0;
+    std::string solver{};
+    // N on the tile; adds to the load on the junctions.
+    double attraction = 0;
+    std::vector<double> preload{};  // turning points; they select the branch
+  };
+
   virtual ~Solution() = default;
 
-  virtual const ContactGeometry& geometry() const = 0;
+  const ContactGeometry& geometry() const { return *contact_.geometry; }
+  const Plan& plan() const { return *contact_.plan; }
+  const std::shared_ptr<const Plan>& shared_plan() const { return contact_.plan; }
+  const Numbers& numbers() const { return numbers_; }
 
-  // Each O(1).
-  virtual double load() const = 0;      // N on the tile
-  virtual double pressure() const = 0;  // Pa, load over nominal area
-  virtual double approach() const = 0;  // m
-  // N on the tile; an attraction across the gap adds this to the load on the junctions.
-  virtual double attraction() const { return 0; }
-  // Turning points of the load history; they select the branch.
-  virtual std::span<const double> preload() const { return {}; }
-  virtual std::int64_t contacts() const = 0;  // nodes with p > 0
-  virtual double peak_pressure() const = 0;   // Pa
-  virtual int iterations() const = 0;
-  virtual std::string_view solver() const = 0;
-
-  // Plasticity; all zero without yield.
-  virtual std::int64_t yielded() const { return 0; }   // at the cap, or past the yield pressure
+  // Computed on request; zero without yield.
   virtual double plastic_volume() const { return 0; }  // m³, both bodies
   virtual std::optional<PlasticChange> plastic_change() const { return {}; }
-
-  // Memory of this solution alone.
+  // This solution alone.
   virtual std::int64_t bytes() const { return 0; }
-
-  // Computed on request.
-  virtual double flatten() const = 0;    // relative fall of the peak-to-valley of the combined heights
+  virtual double flatten() const = 0;    // relative fall of the combined peak-to-valley
   virtual double stiffness() const = 0;  // Pa/m, d pressure / d approach at constant contact set
   virtual double mean_gap() const = 0;   // m, over facing nodes
   virtual double energy() const = 0;     // J in the tile, elastic
   virtual Certificate certificate() const = 0;
-  // Bounds against the exact solution on the same grid.
+  // Bounds on the same grid.
   virtual SolutionError error() const = 0;
   virtual PressureSplit split(double threshold) const = 0;
-  virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
-  virtual Field pressure_field() const = 0;              // Pa
-  virtual Field gap_field() const = 0;                   // m, 0 in contact; undefined off the overlap
-  virtual Field displacement_field() const = 0;          // m, elastic, of both bodies, positive into them
-  virtual Field lower_under_load() const = 0;            // m, in the lower body's frame
-  virtual Field upper_under_load() const = 0;            // m, in the upper body's frame
-};
+  Array<std::uint8_t> contact_mask() const;      // 1 where p > 0, row by row
+  virtual Field pressure_field() const = 0;      // Pa
+  virtual Field gap_field() const = 0;           // m, 0 in contact; undefined off the overlap
+  virtual Field displacement_field() const = 0;  // m, elastic, both bodies, positive into them
+  // m, in the body's own frame.
+  virtual Field lower_under_load() const;
+  Field upper_under_load() const;
 
-// The numbers of a solve after the release of its memory. Other members throw Error{bad_state} naming the
-// quantity.
-class ClosedSolution final : public Solution {
- public:
-  explicit ClosedSolution(const Solution& solution);
-
-  double load() const override { return load_; }
-  double pressure() const override { return pressure_; }
-  double approach() const override { return approach_; }
-  double attraction() const override { return attraction_; }
-  std::span<const double> preload() const override { return preload_; }
-  std::int64_t contacts() const override { return contacts_; }
-  double peak_pressure() const override { return peak_pressure_; }
-  int iterations() const override { return iterations_; }
-  std::string_view solver() const override { return solver_; }
-  std::int64_t yielded() const override { return yielded_; }
-
-  const ContactGeometry& geometry() const override { not_read("a property of the bodies as they lay"); }
-  double plastic_volume() const override { not_read("`plastic_volume`"); }
-  std::optional<PlasticChange> plastic_change() const override { not_read("what yielded"); }
-  double flatten() const override { not_read("`flatten`"); }
-  double stiffness() const override { not_read("`stiffness`"); }
-  double mean_gap() const override { not_read("`mean_gap`"); }
-  double energy() const override { not_read("`energy`"); }
-  Certificate certificate() const override { not_read("`certificate`"); }
-  SolutionError error() const override { not_read("`error.algebraic`"); }
-  PressureSplit split(double) const override { not_read("the pressure of each node"); }
-  Array<std::uint8_t> contact_mask() const override { not_read("which nodes touch"); }
-  Field pressure_field() const override { not_read("the field `pressure`"); }
-  Field gap_field() const override { not_read("the field `gap`"); }
-  Field displacement_field() const override { not_read("the field `displacement`"); }
-  Field lower_under_load() const override { not_read("`deformed` of the lower body"); }
-  Field upper_under_load() const override { not_read("`deformed` of the upper body"); }
+ protected:
+  Solution(PlacedContact contact, Numbers numbers)
+      : contact_(std::move(contact)), numbers_(std::move(numbers)) {}
 
  private:
-  [[noreturn]] static void not_read(std::string_view what);
+  // `share`: of the displacement.
+  Field under_load(const Field& before, double share, bool upper) const;
 
-  double load_, pressure_, approach_, attraction_, peak_pressure_;
-  std::vector<double> preload_;
-  std::int64_t contacts_, yielded_;
-  int iterations_;
-  std::string solver_;
+  PlacedContact contact_;
+  Numbers numbers_;
 };
+
+// Bounds (not estimates) of absolute differences from the exact solution of the request on the same grid,
+// from the pressures. Includes rounding, in the unit of the quantity; infinite if unknown.
+struct AlgebraicError {
+  // Only rounding if prescribed. None after a press by `flatten`: other bounds then refer to the load found.
+  std::optional<double> load, pressure;
+  double approach = 0;
+  double indentation = 0;  // infinite for equal combined heights
+  double separation = 0;
+  double mean_gap = 0;
+  double energy = 0;
+  double peak_pressure = 0;
+  std::optional<double> secant_stiffness;  // none without one for the load
+  double contacts = 0, area = 0, area_fraction = 0;
+  double corrected_area_fraction = 0;
+  NodeBracket contact_bracket;
+  // None without the effect `plasticity`.
+  std::optional<double> plastic_volume, plastic_fraction;
+  std::optional<NodeBracket> yielded_bracket;
+
+  std::int64_t nodes = 0;  // of the grid
+  double node_area = 0;    // m²
+  Cost cost;               // of computing this
+};
+
+// As costly as solution.error().
+AlgebraicError find_algebraic_error(const Solution& solution);
 
 }  // namespace asperity

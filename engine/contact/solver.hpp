@@ -6,8 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/plan.hpp"
 #include "engine/contact/scene/press_request.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/contact/state.hpp"
@@ -19,33 +17,32 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  // Throws Error{bad_value} for a negative, non-finite or too small request, Error{infeasible} without
-  // solution, Error{not_converged} if the certificate misses the tolerance and the scene does not accept the
-  // best result.
+  // Throws Error{bad_value} for a negative, non-finite or too small request, {infeasible} without solution,
+  // {not_converged} if the certificate misses the tolerance and the scene does not accept the best result.
   virtual State press(const PressRequest& request, Monitor& monitor) const = 0;
   State press(const PressRequest& request) const { return press(request, Monitor::silent()); }
-  // Starts from `guess`, a similar press on any cells of the tile, if this saves transforms. The last digits
-  // depend on the guess.
+  // Starts from `guess`, a similar press on any cells of the tile, if this saves transforms. Last digits
+  // depend on it.
   virtual State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const {
     static_cast<void>(guess);
     return press(request, monitor);
   }
-  const ContactGeometry& geometry() const { return *geometry_; }
+  const ContactGeometry& geometry() const { return *contact_.geometry; }
   // Once for all presses.
   const StateCost& preparation() const { return preparation_; }
 
  protected:
   Solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry)
-      : plan_(plan), geometry_(std::move(geometry)) {}
+      : contact_{std::make_shared<const Plan>(plan), std::move(geometry)} {}
+  const Plan& plan() const { return *contact_.plan; }
 
-  Plan plan_;
-  std::shared_ptr<const ContactGeometry> geometry_;
-  StateCost preparation_;  // set by the constructor of a solver
+  PlacedContact contact_;
+  StateCost preparation_;  // set by a solver's constructor
 };
 
 inline std::shared_ptr<const Solver> make_solver(const Plan& plan,
                                                  std::shared_ptr<const ContactGeometry> geometry) {
-  return plan.model->solver(plan, std::move(geometry));
+  return plan.elasticity->solver(plan, std::move(geometry));
 }
 
 }  // namespace asperity

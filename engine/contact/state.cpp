@@ -9,22 +9,24 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
-#include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/solution.hpp"
-#include "engine/contact/state_limits.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 
 namespace asperity {
 
 namespace {
 
-// Failures are not cached: the next call tries again.
+// Failures are not cached.
 template <class T>
 class Lazy {
  public:
@@ -59,15 +61,17 @@ StateCost& StateCost::operator+=(const StateCost& other) {
 }
 
 struct State::Shared {
-  Grid tile;
-  bool periodic = false;
-  double overlap = 1;
-  double tolerance;
-  std::vector<std::string> effects_run, effects_off;
-  Effects effects;
-  bool moves_every_node = false;
-  std::vector<GapTerm> attraction;
-  bool yields = false;
+  explicit Shared(std::shared_ptr<const Solution> of)
+      : plan(of->shared_plan()),
+        numbers(of->numbers()),
+        tile(of->geometry().grid()),
+        wraps(of->geometry().boundary() == Boundary::periodic),
+        solution(std::move(of)) {}
+
+  const std::shared_ptr<const Plan> plan;
+  const Solution::Numbers numbers;
+  const Grid tile;
+  const bool wraps;
 
   Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
   Lazy<Certificate> certificate;
@@ -77,30 +81,30 @@ struct State::Shared {
   Lazy<std::string> digest;
   std::array<Lazy<std::shared_ptr<const Field>>, 5> fields;
 
-  mutable std::mutex mutex;                  // of the members below
-  std::shared_ptr<const Solution> solution;  // a ClosedSolution once closed
-  bool closed = false;
+  mutable std::mutex mutex;                  // of the next member
+  std::shared_ptr<const Solution> solution;  // none once closed
 
-  const Grid& grid() const { return tile; }
-  bool wraps() const { return periodic; }
-
-  std::shared_ptr<const Solution> now() const {
+  // Throws Error{bad_state} if closed.
+  std::shared_ptr<const Solution> open(std::string_view read) const {
     const std::lock_guard lock(mutex);
-    return solution;
+    if (solution) return solution;
+    throw Error(ErrorCode::bad_state, std::string(read) + " was not read before the contact was closed",
+                "read it before c:close(), or leave the contact open: Lua frees it with its last state");
   }
+  Array<std::uint8_t> mask() const { return open("which nodes touch")->contact_mask(); }
   Array<std::int64_t> find_regions(Neighbours neighbours) const {
-    return region_sizes(now()->contact_mask(), grid().nx, grid().ny, neighbours, wraps());
+    return region_sizes(mask(), tile.nx, tile.ny, neighbours, wraps);
   }
   const Certificate& find_certificate() {
-    return certificate.get([&] { return now()->certificate(); });
+    return certificate.get([&] { return open("`certificate`")->certificate(); });
   }
   const std::string& find_digest() {
     return digest.get([&] {
-      const std::shared_ptr<const Solution> known = now();
+      const std::shared_ptr<const Solution> known = open("the field `pressure`");
       Digester digester;
-      digester.add("state").add(known->load()).add(known->pressure()).add(known->approach());
+      digester.add("state").add(numbers.load).add(numbers.pressure).add(numbers.approach);
       digester.add(known->pressure_field().values());
-      for (const auto& [effect, options] : effects) {
+      for (const auto& [effect, options] : plan->effects) {
         if (effect->acts != Effect::Acts::reads_state || effect->keeps.empty()) continue;
         const MetMemory memory = met(known->geometry(), known->geometry().kept(effect->keeps), 0);
         for (const auto& body : {memory.lower, memory.upper})
@@ -119,21 +123,11 @@ struct State::Shared {
   }
 };
 
-State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost)
-    : shared_(std::make_shared<Shared>()), cost_(std::make_shared<const StateCost>(std::move(cost))) {
-  shared_->tile = solution->geometry().grid();
-  shared_->periodic = solution->geometry().boundary() == Boundary::periodic;
-  shared_->overlap = solution->geometry().overlap_fraction();
-  shared_->solution = std::move(solution);
-  shared_->tolerance = plan.accuracy.tolerance;
-  shared_->effects_run = plan.effects_run;
-  shared_->effects_off = plan.effects_off;
-  shared_->effects = plan.effects;
-  shared_->moves_every_node = plan.model != nullptr && plan.model->moves_every_node;
-  std::ranges::copy_if(plan.attraction, std::back_inserter(shared_->attraction),
-                       [](const GapTerm& term) { return term.work > 0; });
-  shared_->yields = plan.yield.has_value();
-}
+State::State(std::shared_ptr<const Solution> solution, StateCost cost)
+    : shared_(std::make_shared<Shared>(std::move(solution))),
+      plan_(shared_->plan.get()),
+      numbers_(&shared_->numbers),
+      cost_(std::make_shared<const StateCost>(std::move(cost))) {}
 
 State State::costing_also(const StateCost& more) const {
   State result = *this;
@@ -155,16 +149,15 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
   return result;
 }
 
-State State::with_outline(double modulus, bool boxes) const {
+State State::with_outline(double modulus) const {
   State result = *this;
   result.outline_.reset();
   if (!geometry().overhangs()) {
-    const std::shared_ptr<const Solution> solution = shared_->now();
-    result.outline_ =
-        outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus, shared_->wraps(),
-                     boxes             ? OutlineLaw::boxes
-                     : shared_->yields ? OutlineLaw::capped
-                                       : OutlineLaw::elastic);
+    const std::shared_ptr<const Solution> now = solution();
+    result.outline_ = outline_area(now->pressure_field(), now->gap_field(), grid(), modulus, shared_->wraps,
+                                   plan().elasticity->is_local() ? OutlineLaw::boxes
+                                   : yields()                    ? OutlineLaw::capped
+                                                                 : OutlineLaw::elastic);
   }
   return result;
 }
@@ -172,48 +165,42 @@ State State::with_outline(double modulus, bool boxes) const {
 void State::close(const Watch& watch) {
   const std::shared_ptr<Shared> shared = watch.lock();
   if (!shared) return;
+  {
+    const std::lock_guard lock(shared->mutex);
+    if (!shared->solution) return;
+  }
   shared->find_digest();
   shared->find_certificate();
   const std::lock_guard lock(shared->mutex);
-  if (std::exchange(shared->closed, true)) return;
-  shared->solution = std::make_shared<const ClosedSolution>(*shared->solution);
+  shared->solution.reset();
 }
 State::Watch State::watch() const { return shared_; }
-std::shared_ptr<const Solution> State::solution() const { return shared_->now(); }
+std::shared_ptr<const Solution> State::solution() const { return shared_->open("the field `pressure`"); }
 
 bool State::closed() const {
   const std::lock_guard lock(shared_->mutex);
-  return shared_->closed;
+  return shared_->solution == nullptr;
 }
 
-double State::load() const { return shared_->now()->load(); }
-double State::pressure() const { return shared_->now()->pressure(); }
-double State::attraction() const { return shared_->now()->attraction(); }
-std::vector<double> State::preload() const {
-  const std::shared_ptr<const Solution> solution = shared_->now();
-  const std::span<const double> turns = solution->preload();
-  return {turns.begin(), turns.end()};
-}
-double State::approach() const { return shared_->now()->approach(); }
-std::int64_t State::contacts() const { return shared_->now()->contacts(); }
-double State::peak_pressure() const { return shared_->now()->peak_pressure(); }
 double State::stiffness() const {
-  return shared_->stiffness.get([&] { return shared_->now()->stiffness(); });
+  return shared_->stiffness.get([&] { return shared_->open("`stiffness`")->stiffness(); });
 }
-int State::iterations() const { return shared_->now()->iterations(); }
-std::string State::solver() const { return std::string(shared_->now()->solver()); }
-const Grid& State::grid() const { return shared_->grid(); }
-const ContactGeometry& State::geometry() const { return shared_->now()->geometry(); }
-std::int64_t State::bytes_held() const { return shared_->now()->bytes(); }
-PressureSplit State::split(double threshold) const { return shared_->now()->split(threshold); }
-const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
-const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
-const Effects& State::effects() const { return shared_->effects; }
-bool State::yields() const { return shared_->yields; }
-const StateCost& State::cost() const { return *cost_; }
-bool State::moves_every_node() const { return shared_->moves_every_node; }
-const std::vector<GapTerm>& State::attraction_terms() const { return shared_->attraction; }
-bool State::converged() const { return residual() <= shared_->tolerance; }
+const Grid& State::grid() const { return shared_->tile; }
+const ContactGeometry& State::geometry() const {
+  return shared_->open("a property of the placed bodies")->geometry();
+}
+std::int64_t State::bytes_held() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->solution ? shared_->solution->bytes() : 0;
+}
+PressureSplit State::split(double threshold) const {
+  return shared_->open("the pressure of each node")->split(threshold);
+}
+bool State::rests_on_few_nodes() const {
+  constexpr std::int64_t few = 30;
+  return !plan().elasticity->is_local() && contacts() > 0 && contacts() < few &&
+         contacts() < geometry().facing();
+}
 
 double State::indentation() const {
   if (!(approach() > 0)) return 0;
@@ -226,7 +213,7 @@ double State::indentation() const {
   return approach() / height;
 }
 double State::flatten() const {
-  return shared_->flatten.get([&] { return shared_->now()->flatten(); });
+  return shared_->flatten.get([&] { return shared_->open("`flatten`")->flatten(); });
 }
 double State::separation() const {
   return shared_->separation.get([&] {
@@ -241,43 +228,41 @@ double State::displacement() const {
 }
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
-  // Two flats on a periodic tile do not approach under load.
-  return approach() == 0 && pressure() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  // Two periodic flats do not approach.
+  return approach() == 0 && pressure() > 0 ? infinity : 0.0;
 }
-double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
+double State::area() const { return static_cast<double>(contacts()) * grid().cell_area(); }
 
 double State::area_fraction() const {
-  return static_cast<double>(contacts()) / static_cast<double>(shared_->grid().nodes());
+  return static_cast<double>(contacts()) / static_cast<double>(grid().nodes());
 }
 
-double State::overlap_fraction() const { return shared_->overlap; }
-
 double State::mean_gap() const {
-  return shared_->mean_gap.get([&] { return shared_->now()->mean_gap(); });
+  return shared_->mean_gap.get([&] { return shared_->open("`mean_gap`")->mean_gap(); });
 }
 
 double State::energy() const {
-  return shared_->energy.get([&] { return shared_->now()->energy(); });
+  return shared_->energy.get([&] { return shared_->open("`energy`")->energy(); });
 }
 
 const Certificate& State::certificate() const { return shared_->find_certificate(); }
 
 const AlgebraicError& State::algebraic_error() const {
-  return shared_->algebraic_error.get([&] { return find_algebraic_error(*shared_->now(), shared_->yields); });
+  return shared_->algebraic_error.get(
+      [&] { return find_algebraic_error(*shared_->open("`error.algebraic`")); });
 }
 
 double State::corrected_area_fraction() const {
   if (outline_) return outline_->fraction;
   return shared_->corrected.get([&] {
-    // Excess of a touching node, counted as a whole cell, per edge, averaged over outline directions, in
-    // cells (Yastrebov, Anciaux & Molinari 2017, "On the accurate computation of the true contact-area").
+    // Excess in cells of a touching node, counted whole, per edge, averaged over outline directions
+    // (Yastrebov, Anciaux & Molinari 2017, Tribol. Int. 114, 161).
     constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
-    const Grid& grid = shared_->grid();
-    const BoundaryEdges edges =
-        boundary_edges(shared_->now()->contact_mask(), grid.nx, grid.ny, shared_->wraps());
-    // Edges between columns have length hy and width hx, edges between rows the reverse.
+    const Grid& tile = grid();
+    const BoundaryEdges edges = boundary_edges(shared_->mask(), tile.nx, tile.ny, shared_->wraps);
+    // Edges between columns: length hy, width hx; between rows the reverse.
     const auto cells = static_cast<double>(edges.between_columns + edges.between_rows);
-    return (static_cast<double>(contacts()) - excess * cells) / static_cast<double>(grid.nodes());
+    return (static_cast<double>(contacts()) - excess * cells) / static_cast<double>(tile.nodes());
   });
 }
 
@@ -291,8 +276,12 @@ std::int64_t State::spots8() const {
 std::vector<double> State::spot_areas() const {
   std::vector<double> areas;
   for (const std::int64_t nodes : shared_->sizes_of_spots())
-    areas.push_back(static_cast<double>(nodes) * shared_->grid().cell_area());
+    areas.push_back(static_cast<double>(nodes) * grid().cell_area());
   return areas;
+}
+
+bool State::open_path(PathDirection along) const {
+  return has_open_path(shared_->mask(), grid().nx, grid().ny, along, shared_->wraps);
 }
 
 const std::string& State::digest() const { return shared_->find_digest(); }
@@ -305,33 +294,32 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
     throw Error(ErrorCode::unknown_name,
                 "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
-  if (name == "plastic" && !shared_->yields)
+  if (name == "plastic" && !yields())
     refuse_without("the field `plastic`", effects_that(Effect::Acts::bounds_pressure),
                    "there is no plastic change without it");
   const auto which = static_cast<std::size_t>(found - names_of_fields.begin());
   return shared_->fields[which].get([&] {
-    const std::shared_ptr<const Solution> now = shared_->now();
-    const Solution& solution = *now;
-    if (name == "pressure") return std::make_shared<const Field>(solution.pressure_field());
-    if (name == "gap") {
-      Field gap = solution.gap_field();
-      if (solution.geometry().overhangs()) {
-        const Field& heights = solution.geometry().combined();
-        for (std::size_t k = 0; k < gap.size(); ++k)
-          if (std::isnan(heights[k])) gap[k] = std::numeric_limits<double>::quiet_NaN();
-      }
-      return std::make_shared<const Field>(std::move(gap));
+    if (name == "contact") {
+      const Array<std::uint8_t> mask = shared_->mask();
+      Field contact(grid().nx, grid().ny);
+      std::copy(mask.begin(), mask.end(), contact.values().begin());
+      return std::make_shared<const Field>(std::move(contact));
     }
-    if (name == "displacement") return std::make_shared<const Field>(solution.displacement_field());
+    const std::shared_ptr<const Solution> now = shared_->open("the field " + quoted(name));
+    if (name == "pressure") return std::make_shared<const Field>(now->pressure_field());
+    if (name == "displacement") return std::make_shared<const Field>(now->displacement_field());
     if (name == "plastic") {
-      std::optional<PlasticChange> change = solution.plastic_change();
+      std::optional<PlasticChange> change = now->plastic_change();
       return std::make_shared<const Field>(change ? std::move(change->approach)
-                                                  : Field(shared_->grid().nx, shared_->grid().ny));
+                                                  : Field(grid().nx, grid().ny));
     }
-    Field contact(shared_->grid().nx, shared_->grid().ny);
-    const Array<std::uint8_t> mask = solution.contact_mask();
-    std::copy(mask.begin(), mask.end(), contact.values().begin());
-    return std::make_shared<const Field>(std::move(contact));
+    Field gap = now->gap_field();
+    if (now->geometry().overhangs()) {
+      const Field& heights = now->geometry().combined();
+      for (std::size_t k = 0; k < gap.size(); ++k)
+        if (std::isnan(heights[k])) gap[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return std::make_shared<const Field>(std::move(gap));
   });
 }
 
@@ -341,7 +329,7 @@ Surface State::deformed(std::string_view body) const {
   if (body == "lower") {
     traits.material = bodies.lower().material();
     traits.periodic = bodies.lower().traits().periodic;
-    return Surface(bodies.grid(), shared_->now()->lower_under_load(), std::move(traits));
+    return Surface(bodies.grid(), solution()->lower_under_load(), std::move(traits));
   }
   if (body != "upper")
     throw Error(ErrorCode::unknown_name, "a contact has no body " + quoted(body),
@@ -349,7 +337,7 @@ Surface State::deformed(std::string_view body) const {
   if (const Material* material = upper_material(bodies.upper())) traits.material = *material;
   const auto* rough = std::get_if<Surface>(&bodies.upper());
   traits.periodic = rough ? rough->traits().periodic : true;
-  return Surface(bodies.grid(), shared_->now()->upper_under_load(), std::move(traits));
+  return Surface(bodies.grid(), solution()->upper_under_load(), std::move(traits));
 }
 
 Histogram State::distribution(std::string_view name, const HistogramOptions& options) const {
@@ -376,26 +364,23 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
 }
 
 double State::plastic_volume() const {
-  return shared_->plastic_volume.get([&] { return shared_->now()->plastic_volume(); });
+  return shared_->plastic_volume.get([&] { return shared_->open("`plastic_volume`")->plastic_volume(); });
 }
 
 double State::plastic_fraction() const {
-  return static_cast<double>(shared_->now()->yielded()) / static_cast<double>(shared_->grid().nodes());
+  return static_cast<double>(numbers_->yielded) / static_cast<double>(grid().nodes());
 }
 
-std::optional<PlasticChange> State::plastic_change() const { return shared_->now()->plastic_change(); }
+std::optional<PlasticChange> State::plastic_change() const {
+  return shared_->open("what yielded")->plastic_change();
+}
 
 std::string State::text(const std::string& of_the_cells) const {
-  {
-    const std::lock_guard lock(shared_->mutex);
-    if (shared_->closed)
-      return "contact under " + format_quantity(shared_->solution->pressure(), dimension::pressure) +
-             ": approach " + format_quantity(shared_->solution->approach(), dimension::length) +
-             ", since closed";
-  }
+  if (closed())
+    return "contact under " + format_quantity(pressure(), dimension::pressure) + ": approach " +
+           format_quantity(approach(), dimension::length) + ", since closed";
   const AlgebraicError& error = algebraic_error();
-  // In the unit of the value.
-  const bool few = rests_on_few_nodes(*this);  // the solver's bound then misleads
+  const bool few = rests_on_few_nodes();  // the solver's bound then misleads
   const auto within = [few](double value, double by, Dimension dimension) {
     if (few || !std::isfinite(by)) return format_quantity(value, dimension);
     const DisplayUnit unit = display_unit(std::abs(value), dimension);
@@ -412,7 +397,7 @@ std::string State::text(const std::string& of_the_cells) const {
             (!few && (error.contact_bracket.low > 0 || error.contact_bracket.high < error.nodes)
                  ? " ± " + format_short(error.area_fraction, 2)
                  : std::string()) +
-            " of " + std::to_string(shared_->grid().nodes()) + " nodes" +
+            " of " + std::to_string(grid().nodes()) + " nodes" +
             (overlap_fraction() < 1 ? ", of which the bodies face each other on " +
                                           format_short(100 * overlap_fraction(), 3) + " %"
                                     : std::string()) +
@@ -420,7 +405,7 @@ std::string State::text(const std::string& of_the_cells) const {
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
               " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";
-  // The solver does not know the discretisation error, mostly the greatest part.
+  // The solver does not know the discretisation error.
   if (result.find("±") != std::string::npos)
     result += of_the_cells.empty()
                   ? "; ± is the solver's alone: cells, seed and inputs are not in it"
@@ -432,7 +417,148 @@ std::string State::text(const std::string& of_the_cells) const {
   return result + "; residual " + format_short(residual(), 2) + (converged() ? "" : " (not converged)") +
          "; " + format_quantity(total.seconds, dimension::time, 3) + ", " +
          format_short(total.transforms, 4) + " transforms, " +
-         format_short(static_cast<double>(total.bytes) / mebibyte, 3) + " MiB; " + std::string(solver());
+         format_short(static_cast<double>(total.bytes) / mebibyte, 3) + " MiB; " + solver();
+}
+
+namespace {
+
+// Forward, at facing nodes, not across the rim.
+double combined_rms_slope(const ContactGeometry& geometry) {
+  const Field& z = geometry.combined();
+  const Grid& grid = geometry.grid();
+  double squares = 0, nodes = 0;
+  for (int j = 0; j + 1 < grid.ny; ++j)
+    for (int i = 0; i + 1 < grid.nx; ++i) {
+      const double along = (z(i + 1, j) - z(i, j)) / grid.hx(), up = (z(i, j + 1) - z(i, j)) / grid.hy();
+      if (!std::isfinite(along) || !std::isfinite(up)) continue;
+      squares += along * along + up * up;
+      ++nodes;
+    }
+  return nodes > 0 ? std::sqrt(squares / nodes) : 0;
+}
+
+// Name and hardness.
+std::pair<std::string, double> softer_body(const ContactGeometry& geometry) {
+  const auto hardness = [](const Material* material) {
+    return material != nullptr && !material->rigid ? material->hardness.value_or(infinity) : infinity;
+  };
+  const double lower = hardness(lower_material(geometry.lower())),
+               upper = hardness(upper_material(geometry.upper()));
+  return upper < lower ? std::pair("upper", upper) : std::pair("lower", lower);
+}
+
+// Empty without a warning, and for flats.
+std::string cut_off_at_the_rim(const State& state) {
+  const ContactGeometry& geometry = state.geometry();
+  const Grid& grid = state.grid();
+  if (state.plan().elasticity->is_local() || geometry.boundary() != Boundary::free ||
+      !(geometry.peak_to_valley() > 0))
+    return {};
+  const auto contact = state.field("contact");
+  const auto gap = state.plan().attracts() ? state.field("gap") : contact;
+  double least = infinity;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1)) {
+      if ((*contact)(i, j) > 0)
+        return "the contact reaches the rim of the free tile, where the bodies end; press less, or give a "
+               "larger tile";
+      if (!std::isnan((*gap)(i, j))) least = std::min(least, std::max((*gap)(i, j), 0.0));
+    }
+  constexpr double noticeable = 0.01;  // of the traction at touch
+  for (const GapTerm& term : state.plan().attraction)
+    if (const double share = term.work > 0 ? term.traction(least) / term.greatest() : 0; share > noticeable)
+      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end, with " +
+             format_short(100 * share, 2) +
+             " % of its greatest traction; take a larger tile or a shorter range";
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> state_limits(const State& state) {
+  const ContactGeometry& geometry = state.geometry();
+  std::vector<std::string> sentences;
+  if (state.rests_on_few_nodes())
+    sentences.push_back(
+        "only " + std::to_string(state.contacts()) +
+        (state.contacts() == 1 ? " node touches" : " nodes touch") +
+        ", so the result depends on the cells: press harder, or take finer cells on a smaller tile");
+  if (std::string cut = cut_off_at_the_rim(state); !cut.empty()) sentences.push_back(std::move(cut));
+  if (state.load() <= 0) return sentences;
+  constexpr double steep = 1;
+  if (const double slope = combined_rms_slope(geometry); slope > steep)
+    sentences.push_back("the combined heights have an rms slope of " + format_short(slope, 3) +
+                        ", and the theory holds for slopes well below 1");
+  constexpr double large = 0.5;
+  if (const auto compliance = contact_compliance(geometry); compliance && *compliance > 0)
+    if (const double times = state.pressure() * *compliance; times > large)
+      sentences.push_back("the mean pressure is " + format_short(times, 3) +
+                          " times the contact modulus, and the theory holds for small strains");
+  if (!state.yields()) {
+    const auto [softer, hardness] = softer_body(geometry);
+    constexpr double rounding = 1e-9;
+    if (const double times = state.peak_pressure() / hardness; times > 1 + rounding)
+      sentences.push_back("the peak pressure is " + format_short(times, 3) + " times the hardness of the " +
+                          softer + " body, " + format_quantity(hardness, dimension::pressure) +
+                          ": it would yield, and this scene does not name " +
+                          effects_that(Effect::Acts::bounds_pressure));
+  }
+  return sentences;
+}
+
+namespace {
+
+Hdf5Array field_array(const State& state, const std::string& name) {
+  const std::shared_ptr<const Field> field = state.field(name);
+  std::vector<std::size_t> shape{static_cast<std::size_t>(field->ny()),
+                                 static_cast<std::size_t>(field->nx())};
+  if (name == "contact") {
+    Array<std::uint8_t> touching(field->size());
+    for (std::size_t k = 0; k < touching.size(); ++k) touching[k] = (*field)[k] != 0 ? 1 : 0;
+    return owning_array(name, std::move(shape), std::move(touching));
+  }
+  return {name, std::move(shape), field->values(), name == "pressure" ? "Pa" : "m", field};
+}
+
+// Without "plastic" unless something can yield.
+std::vector<std::string> fields_of(const State& state) {
+  const auto names = State::field_names();
+  std::vector<std::string> fields(names.begin(), names.end());
+  if (!state.yields()) std::erase(fields, "plastic");
+  return fields;
+}
+
+}  // namespace
+
+void write_state(const State& state, const std::filesystem::path& path, std::vector<std::string> fields) {
+  const std::string extension = file_extension(path.string());
+  if (extension != "h5" && extension != "hdf5")
+    throw Error(ErrorCode::bad_file, "cannot write a state to " + file_name(path.string()),
+                "its fields go into one HDF5 file: use .h5");
+  if (fields.empty()) fields = fields_of(state);
+  Hdf5Content content;
+  content.texts = {{"content", "asperity state"},
+                   {"digest", state.digest()},
+                   {"solver", state.solver()},
+                   {"units", "SI: load N, pressure Pa, approach m, area m^2, the certificate relative"}};
+  const Certificate& c = state.certificate();
+  content.numbers = {{"load", state.load()},
+                     {"pressure", state.pressure()},
+                     {"approach", state.approach()},
+                     {"area", state.area()},
+                     {"area_fraction", state.area_fraction()},
+                     {"certificate", c.worst()},
+                     {"certificate penetration", c.penetration},
+                     {"certificate tension", c.tension},
+                     {"certificate complementarity", c.complementarity},
+                     {"certificate load", c.load},
+                     {"certificate cap", c.cap},
+                     {"certificate attraction", c.attraction}};
+  if (state.overlap_fraction() < 1)
+    content.numbers.emplace_back("overlap_fraction", state.overlap_fraction());
+  for (const std::string& name : fields) content.arrays.push_back(field_array(state, name));
+  content.arrays.push_back(tile_size(state.grid()));
+  write_hdf5_and_xdmf(path, state.grid(), "state", content);
 }
 
 }  // namespace asperity

@@ -15,27 +15,23 @@
 
 namespace asperity {
 
+// Pressures and hardening are positive.
 struct YieldLaw {
   // Pa; without hardening. Infinite: no cap.
   double cap = std::numeric_limits<double>::infinity();
-  // Yield pressure of each node, Pa, with hardening; empty: `cap` everywhere.
+  // Yield pressure of each node, Pa, with hardening; empty: `cap`.
   std::shared_ptr<const Field> yield;
   // K_h, Pa/m; infinite: no hardening.
   double hardening = std::numeric_limits<double>::infinity();
 
-  bool hardens() const;
-  bool caps() const;
+  bool hardens() const { return std::isfinite(hardening) && (yield || std::isfinite(cap)); }
+  bool caps() const { return !std::isfinite(hardening) && std::isfinite(cap); }
   double yields_at(std::size_t k) const { return yield ? (*yield)[k] : cap; }
   bool limits() const { return hardens() || caps(); }
 };
 
-// Throws Error{bad_value} for a cap, yield pressure or hardening not positive, a field not nx × ny, or a
-// field without hardening.
-void check(const YieldLaw& law, int nx, int ny);
-
-// The two laws in cell units, small enough for inner loops. Hardening adds an opening w to the gap, without
-// upper bound. `settle` clips to the cap, or sets a pressure far past the yield pressure to the balance of
-// the node by itself.
+// Both laws in cell units, for inner loops. Hardening adds an opening w to the gap, without upper bound.
+// `settle` clips to the cap, or sets a pressure far past yield to the node's own balance.
 struct PressureCap {
   double cap = std::numeric_limits<double>::infinity();
 
@@ -44,7 +40,7 @@ struct PressureCap {
   // w at node k under p; dw/dp of a yielding node.
   double opening(std::size_t, double) const { return 0; }
   double yielding_slope() const { return 0; }
-  // p without overshoot. g: gap without w; `balance`: gap of the nodes in contact (NaN: unknown).
+  // p without overshoot. g: gap without w; `balance`: gap of nodes in contact (NaN: unknown).
   double settle(std::size_t, double p, double, double) const {
     const double positive = p > 0 ? p : 0.0;
     return p < cap ? positive : cap;
@@ -58,7 +54,7 @@ struct LinearHardening {
   double compliance = 0;  // dw/dp
 
   static constexpr bool hardens = true;
-  // Self-compliance of a cell, approximately.
+  // A cell's, approximately.
   static constexpr double own_compliance = 1.27;
   double upper() const { return std::numeric_limits<double>::infinity(); }
   double yields_at(std::size_t k) const { return yield ? yield[k] * factor : uniform; }

@@ -58,11 +58,8 @@ CostScope::CostScope()
 CostScope::~CostScope() { thread_peak = std::max(thread_peak, outer_peak_); }
 
 Cost CostScope::so_far() const {
-  Cost result;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  result.transforms = thread_transforms - transforms_;
-  result.bytes = thread_peak - held_;
-  return result;
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+  return {since.count(), thread_transforms - transforms_, thread_peak - held_};
 }
 
 }  // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a call: wall seconds, Fourier transforms, peak bytes. Counters belong to the calling thread;
-// parallel_for adds its helpers' counts to its caller. Results never depend on a clock.
+// Cost of a call. Counters belong to the calling thread; parallel_for adds its helpers' counts. Results never
+// depend on a clock.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace asperity {
 
 struct Cost {
   double seconds = 0;
-  double transforms = 0;   // one-way real 2-D transforms, weighted n² log n relative to the finest grid
+  double transforms = 0;   // real 2-D transforms, weighted n² log n relative to the finest grid
   std::int64_t bytes = 0;  // peak of counted memory above the start
 
   Cost& operator+=(const Cost& other);  // bytes becomes the maximum
@@ -24,8 +24,8 @@ double transforms();
 double processor_seconds();
 }  // namespace cost
 
-// Throws Spent on this thread beyond `most` transforms, at the same place on every machine. The inner of two
-// limits applies.
+// Throws Spent on this thread beyond `most` transforms, at the same place on every machine. The inner limit
+// applies.
 class TransformLimit {
  public:
   struct Spent {};  // only the code that set the limit may catch it

@@ -6,56 +6,35 @@
 
 #include <new>
 
+#include "engine/core/text.hpp"
+
 namespace asperity {
 
-struct Digester::State {
-  XXH3_state_t* hash = XXH3_createState();
-  State() {
-    if (hash == nullptr) throw std::bad_alloc();
-    XXH3_128bits_reset(hash);
-  }
-  ~State() { XXH3_freeState(hash); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  void raw(char kind, std::uint64_t count, const void* data, std::size_t bytes) {
-    XXH3_128bits_update(hash, &kind, 1);
-    XXH3_128bits_update(hash, &count, sizeof count);
-    XXH3_128bits_update(hash, data, bytes);
-  }
-};
+void Digester::Free::operator()(XXH3_state_s* hash) const { XXH3_freeState(hash); }
 
-Digester::Digester() : state_(std::make_unique<State>()) {}
-Digester::~Digester() = default;
-Digester::Digester(Digester&&) noexcept = default;
-Digester& Digester::operator=(Digester&&) noexcept = default;
+Digester::Digester() : hash_(XXH3_createState()) {
+  if (hash_ == nullptr) throw std::bad_alloc();
+  XXH3_128bits_reset(hash_.get());
+}
 
-Digester& Digester::add(std::string_view text) {
-  state_->raw('s', text.size(), text.data(), text.size());
+Digester& Digester::add(char kind, std::uint64_t count, const void* data, std::size_t bytes) {
+  XXH3_128bits_update(hash_.get(), &kind, 1);
+  XXH3_128bits_update(hash_.get(), &count, sizeof count);
+  XXH3_128bits_update(hash_.get(), data, bytes);
   return *this;
 }
 
+Digester& Digester::add(std::string_view text) { return add('s', text.size(), text.data(), text.size()); }
 Digester& Digester::add(double value) { return add(std::span<const double>(&value, 1)); }
-
-Digester& Digester::add(std::int64_t value) {
-  state_->raw('i', 1, &value, sizeof value);
-  return *this;
-}
-
+Digester& Digester::add(std::int64_t value) { return add('i', 1, &value, sizeof value); }
 Digester& Digester::add(std::span<const double> values) {
-  state_->raw('d', values.size(), values.data(), values.size_bytes());
-  return *this;
+  return add('d', values.size(), values.data(), values.size_bytes());
 }
 
 std::string Digester::hex() const {
   XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_->hash));
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : canonical.digest) {
-    text += digits[byte >> 4];
-    text += digits[byte & 15];
-  }
-  return text;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(hash_.get()));
+  return hexadecimal(canonical.digest);
 }
 
 }  // namespace asperity

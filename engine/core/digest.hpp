@@ -8,14 +8,13 @@
 #include <string>
 #include <string_view>
 
+struct XXH3_state_s;
+
 namespace asperity {
 
 class Digester {
  public:
   Digester();
-  ~Digester();
-  Digester(Digester&&) noexcept;
-  Digester& operator=(Digester&&) noexcept;
 
   // Items include kind and length, so that sequences are unambiguous.
   Digester& add(std::string_view text);
@@ -27,8 +26,11 @@ class Digester {
   std::string hex() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Free {
+    void operator()(XXH3_state_s* hash) const;
+  };
+  Digester& add(char kind, std::uint64_t count, const void* data, std::size_t bytes);
+  std::unique_ptr<XXH3_state_s, Free> hash_;
 };
 
 }  // namespace asperity

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/error.hpp"
 
+#include <array>
 #include <utility>
 
 #include "engine/core/text.hpp"
@@ -8,33 +9,10 @@
 namespace asperity {
 
 std::string_view name(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::bad_value:
-      return "bad_value";
-    case ErrorCode::unknown_name:
-      return "unknown_name";
-    case ErrorCode::bad_unit:
-      return "bad_unit";
-    case ErrorCode::bad_file:
-      return "bad_file";
-    case ErrorCode::infeasible:
-      return "infeasible";
-    case ErrorCode::not_converged:
-      return "not_converged";
-    case ErrorCode::bad_state:
-      return "bad_state";
-    case ErrorCode::not_permitted:
-      return "not_permitted";
-    case ErrorCode::out_of_memory:
-      return "out_of_memory";
-    case ErrorCode::time_limit:
-      return "time_limit";
-    case ErrorCode::interrupted:
-      return "interrupted";
-    case ErrorCode::internal:
-      return "internal";
-  }
-  return "internal";
+  constexpr std::array<std::string_view, 12> names = {
+      "bad_value", "unknown_name",  "bad_unit",      "bad_file",   "infeasible",  "not_converged",
+      "bad_state", "not_permitted", "out_of_memory", "time_limit", "interrupted", "internal"};
+  return names.at(static_cast<std::size_t>(code));
 }
 
 Error::Error(ErrorCode code, std::string sentence, std::string hint)

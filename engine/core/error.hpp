@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine's only exception type. The sentence states request and finding, the hint a valid alternative;
-// the bindings add the script line. Both are plain text (plain_text in text.hpp), even if they quote
-// arbitrary bytes.
+// The engine's only exception. The sentence states request and finding, the hint a valid alternative; the
+// bindings add the script line. Both are plain_text (text.hpp).
 #pragma once
 
 #include <exception>
@@ -11,18 +10,18 @@
 namespace asperity {
 
 enum class ErrorCode {
-  bad_value,      // a refused number, list or combination
-  unknown_name,   // an unknown key, field, unit, material or method
-  bad_unit,       // a unit of another dimension, or an unknown unit
-  bad_file,       // a missing, damaged or unsuitable file
-  infeasible,     // a well-posed request without solution (a load beyond capacity)
-  not_converged,  // a solver stopped before its tolerance
-  bad_state,      // a closed, empty or unready object
-  not_permitted,  // forbidden in the safe environment
-  out_of_memory,  // the machine's or the run's memory limit
-  time_limit,     // the run's time limit
-  interrupted,    // Ctrl-C
-  internal,       // a bug
+  bad_value,
+  unknown_name,  // an unknown key, field, unit, material or method
+  bad_unit,      // a unit of another dimension, or an unknown unit
+  bad_file,
+  infeasible,  // a well-posed request without solution (a load beyond capacity)
+  not_converged,
+  bad_state,  // a closed, empty or unready object
+  not_permitted,
+  out_of_memory,  // of the machine or the run
+  time_limit,
+  interrupted,  // Ctrl-C
+  internal,     // a bug
 };
 
 // "bad_value".

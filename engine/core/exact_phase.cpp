@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
+#include <deque>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/grid.hpp"
@@ -38,20 +37,8 @@ struct CacheGuard {
   ~CacheGuard() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
 };
 
-class Integer {
- public:
-  Integer() { mpz_init(value_); }
-  ~Integer() { mpz_clear(value_); }
-  Integer(const Integer&) = delete;
-  Integer& operator=(const Integer&) = delete;
-  operator mpz_ptr() { return value_; }
-
- private:
-  mpz_t value_;
-};
-
 // cos(π·part/whole) for 0 ≤ part ≤ whole. Rational values (Niven) are exact; the second quadrant mirrors the
-// first to the last bit.
+// first exactly.
 void set_cosine(mpfr_ptr result, long part, long whole) {
   if (2 * part > whole) {
     set_cosine(result, whole - part, whole);
@@ -71,14 +58,19 @@ void set_cosine(mpfr_ptr result, long part, long whole) {
 }
 
 // floor(2⁶⁴·turns + ½) modulo 2⁶⁴; overwrites `turns`.
-std::uint64_t fraction_of_turn(mpfr_ptr turns, mpz_ptr whole) {
+std::uint64_t fraction_of_turn(mpfr_ptr turns) {
   mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
   mpfr_add_d(turns, turns, 0.5, MPFR_RNDN);
-  mpfr_get_z(whole, turns, MPFR_RNDD);
-  // GMP returns the low word without the sign.
+  mpfr_floor(turns, turns);
+  // The rest is exact.
+  mpfr_div_2ui(turns, turns, 64, MPFR_RNDN);
+  mpfr_frac(turns, turns, MPFR_RNDN);
+  mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
+  const bool negative = mpfr_sgn(turns) < 0;
+  if (negative) mpfr_neg(turns, turns, MPFR_RNDN);
   static_assert(sizeof(unsigned long) == sizeof(std::uint64_t));
-  const std::uint64_t low = mpz_get_ui(whole);
-  return mpz_sgn(whole) < 0 ? 0 - low : low;
+  const std::uint64_t low = mpfr_get_ui(turns, MPFR_RNDN);
+  return negative ? 0 - low : low;
 }
 
 void check(double gamma, double span, int cells, int directions, int n_max) {
@@ -102,7 +94,7 @@ void check(double gamma, double span, int cells, int directions, int n_max) {
            "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
 }
 
-// For fewer turns per grid step, the grain of the fractions would show in the heights.
+// Below, the grain of the fractions would show in the heights.
 constexpr double smallest_step = 0x1p-32;
 
 mpfr_prec_t precision(double gamma, double span, int n_max) {
@@ -119,17 +111,10 @@ UnitPhase unit_phase(std::uint64_t turns) {
   const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
   const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);
-  const auto [s, c] = elementary::sincos(angle);
-  switch (quarter) {
-    case 0:
-      return {c, s};
-    case 1:
-      return {-s, c};
-    case 2:
-      return {-c, -s};
-    default:
-      return {s, -c};
-  }
+  const auto [sine, cosine] = elementary::sincos(angle);
+  UnitPhase phase{cosine, sine};
+  for (std::uint64_t k = 0; k < quarter; ++k) phase = {-phase.sine, phase.cosine};
+  return phase;
 }
 
 int greatest_wave_order(double gamma) {
@@ -147,18 +132,13 @@ PhaseIncrements phase_increments(double gamma, double span, int cells, int direc
   const CacheGuard guard;
   const mpfr_prec_t bits = precision(gamma, span, n_max);
 
-  // The sine of direction m is the cosine of |M − 2m|/2M of a half turn. Only m ≤ M/2 is computed.
+  // The sine of direction m is the cosine of |M − 2m|/2M of a half turn.
   const int half = directions / 2;
-  std::vector<std::unique_ptr<Real>> cosines, sines;
-  auto add_direction = [&](long m) {
-    cosines.push_back(std::make_unique<Real>(bits));
-    sines.push_back(std::make_unique<Real>(bits));
-    set_cosine(*cosines.back(), m, directions);
-    set_cosine(*sines.back(), std::labs(directions - 2 * m), 2L * directions);
-  };
-  for (int m = 0; m <= half; ++m) {
+  std::deque<Real> cosines, sines;
+  for (long m = 0; m <= half; ++m) {
     stop_flag().check();
-    add_direction(m);
+    set_cosine(cosines.emplace_back(bits), m, directions);
+    set_cosine(sines.emplace_back(bits), std::labs(directions - 2 * m), 2L * directions);
   }
 
   PhaseIncrements table;
@@ -169,7 +149,6 @@ PhaseIncrements phase_increments(double gamma, double span, int cells, int direc
   table.y.resize(waves);
 
   Real step(bits), ratio(bits), turns(bits);
-  Integer whole;
   mpfr_set_d(step, span, MPFR_RNDN);
   mpfr_div_si(step, step, cells, MPFR_RNDN);
   mpfr_set_d(ratio, gamma, MPFR_RNDN);
@@ -180,11 +159,11 @@ PhaseIncrements phase_increments(double gamma, double span, int cells, int direc
       const bool mirrored = m > half;
       const auto source = static_cast<std::size_t>(mirrored ? directions - m : m);
       const std::size_t k = table.index(m, n);
-      mpfr_mul(turns, step, *cosines[source], MPFR_RNDN);
+      mpfr_mul(turns, step, cosines[source], MPFR_RNDN);
       if (mirrored) mpfr_neg(turns, turns, MPFR_RNDN);
-      table.x[k] = fraction_of_turn(turns, whole);
-      mpfr_mul(turns, step, *sines[source], MPFR_RNDN);
-      table.y[k] = fraction_of_turn(turns, whole);
+      table.x[k] = fraction_of_turn(turns);
+      mpfr_mul(turns, step, sines[source], MPFR_RNDN);
+      table.y[k] = fraction_of_turn(turns);
     }
     if (n == n_max && mpfr_cmp_d(step, smallest_step) < 0)
       refuse(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact phases of plane waves with geometrically growing wave numbers. Wave (m, n), m = 1 … M, n = 0 … n_max,
-// makes u = γⁿ·(cos(πm/M), sin(πm/M))·span/cells turns per grid step. Doubles lose the phase long before the
-// published n_max = 100; MPFR computes the fraction of u in units of 2⁻⁶⁴ turn. The phase at node i is
-// i·increment modulo 2⁶⁴.
+// Exact phases of plane waves with geometric wave numbers. Wave (m, n), m = 1 … M, n = 0 … n_max, makes u =
+// γⁿ·(cos(πm/M), sin(πm/M))·span/cells turns per grid step. Doubles lose the phase long before the published
+// n_max = 100; MPFR computes the fraction of u in units of 2⁻⁶⁴ turn. The phase at node i is i·increment
+// modulo 2⁶⁴.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct PhaseIncrements {
   int n_max = 0;
   int last_resolved = -1;     // greatest n with γⁿ·span/cells ≤ ½ (at most half a turn per grid step,
                               // Nyquist's limit along the wave); -1 if there is none
-  Array<std::uint64_t> x, y;  // turns per grid step in x and y; wave (m, n) is at index(m, n)
+  Array<std::uint64_t> x, y;  // of wave (m, n) at index(m, n), per grid step
 
   std::size_t index(int m, int n) const {
     return static_cast<std::size_t>(n) * static_cast<std::size_t>(directions) +
@@ -42,12 +42,10 @@ inline constexpr std::int64_t max_waves = std::int64_t{1} << 22;  // M·(n_max+1
 // Greatest n_max for γ > 1.
 int greatest_wave_order(double gamma);
 
-// `gamma` and `span` are exact as doubles; `cells` grid steps make one `span`, in x and y. Precision: the
-// bits of u before the point, 64 for the result and 64 guard bits, at least 384. Waves m and M−m have exactly
-// opposite increments in x and equal increments in y; cos and sin of 0, ±½ and ±1 are exact. About 0.3 µs and
-// 16 bytes per wave. Thread-safe; frees MPFR's cache. Throws Error{bad_value} naming `gamma`, `n_max`
-// (n_max·log2 γ > 2048 or n_max > 4096), `M`, `cells` or `span` (wave n_max makes less than 2⁻³² turn per
-// step).
+// `gamma` and `span` are exact as doubles. Waves m and M−m have exactly opposite increments in x and equal
+// increments in y. About 0.3 µs and 16 bytes per wave. Thread-safe. Throws Error{bad_value} naming `gamma`,
+// `n_max` (n_max·log2 γ > 2048 or n_max > 4096), `M`, `cells` or `span` (wave n_max makes less than 2⁻³² turn
+// per step).
 PhaseIncrements phase_increments(double gamma, double span, int cells, int directions, int n_max);
 
 }  // namespace asperity

@@ -33,7 +33,7 @@ namespace {
 constexpr std::size_t block = 1024;
 
 double sum_of_block(const double* v, std::size_t n) {
-  // Eight partial sums in fixed order, in registers.
+  // Eight partial sums in fixed order.
   double lanes[8] = {};
   std::size_t k = 0;
   for (; k + 8 <= n; k += 8)
@@ -48,6 +48,18 @@ double pairwise(const double* v, std::size_t n) {
   const std::size_t left = blocks / 2 * block;
   return pairwise(v, left) + pairwise(v + left, n - left);
 }
+
+bool is_known(double value) { return !std::isnan(value); }
+
+Array<double> known_values(std::span<const double> values) {
+  Array<double> known;
+  known.reserve(values.size());
+  std::ranges::copy_if(values, std::back_inserter(known), is_known);
+  return known;
+}
+
+bool all_known(std::span<const double> values) { return std::ranges::all_of(values, is_known); }
+
 }  // namespace
 
 Field::Field(int nx, int ny, UnsetArray<double>&& values) : nx_(nx), ny_(ny), values_(std::move(values)) {
@@ -69,7 +81,7 @@ double mean(std::span<const double> values) {
 
 Range range(std::span<const double> values) {
   if (values.empty()) return {};
-  // Lanes avoid the latency of a single running minimum and maximum.
+  // Lanes hide latency.
   constexpr std::size_t lanes = 16;
   double low[lanes], high[lanes];
   std::fill_n(low, lanes, values.front());
@@ -88,21 +100,8 @@ Range range(std::span<const double> values) {
   return range;
 }
 
-namespace {
-bool is_known(double value) { return !std::isnan(value); }
-
-Array<double> known_values(std::span<const double> values) {
-  Array<double> known;
-  known.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), is_known);
-  return known;
-}
-
-bool all_known(std::span<const double> values) { return std::all_of(values.begin(), values.end(), is_known); }
-}  // namespace
-
 std::size_t known_count(std::span<const double> values) {
-  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_known));
+  return static_cast<std::size_t>(std::ranges::count_if(values, is_known));
 }
 
 double known_mean(std::span<const double> values) {

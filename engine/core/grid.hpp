@@ -61,7 +61,7 @@ class Field {
   UnsetArray<double> values_;
 };
 
-// Pairwise sum of fixed blocks of 1024: the same bits for any number of threads; the error grows with log n.
+// Pairwise sum of fixed blocks of 1024; the error grows with log n.
 double block_sum(std::span<const double> values);
 // The upper of two middle values. Needs at least one value. O(n); reorders.
 double upper_median(std::span<double> values);

@@ -32,7 +32,7 @@ Own own_object() {
   std::error_code failure;
   if (::dladdr1(reinterpret_cast<void*>(&own_object), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
   const auto* const loaded = static_cast<const link_map*>(found);
-  // The loader knows a program only by its call name, perhaps a word looked up on PATH.
+  // The loader stores a program's call name, perhaps a word looked up on PATH.
   const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
   const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
   fs::path folder = fs::canonical(file, failure).parent_path();
@@ -44,11 +44,6 @@ Own own_object() {
 bool is_below(const fs::path& folder, const fs::path& top) {
   const fs::path relative = folder.lexically_relative(top);
   return !relative.empty() && *relative.begin() != "..";
-}
-
-std::string load_failure() {
-  const char* const text = ::dlerror();
-  return text == nullptr ? "the loader gives no reason" : text;
 }
 
 }  // namespace
@@ -66,14 +61,14 @@ std::vector<fs::path> part_places(const LoadedPart& part) {
     const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
     if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
   }
-  // For other programs linked with the installed library.
+  // For other programs linked with the library.
   const fs::path installed = fs::path(ASPERITY_PARTS_FOLDER) / file;
   if (std::ranges::find(places, installed) == places.end()) places.push_back(installed);
   return places;
 }
 
 void* part_symbol(const LoadedPart& part, const char* symbol) {
-  // Cached, because a confined process no longer sees the files.
+  // Cached: a confined process no longer sees the files.
   static std::mutex mutex;
   static std::map<std::pair<std::string, std::string>, void*> found;
   const std::lock_guard lock(mutex);
@@ -94,19 +89,19 @@ void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<
     void* const handle = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr)
       throw Error(ErrorCode::bad_file,
-                  "the part by which " + std::string(part.purpose) + " cannot be loaded: " + load_failure(),
+                  std::string(part.purpose) + " by " + quoted(place.string()) +
+                      ", which cannot be loaded: " + ::dlerror(),
                   "install Debian's package " + std::string(part.package));
     if (void* const address = ::dlsym(handle, symbol); address != nullptr) return address;
     throw Error(ErrorCode::bad_file,
-                quoted(place.string()) + ", by which " + std::string(part.purpose) +
-                    ", belongs to another version: it has no " + quoted(symbol),
+                std::string(part.purpose) + " by " + quoted(place.string()) +
+                    ", a file of another version: it has no " + quoted(symbol),
                 "build or install the program and its parts together");
   }
   throw Error(ErrorCode::bad_file,
-              "the part by which " + std::string(part.purpose) + ", asperity-" + std::string(part.name) +
-                  ".so, is missing; looked for " + joined(searched, " and "),
-              "build or install the program as a whole; that part needs Debian's package " +
-                  std::string(part.package));
+              std::string(part.purpose) + " by asperity-" + std::string(part.name) +
+                  ".so, a file that is missing; looked for " + joined(searched, " and "),
+              "build or install the whole program, with Debian's package " + std::string(part.package));
 }
 
 }  // namespace asperity

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts loaded on first use: `asperity-<name>.so` with a library that few runs need. Search order: the folder
-// of the object with this code (program or Lua module); the installed lib/asperity (../lib/asperity or
-// ../../asperity from it); for objects inside the build folder, the build folder. For security, environment
-// variables have no effect.
+// of this code's object (program or Lua module); the installed lib/asperity; for objects in the build folder,
+// the build folder. For security, environment variables have no effect.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +19,8 @@ struct LoadedPart {
 // In order of search.
 std::vector<std::filesystem::path> part_places(const LoadedPart& part);
 
-// Address of a C symbol; the first call loads the part permanently. Thread-safe. Throws Error{bad_file}: file
-// missing (names the places), library missing (names the package), or symbol missing (part of another
-// version).
+// Address of a C symbol; the first call loads the part permanently. Thread-safe. Throws Error{bad_file} for a
+// missing file, library or symbol.
 void* part_symbol(const LoadedPart& part, const char* symbol);
 void* part_symbol(const LoadedPart& part, const char* symbol,
                   const std::vector<std::filesystem::path>& places);

@@ -6,11 +6,11 @@
 #endif
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <string>
 
-#include "engine/core/block_pool.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sanitizers.hpp"
@@ -34,7 +34,7 @@ BlockPool& kept() {
   return blocks;
 }
 
-// With 4 KiB pages, column access needs a page-table walk for nearly every row.
+// 4 KiB pages need a page-table walk for nearly every row of a column.
 void ask_for_huge_pages([[maybe_unused]] void* pointer, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
   madvise(pointer, bytes / huge_page * huge_page, MADV_HUGEPAGE);
@@ -49,11 +49,11 @@ std::size_t rounded_up(std::size_t bytes) {
 
 [[noreturn]] void refuse(std::size_t bytes) {
   const std::int64_t cap = limit_bytes.load();
-  std::string sentence = "out of memory: asked for " +
+  std::string sentence = "out of memory: requested " +
                          format_short(static_cast<double>(bytes) / mebibyte, 4) + " MiB with " +
                          format_short(static_cast<double>(held_bytes.load()) / mebibyte, 4) + " MiB in use";
   if (cap > 0) sentence += " of a limit of " + format_short(static_cast<double>(cap) / mebibyte, 4) + " MiB";
-  throw Error(ErrorCode::out_of_memory, sentence, "fewer cells need less");
+  throw Error(ErrorCode::out_of_memory, sentence, "give fewer `cells`, or raise `--limit-memory`");
 }
 }  // namespace
 
@@ -111,6 +111,47 @@ void release(void* pointer, std::size_t bytes) noexcept {
   if (!kept().give(pointer, rounded_up(bytes))) std::free(pointer);
   account(-static_cast<std::int64_t>(bytes));
   cost::count_bytes(-static_cast<std::int64_t>(bytes));
+}
+
+void* BlockPool::take(std::size_t bytes) {
+  if (!takes(bytes)) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(),
+                                  [bytes](const Block& block) { return block.bytes == bytes; });
+  if (found == blocks_.rend()) return nullptr;
+  void* const block = found->at;
+  blocks_.erase(std::next(found).base());
+  bytes_ -= bytes;
+  return block;
+}
+
+bool BlockPool::give(void* block, std::size_t bytes) noexcept {
+  if (!takes(bytes)) return false;
+  const std::lock_guard lock(mutex_);
+  try {
+    blocks_.push_back({block, bytes});
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  bytes_ += bytes;
+  while (bytes_ > most_bytes_ || blocks_.size() > most_blocks) drop_oldest();
+  return true;
+}
+
+void BlockPool::drop() noexcept {
+  const std::lock_guard lock(mutex_);
+  while (!blocks_.empty()) drop_oldest();
+}
+
+std::size_t BlockPool::bytes() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
+void BlockPool::drop_oldest() noexcept {
+  std::free(blocks_.front().at);
+  bytes_ -= blocks_.front().bytes;
+  blocks_.pop_front();
 }
 
 }  // namespace asperity::memory

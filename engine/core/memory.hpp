@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counted, aligned memory for all engine buffers that grow with the number of cells: calls report their peak,
-// runs obey a limit, and tests assert that disabled effects allocate nothing. Thread-safe.
+// Counted, aligned memory for all engine buffers that grow with the number of cells: calls report their peak
+// and runs obey a limit. Thread-safe.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <utility>
 #include <vector>
@@ -23,8 +26,8 @@ std::int64_t limit();
 // Physical memory in bytes; 4 GiB if unknown.
 std::int64_t of_machine();
 
-// Whether a request was finally refused since set_limit, even if the error was caught. Callers that free
-// memory and retry decide whether a refusal is final.
+// Whether a request was finally refused since set_limit, even if the error was caught. The caller decides
+// whether a refusal is final.
 void note_exceeded() noexcept;
 bool exceeded() noexcept;
 
@@ -35,6 +38,38 @@ void release(void* pointer, std::size_t bytes) noexcept;
 // Counts memory from elsewhere (Lua's heap): adds `change` bytes, or returns false without change beyond the
 // limit.
 bool account(std::int64_t change) noexcept;
+
+// Cache of released memory blocks: successive contacts need equal grids, and fresh pages are slow. Limited in
+// bytes; drops the oldest block first. Thread-safe.
+class BlockPool {
+ public:
+  explicit BlockPool(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  ~BlockPool() { drop(); }
+
+  // malloc caches small blocks; a very large block would displace all others.
+  bool takes(std::size_t bytes) const { return bytes >= least_bytes && bytes <= most_bytes_ / 4; }
+  // The last stored block of this size, or null. Undefined content.
+  void* take(std::size_t bytes);
+  // On false, the block remains the caller's.
+  bool give(void* block, std::size_t bytes) noexcept;
+  void drop() noexcept;
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t least_bytes = std::size_t{16} << 10;
+  static constexpr std::size_t most_blocks = 256;
+
+  struct Block {
+    void* at;
+    std::size_t bytes;
+  };
+  void drop_oldest() noexcept;
+
+  const std::size_t most_bytes_;
+  mutable std::mutex mutex_;
+  std::deque<Block> blocks_;  // oldest first
+  std::size_t bytes_ = 0;
+};
 
 }  // namespace memory
 
@@ -80,5 +115,39 @@ struct UnsetAllocator : Allocator<T> {
 };
 template <class T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
+
+// Reusable work spaces for parallel loops, one per concurrent block. Content of the previous use remains.
+// Thread-safe.
+template <class Scratch>
+class ScratchPool {
+ public:
+  struct Return {
+    ScratchPool* pool;
+    void operator()(Scratch* scratch) const {
+      const std::lock_guard lock(pool->mutex_);
+      pool->idle_.emplace_back(scratch);
+    }
+  };
+  using Loan = std::unique_ptr<Scratch, Return>;
+
+  // `make` returns a unique_ptr<Scratch>.
+  template <class Make>
+  Loan borrow(const Make& make) {
+    std::unique_ptr<Scratch> scratch;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        scratch = std::move(idle_.back());
+        idle_.pop_back();
+      }
+    }
+    if (!scratch) scratch = make();
+    return Loan(scratch.release(), Return{this});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Scratch>> idle_;
+};
 
 }  // namespace asperity

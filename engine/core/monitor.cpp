@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace asperity {
 
@@ -10,24 +11,16 @@ namespace {
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-class SilentMonitor final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view) override {}
-};
 }  // namespace
 
 void StopFlag::check() const {
-  switch (reason()) {
-    case StopReason::none:
-      return;
-    case StopReason::interrupt:
-      throw Error(ErrorCode::interrupted, "interrupted");
-    case StopReason::time_limit:
-      throw Error(ErrorCode::time_limit, "the time limit of the run is reached");
-    case StopReason::memory_limit:
-      throw Error(ErrorCode::out_of_memory, "the memory limit of the run is reached");
+  constexpr std::pair<ErrorCode, const char*> stops[] = {
+      {ErrorCode::interrupted, "interrupted"},
+      {ErrorCode::time_limit, "the time limit of the run is reached"},
+      {ErrorCode::out_of_memory, "the memory limit of the run is reached"}};
+  if (const StopReason why = reason(); why != StopReason::none) {
+    const auto& [code, sentence] = stops[static_cast<int>(why) - 1];
+    throw Error(code, sentence);
   }
 }
 
@@ -37,7 +30,7 @@ StopFlag& stop_flag() {
 }
 
 Monitor& Monitor::silent() {
-  static SilentMonitor monitor;
+  static Monitor monitor;
   return monitor;
 }
 
@@ -47,7 +40,7 @@ std::string kind_of_warning(std::string_view sentence) {
   for (std::size_t k = 0; k < sentence.size(); ++k) {
     const char c = sentence[k];
     if (c == '"' || c == '`') quoted = !quoted;
-    // After "=" a digit belongs to a name: `case load = 2000`.
+    // A digit after "=" belongs to a name: `case load = 2000`.
     const bool named = k > 1 && sentence[k - 2] == '=';
     const bool begins = k == 0 || std::string_view(" (-").find(sentence[k - 1]) != std::string_view::npos;
     const bool number = !quoted && begins && !named && c >= '0' && c <= '9';
@@ -72,9 +65,7 @@ std::vector<std::string> WarningKinds::rest() {
   std::vector<std::string> lines;
   for (auto& [kind, of] : kinds_) {
     if (of.more > 0)
-      lines.push_back(std::to_string(of.more) + " more " +
-                      (of.more == 1 ? "warning differs" : "warnings differ") +
-                      " in numbers alone from this one: " + of.first);
+      lines.push_back(std::to_string(of.more) + " more like this one, with other numbers: " + of.first);
     of.more = 0;
   }
   return lines;
@@ -95,6 +86,22 @@ void Task::advance(std::int64_t steps) {
   if (time - last_report_ < report_every) return;
   last_report_ = time;
   monitor_.progress(what_, static_cast<double>(std::min(done_, total_)) / static_cast<double>(total_));
+}
+
+PartMonitor::PartMonitor(Monitor& outer, std::string whole, std::string part, double before, double after,
+                         Clock::time_point begun)
+    : outer_(outer),
+      whole_(std::move(whole)),
+      part_(std::move(part)),
+      before_(before),
+      after_(after),
+      begun_(begun),
+      results_(outer.results()) {}
+
+void PartMonitor::progress(std::string_view, double done) {
+  furthest_ = std::max(furthest_, std::min(done, 1.0));
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  outer_.progress_of_parts(whole_, before_ + furthest_ * (after_ - before_), part_, seconds);
 }
 
 }  // namespace asperity

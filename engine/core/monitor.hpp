@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress, warnings and stop requests of a computation. The engine never prints. progress and warn are
-// called from the calling thread only.
+// Progress, warnings and stop requests. progress and warn are called from the calling thread only. The engine
+// never prints.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -16,7 +17,6 @@ namespace asperity {
 
 class ResultStore;
 
-// Raised by signal handlers and watchdogs.
 enum class StopReason : int { none = 0, interrupt, time_limit, memory_limit };
 
 // Lock-free and async-signal-safe.
@@ -43,15 +43,15 @@ class Monitor {
  public:
   virtual ~Monitor() = default;
   // `done` in [0, 1].
-  virtual void progress(std::string_view what, double done) = 0;
-  // `part` is the present part, `seconds` the time since the start of the whole. By default calls progress().
+  virtual void progress(std::string_view /*what*/, double /*done*/) {}
+  // `seconds`: time since the start of the whole. Default: calls progress().
   virtual void progress_of_parts(std::string_view what, double done, std::string_view /*part*/,
                                  double /*seconds*/) {
     progress(what, done);
   }
   // For the experimenter: shown once, recorded in the journal.
-  virtual void warn(std::string_view sentence) = 0;
-  // Other information, such as the expected time; ignored by default.
+  virtual void warn(std::string_view /*sentence*/) {}
+  // Other information, such as the expected time.
   virtual void inform(std::string_view /*sentence*/) {}
   // May be null. Thread-safe.
   virtual ResultStore* results() { return nullptr; }
@@ -60,7 +60,7 @@ class Monitor {
   static Monitor& silent();
 };
 
-// Replaces numbers and their units, except in names and quoted texts; equal results mean one kind.
+// Replaces numbers and units, except in names and quoted texts; equal results mean one kind.
 std::string kind_of_warning(std::string_view sentence);
 
 class WarningKinds {
@@ -91,6 +91,34 @@ class Task {
   std::int64_t done_ = 0;
   std::int64_t next_look_ = 0;
   double last_report_;
+};
+
+// Monitor of one part of longer work. Progress of the part, possibly repeated, becomes a non-decreasing
+// share.
+class PartMonitor final : public Monitor {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  // The part, begun at `begun`, takes the whole from `before` to `after` in [0, 1]. `outer` must outlive the
+  // monitor.
+  PartMonitor(Monitor& outer, std::string whole, std::string part, double before, double after,
+              Clock::time_point begun);
+
+  void begin() { progress({}, 0); }
+  void progress(std::string_view what, double done) override;
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  void inform(std::string_view sentence) override { outer_.inform(sentence); }
+  ResultStore* results() override { return results_; }
+  // For timed parts: ignores stored results.
+  void compute_afresh() { results_ = nullptr; }
+
+ private:
+  Monitor& outer_;
+  std::string whole_, part_;
+  double before_, after_;
+  Clock::time_point begun_;
+  ResultStore* results_;
+  double furthest_ = 0;
 };
 
 }  // namespace asperity

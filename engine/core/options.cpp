@@ -25,10 +25,8 @@ std::string NumberRange::text(Dimension dimension) const {
   const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
   std::string result;
   if (has_low && has_high) {
-    result = low_open || high_open
-                 ? (low_open ? "above " : "from ") + show_bound(low, dimension) +
-                       (high_open ? " and below " : " to ") + show_bound(high, dimension)
-                 : "from " + show_bound(low, dimension) + " to " + show_bound(high, dimension);
+    result = (low_open ? "above " : "from ") + show_bound(low, dimension) +
+             (high_open ? " and below " : " to ") + show_bound(high, dimension);
   } else if (has_low) {
     result = (low_open ? "above " : "at least ") + show_bound(low, dimension);
   } else if (has_high) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options of effects and elasticity models. A row describes one member of a plain struct; the engine checks
-// values by the rows, and the bindings derive reading, help, reference and record from them.
+// Options of effects and elasticity models. A row describes one member of a plain struct: the engine checks
+// by it, the bindings derive reading, help and record.
 #pragma once
 
 #include <any>
@@ -31,18 +31,14 @@ struct NumberRange {
   bool contains(double value) const;
   // "above 0", "from 2 to 3"; "" if unlimited.
   std::string text(Dimension dimension) const;
-  // "a length above 0, e.g. \"250 um\""; `finite` says so if infinity is the only fault.
+  // "a length above 0, e.g. \"250 um\"".
   std::string wanted(Dimension dimension, bool finite = false) const;
 };
 constexpr NumberRange any() { return {}; }
-constexpr NumberRange above(double low) {
-  return {low, std::numeric_limits<double>::infinity(), true, false, false};
-}
-constexpr NumberRange at_least(double low) {
-  return {low, std::numeric_limits<double>::infinity(), false, false, false};
-}
-constexpr NumberRange between(double low, double high) { return {low, high, false, false, false}; }
-constexpr NumberRange inside(double low, double high) { return {low, high, true, true, false}; }
+constexpr NumberRange above(double low) { return {.low = low, .low_open = true}; }
+constexpr NumberRange at_least(double low) { return {.low = low}; }
+constexpr NumberRange between(double low, double high) { return {.low = low, .high = high}; }
+constexpr NumberRange inside(double low, double high) { return {low, high, true, true}; }
 
 struct OptionRow {
   std::string name;
@@ -100,7 +96,7 @@ OptionRow choice_row(std::string name, M O::*member, std::vector<std::pair<std::
   return row;
 }
 
-// Throws Error{bad_value} for the first option out of range; `of` names the struct.
+// Throws Error{bad_value} for the first option out of range.
 void check_options(std::span<const OptionRow> rows, const std::any& options, const std::string& of);
 
 }  // namespace asperity

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Helper threads live as long as the process and sleep between loops, because a loop over a small grid is
-// shorter than a thread start. One loop at a time uses the helpers; a concurrent loop runs alone. A loop
-// never waits for a helper that has not begun. Loops of equal length give each thread the same first share of
-// blocks, still in its cache; a finished thread takes blocks from other shares.
+// Helper threads sleep between loops: a loop over a small grid is shorter than a thread start. One loop uses
+// the helpers; a concurrent loop runs alone. A loop never waits for a helper that has not begun. In loops of
+// equal length, each thread starts with the same blocks, still in its cache, and then takes others.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
@@ -46,7 +45,6 @@ class Loop {
     }
   }
 
-  // Only after every thread has left work().
   void finish() {
     cost::count_transforms(helper_transforms_);
     if (failure_) std::rethrow_exception(failure_);
@@ -57,7 +55,7 @@ class Loop {
     std::atomic<std::int64_t> next{0};
     std::int64_t end = 0;
   };
-  // Blocks below a failed block still run, so that the reported failure is deterministic.
+  // Blocks below a failed block still run: the reported failure is deterministic.
   void take(Share& share) {
     while (share.next.load(std::memory_order_relaxed) < share.end) {
       const std::int64_t k = share.next.fetch_add(1);
@@ -83,7 +81,7 @@ class Loop {
   double helper_transforms_ = 0;
 };
 
-// About the gap between the loops of one transform; shorter than a wake-up.
+// About the gap between two loops of a transform.
 constexpr int turns_before_sleep = 2000;
 
 void pause() {
@@ -104,7 +102,7 @@ class Pool {
     for (std::thread& helper : helpers_) helper.join();
   }
 
-  // False without effect if the helpers are in use.
+  // False if the helpers are in use.
   bool run(Loop& loop, int helpers) {
     const std::unique_lock taken(taken_, std::try_to_lock);
     if (!taken) return false;
@@ -126,7 +124,7 @@ class Pool {
   }
 
  private:
-  // No helper may use the loop after its caller continues or throws.
+  // No helper may use the loop after its caller has left.
   struct Recall {
     Pool& pool;
     ~Recall() { pool.recall(); }
@@ -163,7 +161,7 @@ class Pool {
 
   std::mutex taken_;  // held by the loop that uses the helpers
   std::vector<std::thread> helpers_;
-  std::mutex mutex_;  // guards the rest; atomics are also read without it
+  std::mutex mutex_;  // guards the rest except atomics
   std::condition_variable wake_, left_;
   std::atomic<std::int64_t> calls_{0};
   std::atomic<int> helping_{0};
@@ -182,7 +180,6 @@ Pool& pool() {
 int thread_count() {
   if (single_threaded) return 1;
   const int wanted = threads_wanted.load();
-  // Cached: the system call takes microseconds.
   static const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return wanted > 0 ? wanted : processors;
 }

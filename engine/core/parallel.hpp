@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parallel loops over independent blocks, fixed by the caller, so that bits do not depend on the number of
-// threads. An exception stops the loop; the exception of the lowest failed block is rethrown.
+// Parallel loops over independent blocks, fixed by the caller: bits do not depend on the number of threads.
+// The exception of the lowest failed block is rethrown.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace asperity {
 int thread_count();
 void set_thread_count(int threads);
 
-// Loops of this thread use this thread only (a case of an ensemble).
+// Loops of this thread use this thread only (case of an ensemble).
 class SingleThreaded {
  public:
   SingleThreaded();
@@ -24,7 +24,7 @@ class SingleThreaded {
   bool outer_;
 };
 
-// Calls block(k) for every k in [0, blocks). Checks the stop flag between blocks.
+// Calls block(k), k in [0, blocks); checks the stop flag between blocks.
 void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block);
 
 }  // namespace asperity

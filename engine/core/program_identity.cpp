@@ -20,6 +20,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -54,11 +55,7 @@ int look_for_build_id(dl_phdr_info* object, std::size_t, void* of) {
       std::memcpy(&note, at, sizeof note);
       const unsigned char* content = at + sizeof note + padded(note.n_namesz);
       if (note.n_type == NT_GNU_BUILD_ID) {
-        constexpr std::string_view digits = "0123456789abcdef";
-        for (const unsigned char byte : std::span(content, note.n_descsz)) {
-          search.identity += digits[byte >> 4];
-          search.identity += digits[byte & 15];
-        }
+        search.identity += hexadecimal({content, note.n_descsz});
         return 0;
       }
       at = content + padded(note.n_descsz);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A unit is numerator / denominator × 10^ten, exact where possible. The power of ten is inserted into the
-// number's text, so "250 um" is the double nearest to 250e-6, with one rounding.
+// A unit is numerator / denominator × 10^ten. The power of ten is inserted into the number's text, so "250
+// um" rounds once.
 #include "engine/core/quantity.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <sstream>
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
@@ -29,8 +31,7 @@ struct Unit {
 constexpr double lb = 44482216152605, in2 = 64516, lb_kg = 45359237;
 constexpr double vickers = 9806650;  // Pa; HV counts kgf/mm²
 
-// The k of kip, m of mil and a of atm are no prefixes. Common units first: of equally near names the first is
-// suggested.
+// kip, mil and atm have no prefix. Common units first: the first of equally near names is suggested.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
     {"\u00B5m", dimension::length, 1, 1, -6}, {"\u03BCm", dimension::length, 1, 1, -6},
@@ -70,38 +71,21 @@ constexpr Unit units[] = {
     {"HV", dimension::pressure, vickers},     {"inch", dimension::length, 254, 1, -4},
     {"mil", dimension::length, 254, 1, -7},   {"thou", dimension::length, 254, 1, -7},
     {"uin", dimension::length, 254, 1, -10},  {"ft", dimension::length, 3048, 1, -4},
-    {"lb", dimension::mass, lb_kg, 1, -8},
+    {"lb", dimension::mass, lb_kg, 1, -8},    {"TPa", dimension::pressure, 1, 1, 12},
+    {"day", dimension::time, 86400, 1, 0},    {"d", dimension::time, 86400, 1, 0},
+    {"week", dimension::time, 604800, 1, 0},  {"micron", dimension::length, 1, 1, -6},
+    {"\u00C5", dimension::length, 1, 1, -10}, {"angstrom", dimension::length, 1, 1, -10},
 };
 
-// For messages: at most 40 bytes, one line, whole UTF-8 characters.
-std::string shown(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string result = "\"";
-  std::size_t k = 0;
-  while (k < text.size()) {
-    const auto lead = static_cast<unsigned char>(text[k]);
-    const std::size_t bytes = lead < 0x80                   ? 1
-                              : lead >= 0xC2 && lead < 0xE0 ? 2
-                              : lead >= 0xE0 && lead < 0xF0 ? 3
-                                                            : 0;
-    bool whole = bytes > 0 && k + bytes <= text.size() && lead >= 0x20 && lead != 0x7F;
-    for (std::size_t b = 1; whole && b < bytes; ++b)
-      whole = (static_cast<unsigned char>(text[k + b]) & 0xC0) == 0x80;
-    const std::size_t used = whole ? bytes : 1;
-    if (k + used > longest) break;
-    result += whole ? text.substr(k, used) : std::string_view("?");
-    k += used;
-  }
-  return result + (k < text.size() ? "...\"" : "\"");
-}
+constexpr std::size_t longest_shown = 40;
 
 std::string shown_name(std::string_view name) {
-  const std::string text = shown(name);
+  const std::string text = shown(name, longest_shown);
   return quoted(text.substr(1, text.size() - 2));
 }
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what, std::string hint = {}) {
-  throw Error(ErrorCode::bad_unit, shown(text) + ": " + what, std::move(hint));
+  throw Error(ErrorCode::bad_unit, shown(text, longest_shown) + ": " + what, std::move(hint));
 }
 
 class Reader {
@@ -119,7 +103,7 @@ class Reader {
       fraction = skip_digits();
     }
     if (whole + fraction == 0)
-      refuse(text_, "no number to begin with", "write a number and a unit, such as \"250 um\"");
+      refuse(text_, "no number at its start", "write a number and a unit, such as \"250 um\"");
     mantissa_ = start.substr(0, start.size() - rest_.size());
     if (mantissa_[0] == '+') mantissa_.remove_prefix(1);
     read_exponent();
@@ -141,11 +125,13 @@ class Reader {
         wanted = divide = true;
       }
     }
-    if (wanted) refuse(text_, "a unit is missing at the end");
+    if (wanted) refuse(text_, "a unit is missing at the end", "complete it, or drop the last sign");
   }
 
   Quantity result() const {
-    const auto out_of_range = [&] { refuse(text_, "the value is outside the range of numbers"); };
+    const auto out_of_range = [&] {
+      refuse(text_, "the value is outside the range of numbers", "check its exponent");
+    };
     Quantity quantity;
     for (const auto& [member, power] : {std::pair{&Dimension::length, powers_[0]},
                                         {&Dimension::mass, powers_[1]},
@@ -163,12 +149,33 @@ class Reader {
     quantity.value = read(decimal ? exponent_ + ten_ : exponent_);
     if (!decimal) {
       quantity.value = quantity.value * numerator_ / denominator_;
-      // Powers of ten up to 22 are exact doubles, so the division rounds once.
+      // Powers of ten up to 22 are exact doubles: one rounding.
       quantity.value = ten_ < 0 ? quantity.value / elementary::pow(10.0, -ten_)
                                 : quantity.value * elementary::pow(10.0, ten_);
     }
     if (!std::isfinite(quantity.value)) out_of_range();
     return quantity;
+  }
+
+  // Exact; "" for other than decimal units.
+  std::string decimal_text() const {
+    if (numerator_ != denominator_) return {};
+    const bool negative = mantissa_.front() == '-';
+    const std::string_view number = mantissa_.substr(negative ? 1 : 0);
+    const std::size_t point = std::min(number.find('.'), number.size());
+    std::string digits(number.substr(0, point));
+    if (point < number.size()) digits += number.substr(point + 1);
+    // Digits before the point.
+    const long before = static_cast<long>(point) + exponent_ + ten_;
+    constexpr long most = 21, zeros = 5;
+    if (before > most || before < -zeros)
+      return std::string(mantissa_) + "e" + std::to_string(exponent_ + ten_);
+    if (before <= 0) digits.insert(0, static_cast<std::size_t>(1 - before), '0');
+    const auto place = static_cast<std::size_t>(std::max(before, 1L));
+    if (digits.size() < place) digits.append(place - digits.size(), '0');
+    if (digits.size() > place) digits.insert(place, 1, '.');
+    digits.erase(0, std::min(digits.find_first_not_of('0'), place - 1));
+    return (negative ? "-" : "") + digits;
   }
 
   bool at_end() {
@@ -190,14 +197,16 @@ class Reader {
   }
 
   void skip_space() {
-    // Word processors put no-break and thin spaces before units.
+    // No-break and thin spaces of word processors.
     while (take(" ") || take("\t") || take("\u00A0") || take("\u202F") || take("\u2009")) {
     }
   }
 
+  bool digit_at(std::size_t k) const { return k < rest_.size() && rest_[k] >= '0' && rest_[k] <= '9'; }
+
   std::size_t skip_digits() {
     std::size_t n = 0;
-    while (n < rest_.size() && rest_[n] >= '0' && rest_[n] <= '9') ++n;
+    while (digit_at(n)) ++n;
     rest_.remove_prefix(n);
     return n;
   }
@@ -206,15 +215,12 @@ class Reader {
   void read_exponent() {
     std::size_t k = 1;
     if (rest_.size() > 1 && (rest_[1] == '+' || rest_[1] == '-')) k = 2;
-    if (rest_.size() <= k || (rest_[0] != 'e' && rest_[0] != 'E') || rest_[k] < '0' || rest_[k] > '9') return;
+    if (!digit_at(k) || (rest_[0] != 'e' && rest_[0] != 'E')) return;
     const bool negative = rest_[1] == '-';
     rest_.remove_prefix(k);
     constexpr long beyond_any_double = 100000000;
-    for (const char c : rest_) {
-      if (c < '0' || c > '9') break;
-      exponent_ = std::min(exponent_ * 10 + (c - '0'), beyond_any_double);
-    }
-    skip_digits();
+    for (; digit_at(0); rest_.remove_prefix(1))
+      exponent_ = std::min(exponent_ * 10 + (rest_[0] - '0'), beyond_any_double);
     if (negative) exponent_ = -exponent_;
   }
 
@@ -265,18 +271,16 @@ class Reader {
         ++digits;
       }
     } else {
-      const bool sign =
-          rest_.size() > 1 && (rest_[0] == '-' || rest_[0] == '+') && rest_[1] >= '0' && rest_[1] <= '9';
-      if (sign) {
+      if (digit_at(1) && (rest_[0] == '-' || rest_[0] == '+')) {
         negative = rest_[0] == '-';
         rest_.remove_prefix(1);
       }
-      for (; !rest_.empty() && rest_[0] >= '0' && rest_[0] <= '9'; rest_.remove_prefix(1), ++digits)
+      for (; digit_at(0); rest_.remove_prefix(1), ++digits)
         power = std::min(power * 10 + (rest_[0] - '0'), greatest + 1);
       if (digits == 0 && !marked) return 1;
     }
     if (digits == 0 || power > greatest || (!rest_.empty() && rest_[0] == '.'))
-      refuse(text_, "a unit's power is not a whole number from -9 to 9");
+      refuse(text_, "the power of a unit is no whole number from -9 to 9", "write it such as \"kg m^-3\"");
     return negative ? -power : power;
   }
 
@@ -285,35 +289,33 @@ class Reader {
     if (const std::size_t n = name_length(); n > 0) {
       name = rest_.substr(0, n);
       rest_.remove_prefix(n);
-    } else if (rest_[0] == '1' && (rest_.size() == 1 || rest_[1] < '0' || rest_[1] > '9') &&
-               !rest_.starts_with("1.")) {
+    } else if (rest_[0] == '1' && !digit_at(1) && !rest_.starts_with("1.")) {
       name = rest_.substr(0, 1);
       rest_.remove_prefix(1);
     } else if (rest_[0] == '(' || rest_[0] == ')') {
       refuse(text_, "brackets in a unit", "write every divisor after its own stroke, such as \"J/m^2/s\"");
     } else {
-      refuse(text_, "cannot read a unit from " + shown(rest_));
+      refuse(text_, "cannot read a unit from " + shown(rest_, longest_shown));
     }
     const std::string_view known = name == "\u00B5in" || name == "\u03BCin" ? "uin" : name;
-    const auto* const unit =
-        std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return u.name == known; });
+    const auto* const unit = std::ranges::find(units, known, &Unit::name);
     if (unit == std::end(units)) refuse_unknown(name);
-    // "640 HV10" (ISO 6507): the digits are the test load in kgf, not a power.
+    // "640 HV10" (ISO 6507): test load in kgf, not a power.
     if (name == "HV" && skip_digits() > 0 && take(".")) skip_digits();
     const int power = name == "1" ? 1 : read_power();
     add(*unit, divide ? -power : power);
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
-    // In kgf/mm² like HV, but over other indenter areas.
+    // In kgf/mm², but over other indenter areas.
     if (name == "HK" || name == "HB" || name == "HBW")
       refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
              "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
     std::vector<std::string> names;
     for (const Unit& unit : units)
-      if (unit.name != "1" && (unit.name.front() == name.front())) names.emplace_back(unit.name);
-    for (const Unit& unit : units)
-      if (unit.name != "1" && (unit.name.front() != name.front())) names.emplace_back(unit.name);
+      if (unit.name != "1") names.emplace_back(unit.name);
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const auto& known) { return known.front() == name.front(); });
     const std::string guess = did_you_mean(name, names);
     refuse(text_, "unknown unit " + shown_name(name) + guess,
            guess.empty() ? "units are products of m, g, s, min, N, Pa, bar, J, rad, deg, Hz, % with "
@@ -345,6 +347,64 @@ class Reader {
   int ten_ = 0;
   int powers_[4] = {0, 0, 0, 0};
 };
+
+struct Kind {
+  // `shown`: display units, smallest first; none: only the SI unit.
+  Kind(Dimension of, std::string_view called, std::string_view such_as, std::string_view si,
+       const char* shown)
+      : dimension(of), name(called), example(such_as), si_unit(si) {
+    std::istringstream names(shown);
+    for (std::string unit; names >> unit;) display.push_back({unit, parse_unit(unit).value});
+  }
+  Dimension dimension;
+  std::string_view name, example, si_unit;
+  std::vector<DisplayUnit> display;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {dimension::number, "a plain number", "0.5", "", ""},
+      {dimension::length, "a length", "250 um", "m", "pm nm um mm m km"},
+      {dimension::area, "an area", "1 mm^2", "m^2", "nm^2 um^2 mm^2 m^2"},
+      {dimension::volume, "a volume", "20 um^3", "m^3", "nm^3 um^3 mm^3 m^3"},
+      {dimension::mass, "a mass", "4.3 g", "kg", "ug mg g kg t"},
+      {dimension::time, "a time", "10 min", "s", "ns us ms s"},
+      {dimension::angle, "an angle", "37 deg", "rad", "deg"},
+      {dimension::force, "a force", "5 N", "N", "pN nN uN mN N kN MN"},
+      {dimension::pressure, "a pressure", "152.78 MPa", "Pa", "Pa kPa MPa GPa"},
+      {dimension::stiffness, "a stiffness per area", "80 MPa/um", "Pa/m",
+       "Pa/m kPa/m MPa/m GPa/m MPa/um GPa/um"},
+      {dimension::energy, "an energy", "1 nJ", "J", "fJ pJ nJ uJ mJ J kJ"},
+      {dimension::energy_per_area, "an energy per area", "50 mJ/m^2", "J/m^2", "uJ/m^2 mJ/m^2 J/m^2 kJ/m^2"},
+      {dimension::density, "a density", "2830 kg/m^3", "kg/m^3", "kg/m^3"},
+      {dimension::speed, "a speed", "50 um/s", "m/s", "nm/s um/s mm/s m/s"},
+      {dimension::acceleration, "an acceleration", "9.81 m/s^2", "m/s^2", "m/s^2"},
+      {dimension::frequency, "a frequency", "200 Hz", "Hz", "Hz kHz MHz"},
+  };
+  return all;
+}
+
+const Kind* find(Dimension dimension) {
+  for (const Kind& kind : kinds())
+    if (kind.dimension == dimension) return &kind;
+  return nullptr;
+}
+
+DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) {
+  const Kind* kind = find(dimension);
+  if (kind == nullptr || kind->display.empty() || !std::isfinite(magnitude)) return {si_unit(dimension), 1};
+  const std::vector<DisplayUnit>& shown = kind->display;
+  if (magnitude == 0) {
+    const auto si = std::ranges::find(shown, 1, &DisplayUnit::factor);
+    return si == shown.end() ? shown.front() : *si;
+  }
+  DisplayUnit best = shown.front();
+  // 1000 of one unit, as printed, becomes 1 of the next.
+  const double prints_as_one = 1 - 0.5 * elementary::pow(10.0, -digits);
+  for (const DisplayUnit& unit : shown)
+    if (magnitude >= unit.factor * prints_as_one) best = unit;
+  return best;
+}
 
 }  // namespace
 
@@ -386,7 +446,7 @@ double parse_quantity_in(std::string_view text, std::string_view unit) {
   one.take_number_one();
   one.read_unit();
   const Dimension given = reader.result().dimension, wanted = one.result().dimension;
-  // "10" in a column "%" may mean 10 % or a factor of ten.
+  // "10" in a column "%": 10 % or a factor of ten?
   const bool untold = !has_unit && !unit.empty() && unit != "1";
   if (given != wanted || untold) {
     const std::string in = unit.empty() ? "without a unit" : "in " + std::string(unit);
@@ -395,6 +455,106 @@ double parse_quantity_in(std::string_view text, std::string_view unit) {
   }
   reader.count_in(one);
   return reader.result().value;
+}
+
+namespace {
+
+bool is_regular(double number) {
+  return std::isfinite(number) && std::abs(number) >= std::numeric_limits<double>::min();
+}
+
+// `digits` must outlive the result.
+Reader counted_in(std::string_view digits, std::string_view unit) {
+  Reader reader(digits), one(unit);
+  reader.read_number();
+  one.take_number_one();
+  one.read_unit();
+  reader.count_in(one);
+  return reader;
+}
+
+}  // namespace
+
+double in_unit(double si, std::string_view unit) {
+  if (unit == "-") return si;
+  const double quotient = si / parse_unit(unit).value;
+  if (unit.empty() || !is_regular(quotient)) return quotient;
+  const std::string digits = format_exact(si);
+  return counted_in(digits, unit).result().value;
+}
+
+double from_unit(double number, std::string_view unit) {
+  if (unit.empty() || unit == "-" || !std::isfinite(number)) return number;
+  return parse_quantity(format_exact(number) + " " + std::string(unit)).value;
+}
+
+std::string text_in_unit(double si, std::string_view unit) {
+  const double number = in_unit(si, unit);
+  if (unit.empty() || !is_regular(number)) return format_exact(number);
+  constexpr int fewest_digits = 15, all_digits = 17;
+  for (int digits = fewest_digits; digits <= all_digits; ++digits) {
+    const double rounded = std::strtod(format_short(number, digits).c_str(), nullptr);
+    if (from_unit(rounded, unit) == si) return format_exact(rounded);
+  }
+  // If no double reads back as `si`, use its own digits.
+  const std::string digits = format_exact(si), exact = counted_in(digits, unit).decimal_text();
+  return exact.empty() ? format_exact(number) : exact;
+}
+
+std::string describe(Dimension dimension) {
+  if (const Kind* kind = find(dimension)) return std::string(kind->name);
+  return "a quantity in " + si_unit(dimension);
+}
+
+std::optional<Dimension> dimension_named(std::string_view name) {
+  for (const Kind& kind : kinds())
+    if (kind.name.substr(kind.name.find(' ') + 1) == name) return kind.dimension;
+  return {};
+}
+
+std::vector<std::string> dimension_names() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name.substr(kind.name.find(' ') + 1));
+  return names;
+}
+
+std::string example_quantity(Dimension dimension) {
+  if (const Kind* kind = find(dimension)) return std::string(kind->example);
+  return "1 " + si_unit(dimension);
+}
+
+std::string si_unit(Dimension dimension) {
+  if (const Kind* kind = find(dimension)) return std::string(kind->si_unit);
+  std::string text;
+  for (const auto& [symbol, power] : {std::pair{"kg", dimension.mass}, std::pair{"m", dimension.length},
+                                      std::pair{"s", dimension.time}, std::pair{"rad", dimension.angle}}) {
+    if (power == 0) continue;
+    text += (text.empty() ? "" : " ") + std::string(symbol);
+    if (power != 1) text += "^" + std::to_string(power);
+  }
+  return text;
+}
+
+std::vector<std::string> usual_units(Dimension dimension) {
+  std::vector<std::string> names;
+  if (const Kind* kind = find(dimension))
+    for (const DisplayUnit& unit : kind->display) names.push_back(unit.name);
+  if (names.empty() && !si_unit(dimension).empty()) names.push_back(si_unit(dimension));
+  // Accepted, but never printed.
+  if (dimension == dimension::time) names.insert(names.end(), {"min", "h"});
+  if (dimension == dimension::angle) names.push_back("rad");
+  return names;
+}
+
+std::string format_quantity(double value, Dimension dimension, int digits) {
+  const DisplayUnit unit = display_unit_for(std::abs(value), dimension, digits);
+  const std::string number = format_short(value / unit.factor, digits);
+  return unit.name.empty() ? number : number + " " + unit.name;
+}
+
+DisplayUnit display_unit(double largest_magnitude, Dimension dimension) {
+  constexpr int axis_digits = 6;
+  return display_unit_for(std::abs(largest_magnitude), dimension, axis_digits);
 }
 
 }  // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension holds exponents of metre,
-// kilogram, second and radian, so angles differ from plain numbers. Values are SI.
+// Quantities as text: "250 um", "80 MPa/um". A dimension holds exponents of metre, kilogram, second and
+// radian. Values are SI.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,12 @@ struct Dimension {
   std::int8_t length = 0, mass = 0, time = 0, angle = 0;
   bool operator==(const Dimension&) const = default;
 };
+
+// Of a quotient.
+constexpr Dimension operator/(Dimension a, Dimension b) {
+  const auto less = [](std::int8_t x, std::int8_t y) { return static_cast<std::int8_t>(x - y); };
+  return {less(a.length, b.length), less(a.mass, b.mass), less(a.time, b.time), less(a.angle, b.angle)};
+}
 
 namespace dimension {
 inline constexpr Dimension number{};
@@ -50,19 +56,25 @@ struct Quantity {
 };
 
 // "<number> [unit]": products such as "MPa/um", "kg m^-3", "um²", "N*m"; "/" divides by the next unit only.
-// No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is the double
-// nearest to 250e-6. Throws Error{bad_unit} with the unreadable part and the nearest unit.
+// No unit means a plain number; "inf" and "nan" are refused. Decimal units round once: "250 um" is the
+// double 250e-6. Throws Error{bad_unit}.
 Quantity parse_quantity(std::string_view text);
 
 // As in a table header "time [s]".
 Quantity parse_unit(std::string_view text);
 
-// In SI. Throws Error{bad_unit} with both dimensions and an accepted example.
+// In SI. Throws Error{bad_unit}.
 double parse_quantity_as(std::string_view text, Dimension wanted);
 
-// The value in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05, with one rounding for decimal units.
-// Throws Error{bad_unit} for different dimensions, and for a text without unit unless `unit` is "".
+// ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05. Throws Error{bad_unit} for different dimensions, and for a
+// text without unit unless `unit` is "".
 double parse_quantity_in(std::string_view text, std::string_view unit);
+
+// 2.8e-6 in "um" is 2.8. Decimal units round once; nan and infinity stay. Throw as parse_unit.
+double in_unit(double si, std::string_view unit);
+double from_unit(double number, std::string_view unit);
+// Shortest text that reads back as `si`.
+std::string text_in_unit(double si, std::string_view unit);
 
 // 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
@@ -74,7 +86,7 @@ struct DisplayUnit {
 };
 DisplayUnit display_unit(double largest_magnitude, Dimension dimension);
 
-// By its name in describe(), without article ("length", "energy per area").
+// By its name in describe(), without article.
 std::optional<Dimension> dimension_named(std::string_view name);
 std::vector<std::string> dimension_names();
 

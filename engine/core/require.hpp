@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Errors for unacceptable numbers, for C++ callers and conditions on several numbers; keys check most script
-// values earlier.
+// Errors for numbers of C++ callers and for conditions on several numbers; keys check most script values.
 #pragma once
 
 #include <cmath>
@@ -18,7 +17,7 @@ namespace asperity {
 
 inline std::string metres(double length) { return format_quantity(length, dimension::length); }
 
-[[noreturn]] inline void refuse(std::string sentence, std::string hint) {
+[[noreturn]] inline void refuse(std::string sentence, std::string hint = {}) {
   throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
 }
 
@@ -37,7 +36,6 @@ void require(bool holds, std::string_view key, Number value, const char* unit, c
   refuse(*unit == '\0' ? sentence : sentence + " " + unit, hint);
 }
 
-// Refuses a given number unless finite and above zero.
 inline void require_positive(std::string_view key, std::optional<double> value, const char* unit = "",
                              const char* hint = "give a finite value above zero") {
   if (value) require(std::isfinite(*value) && *value > 0, key, *value, unit, hint);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether the address or thread sanitizer is active, whose bookkeeping exceeds operating-system memory
-// limits. GCC defines a macro, Clang a feature.
+// Whether the address or thread sanitizer is active; both exceed operating-system memory limits.
 #pragma once
 
 namespace asperity {

@@ -12,7 +12,6 @@ namespace asperity {
 
 std::string format_exact(double value) {
   if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   std::array<char, 40> buffer{};
   auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return error == std::errc{} ? std::string(buffer.data(), end) : std::string("nan");
@@ -20,7 +19,6 @@ std::string format_exact(double value) {
 
 std::string format_short(double value, int digits) {
   if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   std::array<char, 40> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
   return buffer.data();
@@ -37,9 +35,17 @@ std::string format_bytes(std::int64_t bytes) {
   return format_short(value, 4) + " " + units[unit];
 }
 
-std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"; }
+std::string hexadecimal(std::span<const unsigned char> bytes) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
 
-std::string quoted(const std::string& name) { return quoted(std::string_view(name)); }
+std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"; }
 
 std::string safe_file_name(std::string_view text) {
   constexpr std::size_t longest = 120;
@@ -55,13 +61,16 @@ std::string safe_file_name(std::string_view text) {
   }
   if (name.size() > longest) {
     name.resize(longest);
-    while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
-    if (!name.empty() && static_cast<unsigned char>(name.back()) >= 0xC0) name.pop_back();
+    name.resize(longest - unfinished_bytes(name));
   }
   while (!name.empty() && name.back() == '-') name.pop_back();
   const std::size_t first = name.find_first_not_of(".-");
   name.erase(0, first == std::string::npos ? name.size() : first);
   return name.empty() ? "unnamed" : name;
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
 std::string joined(std::span<const std::string> items, std::string_view last) {
@@ -73,15 +82,12 @@ std::string joined(std::span<const std::string> items, std::string_view last) {
   return text;
 }
 
-namespace {
-
-// Bytes of the first UTF-8 character; 0 if invalid or a terminal control.
-std::size_t shown_bytes(std::string_view text) {
+std::size_t utf8_bytes(std::string_view text) {
   const auto byte = [&](std::size_t k) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
   };
   const std::uint32_t lead = byte(0);
-  if (lead < 0x80) return lead == '\n' || lead == '\t' || (lead >= 0x20 && lead != 0x7F) ? 1 : 0;
+  if (lead < 0x80) return 1;
   const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
   if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return 0;
   std::uint32_t point = lead & (0x7FU >> bytes);
@@ -89,27 +95,60 @@ std::size_t shown_bytes(std::string_view text) {
     if ((byte(k) & 0xC0) != 0x80) return 0;
     point = point << 6 | (byte(k) & 0x3F);
   }
-  // Control characters, overlong forms, surrogates, beyond the last code point.
-  if (point < 0xA0 || (bytes == 3 && point < 0x800) || (bytes == 4 && point < 0x10000) || point > 0x10FFFF ||
-      (point >= 0xD800 && point < 0xE000))
-    return 0;
-  return bytes;
+  // Overlong forms, surrogates, beyond the last code point.
+  const bool wrong = (bytes == 3 && point < 0x800) || (bytes == 4 && point < 0x10000) || point > 0x10FFFF ||
+                     (point >= 0xD800 && point < 0xE000);
+  return wrong ? 0 : bytes;
 }
 
-}  // namespace
+std::size_t characters_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string aligned(const std::vector<TextLine>& lines, bool right) {
+  std::vector<std::size_t> widths;
+  for (const TextLine& line : lines) {
+    widths.resize(std::max(widths.size(), line.size()));
+    for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], characters_of(line[c]));
+  }
+  std::string text;
+  for (const TextLine& line : lines) {
+    std::string row;
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      const std::string padding(widths[c] - characters_of(line[c]), ' ');
+      row += "  " + (right && c > 0 ? padding + line[c] : line[c] + padding);
+    }
+    text += "\n" + row.substr(0, row.find_last_not_of(' ') + 1);
+  }
+  return text;
+}
 
 std::string plain_text(std::string text) {
   for (std::size_t k = 0; k < text.size();) {
-    const std::size_t bytes = shown_bytes(std::string_view(text).substr(k));
+    std::size_t bytes = utf8_bytes(std::string_view(text).substr(k));
+    const auto lead = static_cast<unsigned char>(text[k]);
+    const bool control = lead == 0x7F || (lead < 0x20 && lead != '\n' && lead != '\t') ||
+                         (bytes == 2 && lead == 0xC2 && static_cast<unsigned char>(text[k + 1]) < 0xA0);
+    if (control) bytes = 0;
     if (bytes == 0) text[k] = '?';
     k += std::max<std::size_t>(bytes, 1);
   }
   return text;
 }
 
+std::string shown(std::string_view text, std::size_t longest) {
+  std::string_view head = text.substr(0, longest);
+  if (text.size() > longest) head.remove_suffix(unfinished_bytes(head));
+  std::string result = plain_text(std::string(head));
+  for (char& c : result)
+    if (c == '\n' || c == '\t') c = '?';
+  return "\"" + result + (text.size() > longest ? "...\"" : "\"");
+}
+
 namespace {
 
-// Optimal string alignment distance: insert, delete, substitute, transpose neighbours.
+// Optimal string alignment distance.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t columns = b.size() + 1;
   std::vector<std::size_t> before(columns), previous(columns), current(columns);
@@ -132,14 +171,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
-  constexpr std::size_t longest = 64;  // longer names are no typing errors
+  constexpr std::size_t longest = 64;
   if (name.empty() || name.size() > longest) return {};
   std::string best;
   std::size_t best_distance = 1 + name.size() / 3;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
     std::size_t distance = edit_distance(name, candidate);
-    // A prefix counts as a near miss: "mat" for "material".
+    // A prefix is near: "mat" for "material".
     if (name.size() >= 3 && candidate.size() > name.size() && candidate.starts_with(name))
       distance = std::min<std::size_t>(distance, 1);
     if (distance < best_distance || (distance == best_distance && best.empty())) {

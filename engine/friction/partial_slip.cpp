@@ -21,9 +21,8 @@ const std::array<std::string, 2> names_of_fields = {"shear", "stick"};
 double ratio_of(const ShearRequest& request, double load) {
   require_positive("friction", request.friction, "", "give a finite coefficient above zero");
   if (request.force.has_value() == request.ratio.has_value())
-    throw Error(ErrorCode::bad_value,
-                std::string("`force` and `ratio` are ") + (request.force ? "both" : "not") + " given",
-                "give one of both");
+    refuse(std::string("`force` and `ratio` are ") + (request.force ? "both" : "not") + " given",
+           "give one of the two");
   if (request.ratio) {
     require(*request.ratio >= 0 && *request.ratio <= 1, "ratio", *request.ratio, "",
             "it is the shear force over the one that slides: give a number from 0 to 1");
@@ -34,11 +33,10 @@ double ratio_of(const ShearRequest& request, double load) {
   constexpr double rounding = 1e-12;
   const double sliding = request.friction * load, ratio = *request.force / sliding;
   if (!(ratio <= 1 + rounding))
-    throw Error(ErrorCode::infeasible,
-                "`force` is " + format_quantity(*request.force, dimension::force) +
-                    ", but the contact slides at " + format_quantity(sliding, dimension::force) +
-                    ", friction times load",
-                "give less, or a `ratio` from 0 to 1");
+    refuse_infeasible("`force` is " + format_quantity(*request.force, dimension::force) +
+                          ", but the contact slides at " + format_quantity(sliding, dimension::force) +
+                          ", friction times load",
+                      "give less, or a `ratio` from 0 to 1");
   return std::min(1.0, ratio);
 }
 

@@ -39,12 +39,12 @@ class PartialSlip {
   double stick_fraction() const;                                                   // of the contact area
   double slip_fraction() const { return 1 - stick_fraction(); }
   double displacement() const;  // U, m, of the far bodies
-  // Pa/m, d(Q/tile)/dU at this Q, as State::stiffness; 0 in full slip. One linear solve at first call.
+  // Pa/m, d(Q/tile)/dU at this Q, as State::stiffness; 0 in full slip. First call: one linear solve.
   double stiffness() const;
   // "shear" (Pa, along Q) or "stick" (1 or 0). Throws Error{unknown_name}.
   Field field(std::string_view name) const;
 
-  // The contact under P; cost() is that of the second solve, zero without one.
+  // Under P; cost() is that of the second solve, or zero.
   const State& normal() const { return normal_; }
   StateCost cost() const { return cost_; }
   std::string text() const;
@@ -61,12 +61,12 @@ class PartialSlip {
   StateCost cost_;
 };
 
-// require_tangential throws Error{bad_state} naming a missing effect.
+// Throws Error{bad_state} naming a missing effect.
 bool has_tangential(const Effects& effects);
 void require_tangential(const Effects& effects);
 
 // `normal`: a state of `contact`. Throws Error{bad_state} without `tangential` or load, {bad_value} for
-// `force`, `ratio` or `friction` out of range, {infeasible} if Q > f P (sliding), and as Solver::press.
+// `force`, `ratio` or `friction` out of range, {infeasible} if Q > f P, and as Solver::press.
 PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request,
                   Monitor& monitor = Monitor::silent());
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -22,14 +21,13 @@ std::string degrees(double angle) { return format_short(angle * 180 / std::numbe
 
 void check_stage(double step, double limit) {
   require_positive("step", step, "rad");
-  // Conversion of degrees may exceed a right angle by an ulp.
+  // Degrees may convert to an ulp past a right angle.
   if (!(limit > 0 && limit <= right_angle * (1 + 1e-12)))
-    throw Error(ErrorCode::bad_value, "`limit` is " + degrees(limit), "a stage is raised to at most 90 deg");
+    refuse("`limit` is " + degrees(limit), "a stage is raised to at most 90 deg");
   constexpr double most_steps = 1e6;
   if (limit / step > most_steps)
-    throw Error(ErrorCode::bad_value,
-                "`step` is " + degrees(step) + ", over a million steps to the `limit` of " + degrees(limit),
-                "give a coarser step: the exact angle does not depend on it");
+    refuse("`step` is " + degrees(step) + ", over a million steps to the `limit` of " + degrees(limit),
+           "give a coarser step: the exact angle does not depend on it");
 }
 
 }  // namespace
@@ -47,14 +45,13 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
   auto holds = [&](double angle) {
     const double force = friction(weight * elementary::cos(angle));
     if (!(force >= 0 && std::isfinite(force)))
-      throw Error(ErrorCode::bad_value,
-                  "the friction force at " + degrees(angle) + " is " + format_short(force) + " N",
-                  "it must be finite and not negative");
+      refuse("the friction force at " + degrees(angle) + " is " + format_short(force) + " N",
+             "it must be finite and not negative");
     return force >= weight * elementary::sin(angle);
   };
 
   double held = 0;
-  // Multiples of the step, not sums, and snapped to the limit: rounding does not accumulate.
+  // Multiples, not sums, snapped to the limit: rounding does not accumulate.
   for (std::int64_t k = 0;; ++k) {
     stop_flag().check();
     const double reached = static_cast<double>(k) * step;
@@ -68,13 +65,12 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
         if (!(low < middle && middle < high)) break;
         (holds(middle) ? low : high) = middle;
       }
-      // A slip angle negligible to the step is slip at once, with mu = 0.
+      // A slip angle negligible to the step is mu = 0.
       constexpr double nothing = 1e-3;
       if (held == 0 && low > nothing * step)
-        throw Error(ErrorCode::bad_value,
-                    "`step` is " + degrees(step) + ", above the angle of slip of " + degrees(low) +
-                        ": no step would be held, and mu would be 0",
-                    "give a finer step, such as \"0.1 deg\"; a number without a unit is in radians");
+        refuse("`step` is " + degrees(step) + ", above the angle of slip of " + degrees(low) +
+                   ": no step would be held, and mu would be 0",
+               "give a finer step, such as \"0.1 deg\"; a number without a unit is in radians");
       return {low, held, true};
     }
     held = angle;

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// T(N), N. N > 0; finite and >= 0, may jump (nodes touch).
+// T(N), N. N > 0; finite, >= 0, may jump.
 using FrictionForce = std::function<double(double normal_force)>;
 
 struct TiltOptions {
@@ -19,7 +19,7 @@ struct TiltOptions {
 };
 
 struct SlipAngle {
-  double angle = 0;      // rad, failure of the balance, to 1e-12; the limit without slip
+  double angle = 0;      // rad, failure to 1e-12; the limit without slip
   double held = 0;       // rad, last step held
   bool slipped = false;  // false: no slip up to the limit
 };
@@ -27,9 +27,9 @@ struct SlipAngle {
 // Throws Error{bad_value} naming `mass`, `gravity`, `step` or `limit`.
 void check(const TiltOptions& options);
 
-// Tests the balance at k·step for k = 0, 1, … and at the limit; bisects after the first failure. Exact
-// balance holds. At 90 deg rounding leaves the normal force positive. Throws Error{bad_value} naming `step`
-// if the specimen slips within the first step at an angle above 0.
+// Balance at k·step for k = 0, 1, … and at the limit; bisects after the first failure. Exact balance holds.
+// At 90 deg rounding leaves a positive normal force. Throws Error{bad_value} naming `step` for slip within
+// the first step at an angle above 0.
 SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, double limit);
 SlipAngle slip_angle(const FrictionForce& friction, const TiltOptions& options);
 

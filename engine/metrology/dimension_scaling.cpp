@@ -7,9 +7,33 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
+
+LineFit fit_line(std::span<const double> x, std::span<const double> y) {
+  const auto n = static_cast<double>(x.size());
+  const double x_mean = mean(x), y_mean = mean(y);
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double dx = x[k] - x_mean, dy = y[k] - y_mean;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  LineFit fit;
+  fit.slope = xy / xx;
+  fit.intercept = y_mean - fit.slope * x_mean;
+  double left = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double residual = (y[k] - y_mean) - fit.slope * (x[k] - x_mean);
+    left += residual * residual;
+  }
+  fit.r_squared = yy > 0 ? std::clamp(1 - left / yy, 0.0, 1.0) : 1;
+  if (x.size() > 2) fit.slope_error = std::sqrt(left / (n - 2) / xx);
+  return fit;
+}
 
 namespace {
 
@@ -24,7 +48,7 @@ double dimension_between(const ScalingSteps& s, std::size_t a, std::size_t b) {
   return s.at_zero + s.per_slope * slope;
 }
 
-// Borders of stretches of about equal logarithmic length.
+// Stretches of about equal logarithmic length.
 std::vector<std::size_t> ends_of_stretches(std::span<const double> steps) {
   std::vector<std::size_t> ends;
   const double whole = elementary::log(steps.back() / steps.front());

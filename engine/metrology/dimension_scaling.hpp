@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests if a statistic of profiles scales with one fractal dimension: then local dimensions between
-// neighbouring steps are equal. Smooth short steps or saturated long ones make them run. Also the bias of box
-// counting.
+// neighbouring steps are equal. Smooth short steps or saturated long ones make them run.
 #pragma once
 
 #include <span>
@@ -9,6 +8,16 @@
 #include <vector>
 
 namespace asperity {
+
+// Least-squares line y = intercept + slope·x.
+struct LineFit {
+  double slope = 0, intercept = 0;
+  double slope_error = 0;  // from the residuals; 0 for two points
+  double r_squared = 0;    // explained share of the variance of y; 1 for constant y
+};
+
+// Equal lengths; two different x or more. O(n).
+LineFit fit_line(std::span<const double> x, std::span<const double> y);
 
 struct ScalingSteps {
   std::span<const double> steps;           // samples, rising; three or more
@@ -22,7 +31,7 @@ std::vector<double> local_dimensions(const ScalingSteps& scaling);
 // Empty unless the local dimensions run; else the text names the run and the steps of constant dimension. A
 // run is monotonic over four equal logarithmic stretches. It exceeds 0.4 (D - 1), limited to 0.03 … 0.1, by
 // twice the scatter of fractional Brownian profiles, `scatter` · √(longest step / samples). The scatter falls
-// below D = 1.5 (to 0.4 at 1) and with the number of profiles a longest step apart. Measured `scatter`: mean
+// below D = 1.5 (to 0.4 at 1) and with the number of profiles a longest step apart. `scatter`: mean
 // differences 0.5, lengths without offsets 1.2.
 std::string running_dimension(const ScalingSteps& scaling, double D, int samples, int profiles,
                               double scatter);
@@ -31,8 +40,8 @@ std::string running_dimension(const ScalingSteps& scaling, double D, int samples
 // thirds.
 std::string smooth_in_small_boxes(const ScalingSteps& scaling, double D);
 
-// True minus measured D for fractional Brownian profiles and default boxes: means of 32 to 64 profiles at
-// eleven D. Linear in D and log samples (150, 1024, 16384), constant outside.
+// True minus measured D for fractional Brownian profiles and default boxes. Linear in D and log samples (150,
+// 1024, 16384), constant outside.
 double box_counting_bias(double D, int samples);
 
 }  // namespace asperity

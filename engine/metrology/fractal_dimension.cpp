@@ -2,23 +2,21 @@
 #include "engine/metrology/fractal_dimension.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/parallel.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/dimension_scaling.hpp"
-#include "engine/metrology/length_ratio.hpp"
-#include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/profile_statistics.hpp"
 #include "engine/metrology/scale_dependence.hpp"
-#include "engine/metrology/spectral_bands.hpp"
+#include "engine/metrology/spectrum.hpp"
 #include "engine/surface/operations/missing_points.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -26,7 +24,6 @@ namespace {
 
 constexpr int longest_default_step = 16;
 
-// `read` is called from any thread.
 struct ProfileSet {
   std::int64_t count = 0;
   int shortest = 0, longest = 0;
@@ -71,35 +68,21 @@ std::vector<int> chosen_steps(const FractalDimensionOptions& options, int sample
 }
 
 double log_ordinate(DimensionMethod method, double statistic) {
-  switch (method) {
-    case DimensionMethod::length:
-      return elementary::log1p(statistic);
-    case DimensionMethod::psd:
-      return statistic;
-    default:
-      return elementary::log(statistic);
-  }
+  if (method == DimensionMethod::psd) return statistic;
+  return method == DimensionMethod::length ? elementary::log1p(statistic) : elementary::log(statistic);
 }
 
-// D = at_zero + per_slope · slope.
+// D = at_zero + per_slope · slope. The statistic has the unit m^power.
 struct Relation {
   double at_zero, per_slope;
+  int power;
 };
 
 Relation relation(DimensionMethod method) {
-  switch (method) {
-    case DimensionMethod::length:
-      return {1, -1};
-    case DimensionMethod::structure:
-      return {2, -0.5};
-    case DimensionMethod::madogram:
-      return {2, -1};
-    case DimensionMethod::psd:
-      return {2.5, -0.5};
-    case DimensionMethod::box:
-      return {0, -1};
-  }
-  return {1, 0};
+  // In the order of DimensionMethod: length, psd, structure, box, madogram.
+  constexpr std::array<Relation, 5> relations{
+      {{1, -1, 0}, {2.5, -0.5, 2}, {2, -0.5, 2}, {0, -1, 0}, {2, -1, 1}}};
+  return relations[static_cast<std::size_t>(method)];
 }
 
 bool has_logarithm(DimensionMethod method, double statistic) {
@@ -108,19 +91,10 @@ bool has_logarithm(DimensionMethod method, double statistic) {
 
 // In SI units.
 double reported(DimensionMethod method, double statistic, double unit) {
-  switch (method) {
-    case DimensionMethod::length:
-      return 1 + statistic;
-    case DimensionMethod::psd:
-      return elementary::exp(statistic) * unit * unit;
-    case DimensionMethod::structure:
-      return statistic * unit * unit;
-    case DimensionMethod::madogram:
-      return statistic * unit;
-    case DimensionMethod::box:
-      return statistic;
-  }
-  return statistic;
+  if (method == DimensionMethod::length) return 1 + statistic;
+  double result = method == DimensionMethod::psd ? elementary::exp(statistic) : statistic;
+  for (int k = 0; k < relation(method).power; ++k) result *= unit;
+  return result;
 }
 
 struct Fitted {
@@ -140,7 +114,7 @@ Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
   Fitted result;
   if (x.size() < 2) return result;
   const LineFit line = fit_line(x, y);
-  const auto [at_zero, per_slope] = relation(method);
+  const auto [at_zero, per_slope, power] = relation(method);
   result.any = true;
   result.D = at_zero + per_slope * line.slope;
   result.error = std::abs(per_slope) * line.slope_error;
@@ -165,13 +139,11 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
   tables.D.assign(count, std::numeric_limits<double>::quiet_NaN());
   tables.error.assign(count, 0.0);
   tables.gappy.assign(count, 0);
-  constexpr std::int64_t profiles_per_turn = 16;
-  parallel_for((set.count + profiles_per_turn - 1) / profiles_per_turn, [&](std::int64_t turn) {
+  constexpr std::size_t profiles_per_turn = 16;
+  for_each_block(count, profiles_per_turn, [&](std::size_t first, std::size_t last) {
     ProfileSet::One one;
-    for (std::int64_t p = turn * profiles_per_turn; p < std::min(set.count, (turn + 1) * profiles_per_turn);
-         ++p) {
-      set.read(p, one);
-      const auto k = static_cast<std::size_t>(p);
+    for (std::size_t k = first; k < last; ++k) {
+      set.read(static_cast<std::int64_t>(k), one);
       const auto statistics = std::span(tables.statistics).subspan(k * width, width);
       if (stepping.holes && known_count(one.heights) < 2) {
         tables.gappy[k] = 1;
@@ -215,7 +187,7 @@ double column_mean(const Tables& tables, std::span<const double> table, std::siz
   return mean(column);
 }
 
-// Returns a reason, or an empty string; so do the checks below.
+// Returns a reason, or an empty string, as do the checks below.
 std::string too_flat(std::span<const double> mean_square_slopes, std::span<const int> steps) {
   double share = 0;
   for (const double s2 : mean_square_slopes) share += length_sensitivity(std::sqrt(s2));
@@ -242,8 +214,8 @@ std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_
   if (!empty) return {};
   return "waves of about " + format_short(elementary::exp(log_wavelengths[*empty]), 2) + " samples hold " +
          format_short(elementary::exp(above_line[*empty]), 2) +
-         " of the power that the line gives them: the spectrum is one of lines with gaps between them, or it "
-         "ends or bends; draw `spectrum`, or use the method `structure`";
+         " of the power on the fitted line: the spectrum has gaps, ends or bends; draw `spectrum`, or use "
+         "the method `structure`";
 }
 
 // All `statistics` have logarithms.
@@ -259,7 +231,7 @@ std::string lack_of_scaling(DimensionMethod method, std::span<const double> step
     rising.push_back(step);
     ordinates.push_back(ordinate);
   }
-  const auto [at_zero, per_slope] = relation(method);
+  const auto [at_zero, per_slope, power] = relation(method);
   const ScalingSteps scaling{rising, ordinates, at_zero, per_slope};
   if (method == DimensionMethod::box) return smooth_in_small_boxes(scaling, found.D);
   const bool few_starts = method == DimensionMethod::length && !offsets;
@@ -288,16 +260,15 @@ std::string made_by_jumps(const ProfileSet& set) {
   std::ranges::sort(jumps);
   const double middle = jumps[jumps.size() / 2];
   if (middle > most) return {};
-  return (middle == 1 ? "one jump makes all" : format_short(middle) + " jumps make most") +
-         std::string(" of it: the heights do not scale");
+  return (middle == 1 ? "one jump causes all" : format_short(middle) + " jumps cause most") +
+         std::string(" height differences: the heights do not scale");
 }
 
 std::string shown_by_tip(const ProfileSet& set, double radius, std::span<const double> steps, bool is_psd) {
   const double shortest = *std::ranges::min_element(steps) * set.spacing;
   if (!(shortest < set.tip_cut_off)) return {};
-  const auto um = [](double length) { return format_quantity(length, dimension::length); };
-  std::string reason = (is_psd ? "waves of " : "steps of ") + um(shortest) + " may show the tip of " +
-                       um(radius) + ": curvatures are within its own from " + um(set.tip_cut_off) + " on; ";
+  std::string reason = (is_psd ? "waves of " : "steps of ") + metres(shortest) + " may show the tip of " +
+                       metres(radius) + ", which is reliable from " + metres(set.tip_cut_off) + " on; ";
   if (is_psd) return reason + "use the method `structure` with longer `steps`";
   return reason + "give `steps` of " + format_short(std::ceil(set.tip_cut_off / set.spacing)) +
          " samples and more";
@@ -320,10 +291,10 @@ void require_pairs(const ProfileSet& set, DimensionMethod method) {
     refuse("the method `" + std::string(is_psd ? "psd" : "box") + "` needs every point, and " +
                std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
                " were not measured",
-           "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
+           "use the method `structure`, or fill the points first with `filled`");
 }
 
-// Needs D, its error, steps and profiles of `found`. Returns a reason, or an empty string.
+// Needs D, its error, steps and profiles of `found`.
 std::string reason_against(const FractalDimension& found, const ProfileSet& set,
                            const FractalDimensionOptions& options, std::span<const int> steps, bool wrap,
                            const Tables& tables, std::span<const double> log_steps,
@@ -427,10 +398,8 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
 }
 
 double cut_off_of_trace(const Profile& profile, double radius) {
-  SurfaceTraits traits;
-  traits.periodic = profile.closed();
   const Grid grid = make_grid(profile.size(), 1, profile.size() * profile.spacing(), profile.spacing());
-  return tip_cut_off(Surface(grid, line_of(profile), std::move(traits)), ScaleAxis::x, radius);
+  return tip_cut_off(Surface(grid, line_of(profile), {.periodic = profile.closed()}), ScaleAxis::x, radius);
 }
 
 }  // namespace
@@ -440,9 +409,9 @@ FractalDimension fractal_dimension(const Surface& surface, const FractalDimensio
   const Grid& grid = surface.grid();
   const bool along_x = options.along != Along::y, along_y = options.along != Along::x;
   if (along_x && along_y && options.pooled && std::abs(grid.hx() - grid.hy()) > 1e-9 * grid.hx())
-    refuse("`pooled` over both directions of cells of " + format_short(grid.hx()) + " m x " +
+    refuse("`pooled` needs square cells, and these are " + format_short(grid.hx()) + " m x " +
                format_short(grid.hy()) + " m",
-           "one step must be one length in both; use `along=\"x\"`, `along=\"y\"` or leave `pooled` out");
+           "use `along=\"x\"`, `along=\"y\"` or leave `pooled` out");
   ProfileSet set;
   const std::int64_t rows = along_x ? grid.ny : 0;
   set.count = rows + (along_y ? grid.nx : 0);
@@ -482,7 +451,7 @@ FractalDimension fractal_dimension(const Profile& profile, const FractalDimensio
 FractalDimension fractal_dimension(std::span<const Profile> profiles,
                                    const FractalDimensionOptions& options) {
   if (profiles.empty())
-    refuse("the fractal dimension of no profiles was asked for", "give one profile or more");
+    refuse("a fractal dimension needs profiles, and there are none", "give one profile or more");
   ProfileSet set;
   set.count = static_cast<std::int64_t>(profiles.size());
   set.shortest = profiles.front().size();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fractal dimension D of profiles, 1 (smooth) … 2, from a least-squares line of ln M over ln s, for a
-// statistic M at steps of s samples. A surface gets the D of its profiles. Hurst exponent: H = 2 - D.
+// statistic M at steps of s samples. Hurst exponent: H = 2 - D.
 //
 //   length     M = mean √(1 + (Δz/(s·spacing))²) ~ s^(1-D), eq. (3) of Hanaor, Gan & Einav (2013)
 //   structure  M = mean Δz² ~ s^2H, all offsets
 //   madogram   M = mean |Δz| ~ s^H, all offsets (Gneiting, Ševčíková & Percival 2012)
-//   psd        M = power in bands of wavelength s ~ s^(5-2D) (spectral_bands.hpp)
+//   psd        M = power in bands of wavelength s ~ s^(5-2D) (spectrum.hpp)
 //   box        M = boxes of side s/(n-1) in the unit square ~ s^-D; underestimates D
 //
-// Only `length` depends on the scale of heights (length_ratio.hpp). No levelling or filtering.
+// Only `length` depends on the scale of heights (profile_statistics.hpp). No levelling or filtering.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/metrology/profile_statistics.hpp"
 #include "engine/surface/profile.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
 
-enum class DimensionMethod { length, psd, structure, box, madogram };
 enum class Along { x, y, both };
 
 struct FractalDimensionOptions {
@@ -43,7 +43,7 @@ struct FractalDimensionOptions {
 
 struct FractalDimension {
   double D = 1;
-  // Standard deviation over profiles (one profile: standard error); for `box`, with its bias in quadrature.
+  // Standard deviation over profiles (one: standard error); for `box`, with its bias in quadrature.
   double error = 0;
   // Averaged statistic (structure, psd: m²; madogram: m) and steps or wavelengths in samples.
   std::vector<double> lengths, steps;
@@ -56,14 +56,13 @@ struct FractalDimension {
 
 // `resolved` is false for equal, flat, repeating or jump-dominated heights; fewer than three steps or bands;
 // D outside 1 … 2 by more than its error; D changing with the step or smooth small boxes
-// (dimension_scaling.hpp); steps below the cut-off of `tip`; an empty band (spectral_bands.hpp); `box` if
-// `structure` is unresolved; `length` if a Gaussian profile of these slopes shows less than this share of D -
-// 1.
+// (dimension_scaling.hpp); steps below the cut-off of `tip`; an empty band (spectrum.hpp); `box` if
+// `structure` is unresolved; `length` if these slopes show less than this share of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
 // With holes, steps need two measured ends; profiles without one at some step give no D; `psd` and `box`
-// throw. Cost O(nodes · steps) (psd: n log n). Thread-safe; same bits for any thread count. Throws
-// Error{bad_value} naming `steps` or `pooled`.
+// throw. Cost O(nodes · steps) (psd: n log n). Thread-safe. Throws Error{bad_value} naming `steps` or
+// `pooled`.
 FractalDimension fractal_dimension(const Surface& surface, const FractalDimensionOptions& options = {});
 FractalDimension fractal_dimension(const Profile& profile, const FractalDimensionOptions& options = {});
 // Profiles of one surface; steps must fit the shortest.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <iterator>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -31,21 +31,20 @@ constexpr double kernel_reach = 1.62;
 // Drops an infinite `long_wave`.
 GaussianFilter checked(const GaussianFilter& filter) {
   if (!filter.short_wave && !filter.long_wave)
-    refuse("a filter was asked for without `short_wave` or `long_wave`",
+    refuse("a filter needs `short_wave` or `long_wave`, and neither is given",
            "give one or both, as in `short_wave=\"2.5 um\", long_wave=\"0.8 mm\"`");
   require_positive("short_wave", filter.short_wave, "m", "give a finite length above zero");
   if (filter.long_wave)
     require(*filter.long_wave > 0, "long_wave", *filter.long_wave, "m", "give a length above zero");
   if (filter.short_wave && filter.long_wave && !(*filter.short_wave < *filter.long_wave))
-    refuse("`short_wave` " + format_short(*filter.short_wave) + " m is not below `long_wave` " +
-               format_short(*filter.long_wave) + " m",
-           "waves between the two are kept, so `short_wave` must be the smaller");
+    refuse("`short_wave` " + metres(*filter.short_wave) + " is not below `long_wave` " +
+               metres(*filter.long_wave),
+           "give a smaller `short_wave` or a larger `long_wave`");
   GaussianFilter result = filter;
   if (result.long_wave && std::isinf(*result.long_wave)) result.long_wave.reset();
   if (result.robust && !result.long_wave)
     refuse("`robust` is given without a finite `long_wave`",
-           "it is the mean line of `long_wave` that is robust; leave it out where only short waves are "
-           "attenuated");
+           "give `long_wave`, whose mean line is robust, or leave `robust` out");
   return result;
 }
 
@@ -56,16 +55,6 @@ double kept(const GaussianFilter& filter, double q_squared) {
   if (filter.short_wave) share *= elementary::exp(-unit * *filter.short_wave * *filter.short_wave);
   if (filter.long_wave) share *= -elementary::expm1(-unit * *filter.long_wave * *filter.long_wave);
   return share;
-}
-
-// A fast transform length of at least n.
-int smooth_length(int n) {
-  for (;; ++n) {
-    int rest = n;
-    for (const int prime : {2, 3, 5, 7})
-      while (rest % prime == 0) rest /= prime;
-    if (rest == 1) return n;
-  }
 }
 
 class LineFilter {
@@ -99,7 +88,6 @@ class LineFilter {
   static constexpr int lines = BatchFourier::rows;
   BatchFourier::Work work() const { return BatchFourier::Work(batch_); }
 
-  // Replaces up to `lines` lines by their mean lines.
   void apply(BatchFourier::Work& work, std::span<double* const> line, bool to_unit_weight) const {
     const auto count = static_cast<int>(line.size()), n = static_cast<int>(weights_.size());
     batch_.load_reals(work, line.data(), n, count);
@@ -121,14 +109,14 @@ class LineFilter {
 
 void filter_rows(Field& z, const LineFilter& filter, bool to_unit_weight) {
   if (filter.idle()) return;
-  parallel_for((z.ny() + LineFilter::lines - 1) / LineFilter::lines, [&](std::int64_t turn) {
-    BatchFourier::Work work = filter.work();
-    const int first = static_cast<int>(turn) * LineFilter::lines;
-    std::vector<double*> lines;
-    for (int j = first; j < std::min(z.ny(), first + LineFilter::lines); ++j)
-      lines.push_back(z.row(j).data());
-    filter.apply(work, lines, to_unit_weight);
-  });
+  for_each_block(static_cast<std::size_t>(z.ny()), LineFilter::lines,
+                 [&](std::size_t first, std::size_t last) {
+                   BatchFourier::Work work = filter.work();
+                   std::vector<double*> lines;
+                   for (std::size_t j = first; j < last; ++j)
+                     lines.push_back(z.row(static_cast<int>(j)).data());
+                   filter.apply(work, lines, to_unit_weight);
+                 });
 }
 
 void filter_columns(Field& z, const LineFilter& filter, bool to_unit_weight) {
@@ -214,10 +202,10 @@ Field robust_mean(const Field& z, const Grid& grid, bool periodic, double cut_of
     const double c = 4.4478 * median_magnitude(residuals);
     if (c == 0) {
       if (iteration == 0) return mean;  // flat
-      throw Error(ErrorCode::not_converged,
-                  "more than half of the heights lie exactly on their robust mean line, which leaves the "
-                  "others no scale",
-                  "filter without `robust`, or mark what stands out with `masked`");
+      throw Error(
+          ErrorCode::not_converged,
+          "more than half of the heights are exactly on their robust mean line, so their scatter is 0",
+          "filter without `robust`, or mark outliers with `masked`");
     }
     if (iteration > 0 && std::abs(c - before) <= settled * c) return mean;
     before = c;
@@ -227,7 +215,7 @@ Field robust_mean(const Field& z, const Grid& grid, bool periodic, double cut_of
     }
     const Field old = std::move(mean);
     mean = mean_of_measured(z, grid, periodic, cut_off, &weight);
-    // No weight within reach: keep the old mean.
+    // No weight within reach.
     for (std::size_t k = 0; k < z.size(); ++k)
       if (!std::isfinite(mean[k]) && !std::isnan(z[k])) mean[k] = old[k];
   }
@@ -242,13 +230,6 @@ void filter_measured(Field& z, const Grid& grid, bool periodic, const GaussianFi
   const Field smooth = filter.robust ? robust_mean(z, grid, periodic, *filter.long_wave)
                                      : mean_of_measured(z, grid, periodic, *filter.long_wave);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] -= smooth[k];
-}
-
-double mean_of_known(const Field& z, bool holes) {
-  if (!holes) return exact_mean(z.values(), range(z.values()));
-  Array<double> known;
-  std::ranges::copy_if(z.values(), std::back_inserter(known), [](double v) { return !std::isnan(v); });
-  return exact_mean(known, range(known));
 }
 
 // The mean bypasses the transforms, where it would cost digits.

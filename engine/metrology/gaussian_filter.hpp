@@ -11,7 +11,7 @@
 //
 // Periodic data uses the transfer function; other data the sampled Gaussian, cut at 1e-16, at rims and holes
 // scaled to unit weight (slopes bend there). Cut-offs below two cells transmit more short waves than the
-// standard. No removal of form (levelling.hpp).
+// standard.
 #pragma once
 
 #include <optional>
@@ -28,10 +28,9 @@ struct GaussianFilter {
 };
 
 // Cost O(nodes · log n), two grid copies (`robust`: five to fifteen times two filters, three more copies).
-// Material, periodicity and holes stay. With long_wave the mean is 0 (about 0 if not periodic). Thread-safe;
-// same bits for any thread count. Throws Error{bad_value} naming a missing, non-positive or unordered
-// cut-off, or `robust` without long_wave; Error{not_converged} if the robust line does not settle or passes
-// exactly through over half of the heights.
+// Material, periodicity and holes stay. With long_wave the mean is 0 (about 0 if not periodic). Thread-safe.
+// Throws Error{bad_value} naming a missing, non-positive or unordered cut-off, or `robust` without long_wave;
+// Error{not_converged} if the robust line does not settle or passes exactly through over half of the heights.
 Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter);
 Profile gaussian_filtered(const Profile& profile, const GaussianFilter& filter);
 

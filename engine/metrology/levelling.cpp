@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/statistics/least_squares.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
@@ -55,7 +55,6 @@ void check_degree(int degree) {
            "give 0 (mean), 1 (plane), 2 (quadratic) … " + std::to_string(max_levelling_degree));
 }
 
-// In blocks against rounding on long lines.
 double dot(std::span<const double> a, std::span<const double> b) {
   constexpr std::size_t block = 256;
   double total = 0;
@@ -91,14 +90,7 @@ void subtract_fit(Field& z, const OrthonormalPolynomials& along_x, const Orthono
 }
 
 // The second pass removes the rounding of a large fit.
-void level(Field& z, int degree) {
-  for (int pass = 0; pass < 2; ++pass) {
-    const double mean = exact_mean(z.values(), range(z.values()));
-    for_each_row(z.ny(), [&](int j) {
-      for (double& value : z.row(j)) value -= mean;
-    });
-  }
-  if (degree == 0) return;
+void level_complete(Field& z, int degree) {
   const OrthonormalPolynomials along_x(z.nx(), degree), along_y(z.ny(), degree);
   for (int pass = 0; pass < 2; ++pass) subtract_fit(z, along_x, along_y, degree);
 }
@@ -163,51 +155,15 @@ class MaskedPolynomials {
   std::vector<Term> terms_;
 };
 
-// Jacobi; row k of `vectors` belongs to diagonal entry k.
-void diagonalise(std::vector<double>& matrix, std::vector<double>& vectors, std::size_t n) {
-  vectors.assign(n * n, 0.0);
-  for (std::size_t k = 0; k < n; ++k) vectors[k * n + k] = 1;
-  constexpr int most_sweeps = 60;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double off = 0;
-    for (std::size_t p = 0; p < n; ++p)
-      for (std::size_t q = 0; q < p; ++q) off = std::max(off, std::abs(matrix[p * n + q]));
-    if (off < 1e-300) return;
-    for (std::size_t p = 0; p < n; ++p)
-      for (std::size_t q = 0; q < p; ++q) {
-        const double between = matrix[p * n + q];
-        if (between == 0) continue;
-        const double theta = (matrix[q * n + q] - matrix[p * n + p]) / (2 * between);
-        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        const auto rotate = [c, s](double& a, double& b) {
-          const double before = a;
-          a = c * before - s * b;
-          b = s * before + c * b;
-        };
-        for (std::size_t k = 0; k < n; ++k) rotate(matrix[p * n + k], matrix[q * n + k]);
-        for (std::size_t k = 0; k < n; ++k) rotate(matrix[k * n + p], matrix[k * n + q]);
-        for (std::size_t k = 0; k < n; ++k) rotate(vectors[p * n + k], vectors[q * n + k]);
-      }
-  }
-}
-
-// Tiny eigenvalues mark combinations that duplicate others on the nodes. Further passes remove rounding.
+// Tiny eigenvalues of the products mark combinations that duplicate others on the nodes. Further passes
+// remove rounding.
 void level_measured(Field& z, int degree) {
-  for (int pass = 0; pass < 2; ++pass) {
-    Array<double> known;
-    std::ranges::copy_if(z.values(), std::back_inserter(known), [](double v) { return !std::isnan(v); });
-    const double mean = exact_mean(known, range(known));
-    for (double& value : z.values()) value -= mean;
-  }
-  if (degree == 0) return;
   const MaskedPolynomials polynomials(z, degree);
   const std::size_t n = polynomials.count(), each = n * n + n;
-  std::vector<double> inverse_lengths, vectors;
+  SingularValues products;
   constexpr int passes = 4;
   constexpr double hardly_seen = 1e-11;
   for (int pass = 0; pass < passes; ++pass) {
-    // Fixed order: same bits for any thread count.
     Field of_rows(polynomials.rows(), static_cast<int>(each));
     for_each_row(polynomials.rows(), [&](int row) {
       std::vector<double> sums(each);
@@ -215,28 +171,31 @@ void level_measured(Field& z, int degree) {
                           std::span(sums).subspan(n * n));
       for (std::size_t k = 0; k < each; ++k) of_rows(row, static_cast<int>(k)) = sums[k];
     });
-    std::vector<double> gram(n * n), moments(n);
+    TableColumns gram(n, std::vector<double>(n));
+    std::vector<double> moments(n), coefficients(n);
     for (std::size_t p = 0; p < n; ++p) {
       moments[p] = block_sum(of_rows.row(static_cast<int>(n * n + p)));
       for (std::size_t q = 0; q <= p && pass == 0; ++q)
-        gram[p * n + q] = gram[q * n + p] = block_sum(of_rows.row(static_cast<int>(p * n + q)));
+        gram[p][q] = gram[q][p] = block_sum(of_rows.row(static_cast<int>(p * n + q)));
     }
-    if (pass == 0) {
-      diagonalise(gram, vectors, n);
-      double greatest = 0;
-      for (std::size_t k = 0; k < n; ++k) greatest = std::max(greatest, gram[k * n + k]);
-      for (std::size_t k = 0; k < n; ++k)
-        inverse_lengths.push_back(gram[k * n + k] > hardly_seen * greatest ? 1 / gram[k * n + k] : 0);
-    }
-    std::vector<double> coefficients(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::span<const double> vector = std::span<const double>(vectors).subspan(k * n, n);
-      const double share = dot(vector, moments) * inverse_lengths[k];
-      for (std::size_t p = 0; p < n; ++p) coefficients[p] += share * vector[p];
+    if (pass == 0) products = singular_values(gram);
+    for (std::size_t k = 0; k < n && products.values[k] > hardly_seen * products.values[0]; ++k) {
+      const double share = dot(products.v[k], moments) / products.values[k];
+      for (std::size_t p = 0; p < n; ++p) coefficients[p] += share * products.v[k][p];
     }
     for_each_row(polynomials.rows(),
                  [&](int row) { polynomials.subtract_row(z, polynomials.first_row() + row, coefficients); });
   }
+}
+
+void level(Field& z, int degree, bool complete) {
+  for (int pass = 0; pass < 2; ++pass) {
+    const double mean = mean_of_known(z, !complete);
+    for_each_row(z.ny(), [&](int j) {
+      for (double& value : z.row(j)) value -= mean;
+    });
+  }
+  if (degree > 0) (complete ? level_complete : level_measured)(z, degree);
 }
 
 }  // namespace
@@ -244,10 +203,7 @@ void level_measured(Field& z, int degree) {
 Surface levelled(const Surface& surface, int degree) {
   check_degree(degree);
   Field z = surface.measured_heights();
-  if (surface.complete())
-    level(z, degree);
-  else
-    level_measured(z, degree);
+  level(z, degree, surface.complete());
   SurfaceTraits traits = surface.traits();
   if (degree > 0) {
     traits.periodic = false;
@@ -259,13 +215,10 @@ Surface levelled(const Surface& surface, int degree) {
 Profile levelled(const Profile& profile, int degree) {
   check_degree(degree);
   if (profile.closed() && degree > 0)
-    refuse("a closed outline was to be levelled with `degree` " + std::to_string(degree),
-           "an outline has no ends between which to tilt; use `degree` 0");
+    refuse("a closed outline cannot be levelled with `degree` " + std::to_string(degree),
+           "give `degree` 0: an outline has no tilt");
   Field z = line_of(profile);
-  if (profile.complete())
-    level(z, degree);
-  else
-    level_measured(z, degree);
+  level(z, degree, profile.complete());
   return remade_with(!profile.complete(), profile.spacing(), samples_of(z), profile.closed_radius());
 }
 

@@ -58,53 +58,41 @@ Roughness flat(const Range& r) {
   return result;
 }
 
-// Root mean square of (dx/hx)² + (dy/hy)², from squares of order one.
+// From squares of order one.
 double rms_slope(const Field& z, const Grid& grid, const Normalised& unit) {
   const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
   const int columns = along_x ? grid.nx - 1 : 1, rows = along_y ? grid.ny - 1 : 1;
   const double h = along_x && along_y ? std::min(grid.hx(), grid.hy()) : (along_x ? grid.hx() : grid.hy());
   const double to_x = along_x ? h / grid.hx() : 0, to_y = along_y ? h / grid.hy() : 0;
   Array<double> row_sums(static_cast<std::size_t>(rows));
-  constexpr int rows_per_turn = 16;
-  parallel_for((rows + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
+  for_each_row(rows, [&](int j) {
     Array<double> squares(static_cast<std::size_t>(columns));
-    const int first = static_cast<int>(turn) * rows_per_turn;
-    for (int j = first; j < std::min(rows, first + rows_per_turn); ++j) {
-      const std::span<const double> here = z.row(j), above = z.row(along_y ? j + 1 : j);
-      const std::size_t right = along_x ? 1 : 0;
-      for (std::size_t i = 0; i < squares.size(); ++i) {
-        const double u = unit(here[i]);
-        const double dx = (unit(here[i + right]) - u) * to_x, dy = (unit(above[i]) - u) * to_y;
-        squares[i] = dx * dx + dy * dy;
-      }
-      row_sums[static_cast<std::size_t>(j)] = block_sum(squares);
+    const std::span<const double> here = z.row(j), above = z.row(along_y ? j + 1 : j);
+    const std::size_t right = along_x ? 1 : 0;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const double u = unit(here[i]);
+      const double dx = (unit(here[i + right]) - u) * to_x, dy = (unit(above[i]) - u) * to_y;
+      squares[i] = dx * dx + dy * dy;
     }
+    row_sums[static_cast<std::size_t>(j)] = block_sum(squares);
   });
   const double mean_square = block_sum(row_sums) / (static_cast<double>(rows) * columns);
   return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
 }
 
-// Mean over pairs; NaN without pairs.
-struct PairMean {
-  double sum = 0;
-  std::int64_t pairs = 0;
-  double value() const {
-    return pairs > 0 ? sum / static_cast<double>(pairs) : std::numeric_limits<double>::quiet_NaN();
-  }
-};
-
-// Pairs (k, k + step); `holds` excludes pairs across a rim.
+// Mean over pairs (k, k + step); NaN without pairs. `holds` excludes pairs across a rim.
 template <class Holds>
-PairMean mean_square_difference(std::span<const double> z, std::size_t step, const Normalised& unit,
-                                const Holds& holds) {
-  if (z.size() <= step) return {};
+double mean_square_difference(std::span<const double> z, std::size_t step, const Normalised& unit,
+                              const Holds& holds) {
+  if (z.size() <= step) return std::numeric_limits<double>::quiet_NaN();
   const auto [sum, pairs] = blocked_sums<2>(z.size() - step, [&](std::size_t k) {
     const double d = unit(z[k + step]) - unit(z[k]);
     const bool counts = !std::isnan(d) && holds(k);
     return std::array{counts ? d * d : 0.0, counts ? 1.0 : 0.0};
   });
-  return {sum, static_cast<std::int64_t>(pairs)};
+  return pairs > 0 ? sum / pairs : std::numeric_limits<double>::quiet_NaN();
 }
+constexpr auto every_pair = [](std::size_t) { return true; };
 
 double rms_slope_of_pairs(const Field& z, const Grid& grid, const Normalised& unit) {
   const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
@@ -114,57 +102,43 @@ double rms_slope_of_pairs(const Field& z, const Grid& grid, const Normalised& un
   if (along_x) {
     const double share = h / grid.hx();
     const auto in_row = [nx](std::size_t k) { return (k + 1) % nx != 0; };
-    mean_square += mean_square_difference(z.values(), 1, unit, in_row).value() * share * share;
+    mean_square += mean_square_difference(z.values(), 1, unit, in_row) * share * share;
   }
   if (along_y) {
     const double share = h / grid.hy();
-    mean_square += mean_square_difference(z.values(), nx, unit, [](std::size_t) { return true; }).value() *
-                   share * share;
+    mean_square += mean_square_difference(z.values(), nx, unit, every_pair) * share * share;
   }
   return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
+}
+
+// `slope` is called with the unit of the heights.
+template <class Body, class Slope>
+Roughness roughness_of(const Body& body, const Slope& slope) {
+  const MeasuredValues measured(body);
+  const Range r = body.height_range();
+  if (r.min == r.max && body.complete()) return flat(r);
+  const double mean = exact_mean(measured.values(), r);
+  const Normalised unit = normalise(measured.values(), r, mean);
+  Roughness result = r.min == r.max ? flat(r) : amplitudes(measured.values(), r, unit, mean);
+  if (!body.complete()) result.measured = static_cast<std::int64_t>(body.measured());
+  result.rms_slope = slope(unit);
+  return result;
 }
 
 }  // namespace
 
 Roughness roughness(const Surface& surface) {
-  const MeasuredValues measured(surface);
-  const std::span<const double> z = measured.values();
-  const Range r = surface.height_range();
-  if (r.min == r.max && surface.complete()) return flat(r);
-  const double mean = exact_mean(z, r);
-  const Normalised unit = normalise(z, r, mean);
-  Roughness result = r.min == r.max ? flat(r) : amplitudes(z, r, unit, mean);
-  if (!surface.complete()) {
-    result.measured = static_cast<std::int64_t>(surface.measured());
-    result.rms_slope = rms_slope_of_pairs(surface.measured_heights(), surface.grid(), unit);
-  } else {
-    result.rms_slope = rms_slope(surface.heights(), surface.grid(), unit);
-  }
-  return result;
+  return roughness_of(surface, [&](const Normalised& unit) {
+    const auto slope = surface.complete() ? rms_slope : rms_slope_of_pairs;
+    return slope(surface.measured_heights(), surface.grid(), unit);
+  });
 }
 
 Roughness roughness(const Profile& profile) {
-  const MeasuredValues measured(profile);
-  const Range r = profile.height_range();
-  if (r.min == r.max && profile.complete()) return flat(r);
-  const double mean = exact_mean(measured.values(), r);
-  const Normalised unit = normalise(measured.values(), r, mean);
-  Roughness result = r.min == r.max ? flat(r) : amplitudes(measured.values(), r, unit, mean);
-  if (!profile.complete()) {
-    result.measured = static_cast<std::int64_t>(profile.measured());
-    const PairMean squares =
-        mean_square_difference(profile.measured_heights(), 1, unit, [](std::size_t) { return true; });
-    result.rms_slope = std::ldexp(std::sqrt(squares.value()) / profile.spacing(), unit.exponent);
-    return result;
-  }
-  const std::span<const double> z = profile.heights();
-  const double squares = blocked_sums<1>(z.size() - 1, [&](std::size_t k) {
-    const double d = unit(z[k + 1]) - unit(z[k]);
-    return std::array{d * d};
-  })[0];
-  result.rms_slope =
-      std::ldexp(std::sqrt(squares / static_cast<double>(z.size() - 1)) / profile.spacing(), unit.exponent);
-  return result;
+  return roughness_of(profile, [&](const Normalised& unit) {
+    const double squares = mean_square_difference(profile.measured_heights(), 1, unit, every_pair);
+    return std::ldexp(std::sqrt(squares) / profile.spacing(), unit.exponent);
+  });
 }
 
 }  // namespace asperity

@@ -29,9 +29,8 @@ struct Roughness {
 };
 
 // Slopes use nodes with both differences (i < nx - 1, j < ny - 1); one row: along it; one node: 0. With
-// holes, rms_slope² is mean zx² plus mean zy² over measured pairs; NaN without pairs. Sums of (z - mean)/2^e
-// avoid overflow and cancellation. Cost: 5 passes, memory below 1 % of the grid. Thread-safe; same bits for
-// any thread count.
+// holes, rms_slope² is mean zx² plus mean zy² over measured pairs; NaN without pairs. Cost: 5 passes, memory
+// below 1 % of the grid. Thread-safe.
 Roughness roughness(const Surface& surface);
 // A closed outline has heights r - R; its last step does not count.
 Roughness roughness(const Profile& profile);

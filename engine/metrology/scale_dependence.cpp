@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "engine/core/memory.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -23,7 +23,7 @@ struct Stencils {
   }
 };
 
-// Runs over rows for both axes, to read memory in order.
+// Over rows for both axes: reads memory in order.
 Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis, int cells) {
   const Field& z = surface.measured_heights();
   const Grid& grid = surface.grid();
@@ -31,7 +31,6 @@ Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis
   const bool along_x = axis == ScaleAxis::x;
   const double l = cells * (along_x ? grid.hx() : grid.hy());
   const int reach = along_x ? cells : 0, rise = along_x ? 0 : cells;
-  // A slope uses two samples, a curvature three.
   const auto one = [&](double behind, double here, double ahead) {
     return slope ? (ahead - here) / l : ((ahead - here) - (here - behind)) / l / l;
   };
@@ -40,24 +39,18 @@ Stencils over_map(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis
   if (first_i >= last_i || first_j >= last_j) return {};
   const auto rows = static_cast<std::size_t>(last_j - first_j);
   Array<double> squares(rows), count(rows), least(rows);
-  constexpr std::size_t rows_per_turn = 16;
-  parallel_for(static_cast<std::int64_t>((rows + rows_per_turn - 1) / rows_per_turn), [&](std::int64_t turn) {
-    const std::size_t first = static_cast<std::size_t>(turn) * rows_per_turn;
-    for (std::size_t k = first; k < std::min(rows, first + rows_per_turn); ++k) {
-      const int j = first_j + static_cast<int>(k);
-      const auto row = [&](int step) { return z.row(((j + step) % grid.ny + grid.ny) % grid.ny); };
-      const std::span<const double> here = row(0), ahead = row(rise), behind = row(-rise);
-      Stencils sums;
-      for (int i = first_i; i < last_i; ++i) {
-        const auto at = [&](int step) {
-          return static_cast<std::size_t>(((i + step) % grid.nx + grid.nx) % grid.nx);
-        };
-        sums.add(one(slope ? 0 : behind[at(-reach)], here[at(0)], ahead[at(reach)]));
-      }
-      squares[k] = sums.squares;
-      count[k] = sums.count;
-      least[k] = sums.least;
+  for_each_row(last_j - first_j, [&](int k) {
+    const auto row = [&](int step) { return z.row(wrapped_index(first_j + k + step, grid.ny)); };
+    const std::span<const double> here = row(0), ahead = row(rise), behind = row(-rise);
+    Stencils sums;
+    for (int i = first_i; i < last_i; ++i) {
+      const auto at = [&](int step) { return static_cast<std::size_t>(wrapped_index(i + step, grid.nx)); };
+      sums.add(one(slope ? 0 : behind[at(-reach)], here[at(0)], ahead[at(reach)]));
     }
+    const auto at = static_cast<std::size_t>(k);
+    squares[at] = sums.squares;
+    count[at] = sums.count;
+    least[at] = sums.least;
   });
   return {block_sum(squares), block_sum(count), *std::min_element(least.begin(), least.end())};
 }
@@ -108,10 +101,8 @@ ScaleDependence scale_dependence(const Surface& surface, ScaleQuantity quantity,
   ScaleDependence result;
   for (const int l : cells) {
     if (quantity == ScaleQuantity::height) {
-      require(l >= 1 && l <= std::min(grid.nx, grid.ny), "blocks", l, "",
-              "give numbers of blocks a side, from 1 to the cells");
-      result.distance.push_back(h * along / l);
       result.value.push_back(height_in_blocks(surface, l));
+      result.distance.push_back(h * along / l);
       continue;
     }
     const int stencil = quantity == ScaleQuantity::slope ? l : 2 * l;

@@ -7,7 +7,7 @@
 // Only periodic maps wrap. Stencils with a hole and blocks under four samples are left out.
 //
 // A tip of radius R cannot trace curvatures below -1/R. Scales with curvatures below -1/(2R) are suspect; the
-// cut-off is the largest, as the condition is not monotonic. Conservative for mild tips.
+// cut-off is the largest: the condition is not monotonic. Conservative for mild tips.
 #pragma once
 
 #include <vector>
@@ -27,11 +27,11 @@ struct ScaleDependence {
 enum class ScaleAxis { x, y };
 
 // `cells`: l for slope and curvature (stencil l or 2l, below the map's cells), blocks per side for height.
-// Throws Error{bad_value} outside. One pass each; same bits for any thread count.
+// Throws Error{bad_value} outside. One pass each.
 ScaleDependence scale_dependence(const Surface& surface, ScaleQuantity quantity, ScaleAxis axis,
                                  const std::vector<int>& cells);
 
-// Rms height about the planes of s x s blocks; node (i, j) is in block (i s/nx, j s/ny).
+// About the planes of s x s blocks; node (i, j) is in block (i s/nx, j s/ny).
 double height_in_blocks(const Surface& surface, int blocks);
 
 // Smallest stencil, m, from which on curvatures exceed -`share`/`radius`; 0 if all do; at most half the map.

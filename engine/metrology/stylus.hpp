@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stylus profiler: straight traverses at random places and angles, sampled at equal spacing by a spherical
-// tip (spherical_tip.hpp), neither levelled nor filtered. Not modelled: noise, drift, skid, load. Surfaces
-// with holes need a needle (tip 0); its traces have holes.
+// tip, neither levelled nor filtered. Not modelled: noise, drift, skid, load, wear. Surfaces with holes need
+// a needle (tip 0); its traces have holes.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,37 @@
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
+
+// Spherical tip of radius R on a surface S: its lowest point at x rests at the grey-scale dilation
+//
+//   t(x) = max over |x' - x| <= R of  S(x') + √(R² - |x' - x|²) - R
+//
+// (Villarrubia 1997, J. Res. NIST 102, 425). Closing (dilation, then erosion; ISO 16610-85) fills places the
+// tip cannot enter. SphericalTip uses the bilinear surface; operations on maps use nodes only.
+
+// Thread-safe.
+class SphericalTip {
+ public:
+  // Radius 0: a needle. Throws Error{bad_value} naming `tip` for a negative or infinite radius, or a positive
+  // radius on a surface with holes.
+  SphericalTip(const Surface& surface, double radius);
+
+  // t in m: not below height_between(surface, point), equal for radius 0. Periodic surfaces continue, others
+  // end at the outermost nodes. Cost: cells within reach, where the sphere rises by up to the height range.
+  double height(Point point) const;
+
+ private:
+  Surface surface_;
+  int exponent_;             // length unit: 2^exponent_ m
+  double radius_, hx_, hy_;  // in this unit
+  double top_;               // m, highest node
+};
+
+// At the nodes. Heights never fall; closing is idempotent (to one or two last bits). Periodic surfaces wrap;
+// nothing exists beyond other rims. Material and periodicity stay. O(nodes · cells within reach); two grids.
+// Throw Error{bad_value} for a negative or infinite radius.
+Surface dilated(const Surface& surface, double radius, Monitor& monitor = Monitor::silent());
+Surface closed(const Surface& surface, double radius, Monitor& monitor = Monitor::silent());
 
 struct StylusOptions {
   double tip = 2e-6;              // m, tip radius >= 0
@@ -34,7 +65,7 @@ struct Traverse {
   double angle = 0;
 };
 
-// Ratios of sums with the tip and with a needle on the same lines; 1 if both are 0.
+// Sums with the tip over sums with a needle; 1 if both are 0.
 struct TipEffect {
   double ra_ratio = 1, rms_slope_ratio = 1, amplitude_ratio = 1;
   double mean_lift = 0, greatest_lift = 0;  // m, tip above surface
@@ -56,7 +87,7 @@ class Stylus {
   double spacing() const { return spacing_; }
   double length() const { return length_; }
   int samples() const;  // per trace: whole spacings in the length
-  // Follow from spacing = speed/rate; empty if only the spacing is known.
+  // Empty if only the spacing is known.
   std::optional<double> speed() const { return speed_; }
   std::optional<double> rate() const { return rate_; }
   std::string digest() const;
@@ -70,7 +101,6 @@ class Stylus {
   // or a line without measured samples.
   Profile trace(const Surface& surface, const Traverse& line) const;
 
-  // Same bits for any thread count.
   StylusScan scan(const Surface& surface, int count, std::uint64_t seed,
                   Monitor& monitor = Monitor::silent()) const;
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
@@ -14,8 +14,7 @@ namespace asperity {
 
 namespace {
 
-// Distinct when small and black, filled then open: circle, square, triangle, diamond, triangle down,
-// pentagon.
+// Distinct when small and black, filled then open.
 constexpr std::array<int, 10> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12};
 constexpr std::array<std::string_view, 5> dashes = {"1", "'-'", "'_. '", "'.'", "'_-'"};
 constexpr std::array<std::string_view, 4> reference_dashes = {"'--'", "'. '", "'-. '", "'-.. '"};
@@ -23,19 +22,9 @@ constexpr std::array<std::string_view, 4> reference_dashes = {"'--'", "'. '", "'
 constexpr const char* mark_colour = "rgb '#505050'";
 
 int point_type(const ChartSeries& series, int k) {
-  switch (series.shape) {
-    case PointShape::ring:
-      return 6;
-    case PointShape::cross:
-      return 2;
-    case PointShape::triangle:
-      return 8;
-    case PointShape::diamond:
-      return 12;
-    case PointShape::of_line:
-      break;
-  }
-  return shapes[static_cast<std::size_t>(k) % shapes.size()];
+  constexpr std::array<int, 5> open = {0, 6, 2, 8, 12};  // in the order of PointShape
+  return series.shape == PointShape::of_line ? shapes[static_cast<std::size_t>(k) % shapes.size()]
+                                             : open[static_cast<std::size_t>(series.shape)];
 }
 
 bool drawable(double value, const ChartAxis& axis) {
@@ -45,41 +34,34 @@ bool drawable(double value, const ChartAxis& axis) {
 struct Point {
   double x, y, low, high, left, right;
   bool after_gap = false;
+  bool reaches(bool logarithmic) const { return logarithmic && low <= 0; }  // beyond the axis
 };
 
-std::string count_sentence(std::size_t lost, std::size_t all, std::string_view why) {
-  return std::to_string(lost) + " of " + std::to_string(all) + (all == 1 ? " value is" : " values are") +
-         " not drawn: " + std::string(why);
-}
-
 struct Losses {
-  std::size_t all = 0, not_finite = 0, too_large = 0, not_positive_x = 0, not_positive_y = 0;
+  std::size_t all = 0;
+  std::array<std::size_t, 4> lost{};  // not finite, too large, not positive along x, along y
 
   bool keep(double x, double y, const LineChart& chart) {
     ++all;
     // Larger values overflow in the layout.
     constexpr double largest = 1e300;
-    if (!std::isfinite(x) || !std::isfinite(y)) {
-      ++not_finite;
-    } else if (std::abs(x) > largest || std::abs(y) > largest) {
-      ++too_large;
-    } else if (!drawable(x, chart.x)) {
-      ++not_positive_x;
-    } else if (!drawable(y, chart.y)) {
-      ++not_positive_y;
-    } else {
-      return true;
-    }
+    const std::array<bool, 4> faults{!std::isfinite(x) || !std::isfinite(y),
+                                     std::abs(x) > largest || std::abs(y) > largest, !drawable(x, chart.x),
+                                     !drawable(y, chart.y)};
+    const auto first = std::ranges::find(faults, true);
+    if (first == faults.end()) return true;
+    ++lost[static_cast<std::size_t>(first - faults.begin())];
     return false;
   }
   void tell(const LineChart& chart, std::vector<std::string>& warnings) const {
-    if (not_finite > 0) warnings.push_back(count_sentence(not_finite, all, "not finite"));
-    if (too_large > 0) warnings.push_back(count_sentence(too_large, all, "too large to draw (above 1e300)"));
-    const std::string reason = " is not above zero, and its axis is logarithmic";
-    if (not_positive_x > 0)
-      warnings.push_back(count_sentence(not_positive_x, all, asperity::quoted(chart.x.label) + reason));
-    if (not_positive_y > 0)
-      warnings.push_back(count_sentence(not_positive_y, all, asperity::quoted(chart.y.label) + reason));
+    const std::string not_positive = " is not above zero, and its axis is logarithmic";
+    const std::array<std::string, 4> reasons{"not finite", "too large to draw (above 1e300)",
+                                             asperity::quoted(chart.x.label) + not_positive,
+                                             asperity::quoted(chart.y.label) + not_positive};
+    for (std::size_t k = 0; k < lost.size(); ++k)
+      if (lost[k] > 0)
+        warnings.push_back(std::to_string(lost[k]) + " of " + std::to_string(all) +
+                           (all == 1 ? " value is" : " values are") + " not drawn: " + reasons[k]);
   }
 };
 
@@ -108,11 +90,9 @@ std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, 
       series.x_low.size() != series.x_high.size() || series.y_low.size() != series.y_high.size() ||
       (!series.x_low.empty() && series.x_low.size() != series.x.size()) ||
       (!series.y_low.empty() && series.y_low.size() != series.y.size()))
-    throw Error(ErrorCode::bad_value,
-                "the line " + asperity::quoted(series.name) + " of a chart has " +
-                    std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) +
-                    " y values",
-                "give as many of one as of the other, and as many errors or none");
+    refuse("the line " + asperity::quoted(series.name) + " of a chart has " +
+               std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) + " y values",
+           "give as many of one as of the other, and as many errors or none");
   std::vector<Point> points;
   bool gap = false;
   for (std::size_t k = 0; k < series.x.size(); ++k) {
@@ -143,15 +123,17 @@ struct Ends {
 };
 
 std::string data_block(const std::string& name, const std::vector<Point>& points, const AxisLayout& x,
-                       const AxisLayout& y, bool across) {
+                       const AxisLayout& y, const ChartSeries& series, bool logarithmic) {
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) {
     if (point.after_gap) text += "\n";  // an empty line breaks the plotted line
-    // Clips bars at the rim of a logarithmic axis.
-    const double low = std::max(point.low / y.factor, y.low), high = std::min(point.high / y.factor, y.high);
+    // A band is clipped; a bar beyond a logarithmic axis gets its arrow from open_bars.
+    const bool open = !series.band && point.reaches(logarithmic);
+    const double low = open ? point.y / y.factor : std::max(point.low / y.factor, y.low),
+                 high = std::min(point.high / y.factor, y.high);
     text += gnuplot_number(point.x / x.factor) + " " + gnuplot_number(point.y / y.factor) + " " +
             gnuplot_number(low) + " " + gnuplot_number(high);
-    if (across)
+    if (!series.x_low.empty())
       text += " " + gnuplot_number(point.left / x.factor) + " " + gnuplot_number(point.right / x.factor);
     text += "\n";
   }
@@ -205,10 +187,9 @@ Content gathered(const LineChart& chart, std::vector<std::string>& warnings) {
   }
   losses.tell(chart, warnings);
   if (content.ends.x.empty())
-    throw Error(ErrorCode::bad_value,
-                "the chart of " + asperity::quoted(chart.y.label) + " against " +
-                    asperity::quoted(chart.x.label) + " has nothing to draw",
-                warnings.empty() ? "no row has a number in both" : warnings.front());
+    refuse("the chart of " + asperity::quoted(chart.y.label) + " against " + asperity::quoted(chart.x.label) +
+               " has nothing to draw",
+           warnings.empty() ? "no row has a number in both" : warnings.front());
   take_references(chart, content, warnings);
   return content;
 }
@@ -219,6 +200,8 @@ struct Axes {
 
 Axes axes_of(const LineChart& chart, const Content& content) {
   ChartAxis x_axis = chart.x, y_axis = chart.y;
+  x_axis.names_room = chart.width - 340;
+  if (chart.width < 700) x_axis.tics = chart.width / 150 + 1;
   if (chart.equal_axes)
     for (const auto* values : {&content.ends.x, &content.ends.y})
       for (const double value : *values)
@@ -227,6 +210,16 @@ Axes axes_of(const LineChart& chart, const Content& content) {
   // Bars start at the axis.
   if (!chart.bars.empty() && !chart.y.logarithmic) axes.y.low = std::max(axes.y.low, 0.0);
   return axes;
+}
+
+// Bars beyond a logarithmic axis: x, y and the way down to the frame, an arrow without a cap.
+std::string open_bars(const std::string& name, const std::vector<Point>& points, const Axes& axes) {
+  std::string text;
+  for (const Point& point : points)
+    if (point.low <= 0)
+      text += gnuplot_number(point.x / axes.x.factor) + " " + gnuplot_number(point.y / axes.y.factor) + " " +
+              gnuplot_number(axes.y.low - point.y / axes.y.factor) + "\n";
+  return text.empty() ? text : "$" + name + " << EOD\n" + text + "EOD\n";
 }
 
 std::string reference_data(const LineChart& chart, const Axes& axes, const std::string& prefix) {
@@ -277,12 +270,15 @@ double room_for_numbers(const AxisLayout& y) {
   return label_and_gaps + character * static_cast<double>(longest);
 }
 
-// Right of the plot, aligned over panels; long names of a single chart move the key below.
+// Right of the plot; long names of a single chart move the key below.
 std::string key_command(const LineChart& chart, std::size_t longest_name,
                         const std::optional<double>& right_rim) {
   constexpr double sample = 70, character = 8.5, widest = 1.0 / 3;
   const double beside = sample + character * static_cast<double>(longest_name);
-  if (!right_rim && beside > widest * chart.width)
+  if (chart.legend.find(' ') != std::string::npos)
+    return "set key inside " + chart.legend + " Left reverse samplen 2.6 spacing 1.25\n";
+  const bool fits = beside <= widest * chart.width && !chart.print_width;
+  if (chart.legend == "below" || (chart.legend.empty() && !right_rim && !fits))
     return "set key below left horizontal Left reverse samplen 2.6 spacing 1.25 maxcols " +
            std::string(2 * beside < chart.width ? "2" : "1") + "\n";
   if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
@@ -292,7 +288,7 @@ std::string key_command(const LineChart& chart, std::size_t longest_name,
 
 std::string look_commands(const LineChart& chart, const Axes& axes, const Content& content,
                           const std::optional<double>& right_rim) {
-  const bool keyed = content.keyed;
+  const bool keyed = content.keyed && chart.legend != "none";
   std::string script =
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
       "set grid xtics ytics mxtics mytics linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc', "
@@ -319,9 +315,11 @@ struct Layers {
   std::vector<std::string> behind, front;
 };
 
-void add_series(const ChartSeries& series, int k, int lines, const Content& content,
-                const std::string& prefix, Layers& layers) {
+void add_series(const LineChart& chart, int k, const Content& content, const std::string& prefix,
+                Layers& layers) {
+  const int lines = static_cast<int>(chart.series.size());
   const auto place = static_cast<std::size_t>(k);
+  const ChartSeries& series = chart.series[place];
   const bool mark = series.shape != PointShape::of_line;
   const std::string colour = mark ? mark_colour : gnuplot_colour(line_colour(k, lines)),
                     number = std::to_string(k), shape = std::to_string(point_type(series, k));
@@ -340,6 +338,11 @@ void add_series(const ChartSeries& series, int k, int lines, const Content& cont
   } else if (!series.y_error.empty() || !series.y_low.empty()) {
     layers.front.push_back(data + " using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.4 linecolor " +
                            colour + " notitle");
+    if (std::ranges::any_of(content.points[place],
+                            [&](const Point& point) { return point.reaches(chart.y.logarithmic); }))
+      layers.front.push_back("$" + prefix + "open" + number +
+                             " using 1:2:(0):3 with vectors head filled linewidth 1.4 linecolor " + colour +
+                             " notitle");
   }
   if (!series.x_low.empty())
     layers.front.push_back(data + " using 1:2:5:6 with xerrorbars pointtype -1 linewidth 1.4 linecolor " +
@@ -355,15 +358,16 @@ void add_series(const ChartSeries& series, int k, int lines, const Content& cont
   layers.front.push_back(layer + title_of(series.name));
 }
 
-// `prefix` separates the data of panels.
 std::string body_of(const LineChart& chart, const Content& content, const Axes& axes,
                     const std::string& prefix, const std::optional<double>& right_rim) {
   std::string script;
   for (std::size_t k = 0; k < content.points.size(); ++k) {
     const std::string number = std::to_string(k);
-    script += data_block(prefix + "line" + number, content.points[k], axes.x, axes.y,
-                         !chart.series[k].x_low.empty());
-    script += data_block(prefix + "cloud" + number, content.clouds[k], axes.x, axes.y, false);
+    script += data_block(prefix + "line" + number, content.points[k], axes.x, axes.y, chart.series[k],
+                         chart.y.logarithmic);
+    script += data_block(prefix + "cloud" + number, content.clouds[k], axes.x, axes.y, {}, false);
+    if (chart.y.logarithmic && !chart.series[k].band)
+      script += open_bars(prefix + "open" + number, content.points[k], axes);
   }
   script += reference_data(chart, axes, prefix) + bar_data(chart, axes, prefix);
   script += look_commands(chart, axes, content, right_rim);
@@ -373,9 +377,8 @@ std::string body_of(const LineChart& chart, const Content& content, const Axes& 
     layers.behind.push_back("$" + prefix +
                             "bars using 1:2:3:4:5:6 with boxxyerror fillstyle solid border linecolor rgb "
                             "'#ffffff' fillcolor rgb '#7fa8c9' notitle");
-  const int lines = static_cast<int>(chart.series.size());
-  for (int k = 0; k < lines; ++k)
-    add_series(chart.series[static_cast<std::size_t>(k)], k, lines, content, prefix, layers);
+  for (int k = 0; k < static_cast<int>(chart.series.size()); ++k)
+    add_series(chart, k, content, prefix, layers);
   for (std::size_t k = 0; k < chart.references.size(); ++k) {
     const ChartReference& line = chart.references[k];
     if (!drawable(line.y ? *line.y : line.x.value_or(std::nan("")), line.y ? chart.y : chart.x)) continue;
@@ -395,6 +398,22 @@ LineChart with_short_names(LineChart chart) {
   return chart;
 }
 
+// Panels of several are lower than a chart alone.
+int height_of(std::span<const LineChart> panels) {
+  if (panels.size() == 1) return panels.front().height;
+  int height = 0;
+  for (const LineChart& panel : panels) height += panel.height * 3 / 4;
+  return height;
+}
+
+bool has_key_on_the_right(const LineChart& panel) {
+  return panel.legend == "right" || (panel.legend.empty() && !panel.print_width);
+}
+
+std::optional<double> inches_of(const LineChart& chart) {
+  return chart.print_width ? std::optional(*chart.print_width / 0.0254) : std::nullopt;
+}
+
 bool share_x(const LineChart& a, const LineChart& b) {
   return a.x.label == b.x.label && a.x.unit == b.x.unit && a.x.logarithmic == b.x.logarithmic &&
          a.x.names == b.x.names;
@@ -402,10 +421,23 @@ bool share_x(const LineChart& a, const LineChart& b) {
 
 }  // namespace
 
+void print_at(LineChart& chart, double width, double font_size) {
+  constexpr double points_per_metre = 72 / 0.0254, text = 16,
+                   least = 320;  // pixels of axes and their numbers
+  const double pixels = width * points_per_metre * text / font_size;
+  if (pixels < least)
+    refuse("a chart " + format_short(1000 * width) + " mm wide with text of " + format_short(font_size) +
+               " points has no room for its lines",
+           "give a `font_size` of at most " + format_short(std::floor(font_size * pixels / least)));
+  chart.width = static_cast<int>(std::lround(pixels));
+  chart.height = static_cast<int>(std::lround(pixels * 2 / 3));
+  chart.print_width = width;
+}
+
 std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings) {
   const Content content = gathered(chart, warnings);
   const Axes axes = axes_of(chart, content);
-  std::string script = gnuplot_terminal(format, chart.width, chart.height, 16);
+  std::string script = gnuplot_terminal(format, chart.width, chart.height, 16, inches_of(chart));
   if (const double rim = left_rim(chart, axes.x); rim > 0) {
     script += "set lmargin at screen " + gnuplot_number(rim / chart.width) + "\n";
     if (!content.keyed) script += "set rmargin at screen 0.97\n";
@@ -416,16 +448,16 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
 std::string chart_script(std::span<const LineChart> given, PictureFormat format,
                          std::vector<std::string>& warnings) {
   if (given.size() == 1) return chart_script(given.front(), format, warnings);
-  if (given.empty()) throw Error(ErrorCode::bad_value, "a picture of charts has no chart");
+  if (given.empty()) refuse("a picture of charts has no chart");
   std::vector<LineChart> panels;
   for (const LineChart& panel : given) panels.push_back(with_short_names(panel));
   std::vector<Content> contents;
   std::size_t longest = 0;
-  int height = 0;
+  const int height = height_of(panels);
   for (const LineChart& panel : panels) {
     contents.push_back(gathered(panel, warnings));
-    if (contents.back().keyed) longest = std::max(longest, contents.back().longest_name);
-    height += panel.height * 3 / 4;
+    if (contents.back().keyed && has_key_on_the_right(panel))
+      longest = std::max(longest, contents.back().longest_name);
   }
   for (std::size_t k = 0; k < panels.size(); ++k)
     for (std::size_t other = 0; other < panels.size(); ++other)
@@ -447,14 +479,13 @@ std::string chart_script(std::span<const LineChart> given, PictureFormat format,
       axes[k].x.slanted = false;
       for (Tic& tic : axes[k].x.tics) tic.label = " ";
     }
-  // Room for the longest name and its sample, equal for all panels.
+  // Room for the longest name and its sample.
   const double beside = 100 + 12.0 * static_cast<double>(longest);
   const double right = longest == 0 ? 0.97 : 1 - std::min(0.5, beside / width);
-  std::string script = gnuplot_terminal(format, width, height, 16);
+  std::string script = gnuplot_terminal(format, width, height, 16, inches_of(panels.front()));
   script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen " +
             gnuplot_number(left / width) + "\nset rmargin at screen " + gnuplot_number(right) + "\n";
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    // Reset settings of the panel above.
     if (k > 0)
       script +=
           "unset logscale\nunset label\nunset title\nset size noratio\nset key default\n"
@@ -477,8 +508,13 @@ std::vector<std::string> draw(std::span<const LineChart> panels, const std::file
     for (const ChartSeries& series : panel.series) points += series.x.size();
   if (points > many && picture_format(file) != PictureFormat::png)
     warnings.push_back(std::to_string(points) +
-                       " points are drawn, and the file holds each: a .png holds what is seen of them");
-  const GnuplotResult drawn = run_gnuplot(script);
+                       " points are drawn and stored in the file; a .png is smaller");
+  GnuplotResult drawn = run_gnuplot(script);
+  const LineChart& first = panels.front();
+  if (first.print_width && picture_format(file) == PictureFormat::svg) {
+    const double ratio = static_cast<double>(height_of(panels)) / first.width;
+    drawn.picture = printed_at(std::move(drawn.picture), *first.print_width, *first.print_width * ratio);
+  }
   write_atomically(file, drawn.picture);
   const std::vector<std::string> complaints = complaints_of(drawn, file);
   warnings.insert(warnings.end(), complaints.begin(), complaints.end());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of lines and points by gnuplot, legible in black and white (colour, point shape, dashes), with unit
-// prefixes. Bands and bars are behind the lines. Values that cannot be drawn (non-finite, or not positive on
+// Charts by gnuplot, legible in black and white. Values that cannot be drawn (non-finite, or not positive on
 // a logarithmic axis) are counted in a warning.
 #pragma once
 
@@ -24,7 +23,7 @@ struct ChartSeries {
   std::string name;                      // in the key; "": not in the key
   std::vector<double> x, y;              // same length
   std::vector<double> y_error;           // half length of error bars; or empty
-  std::vector<double> cloud_x, cloud_y;  // faint points behind, such as single values of a mean
+  std::vector<double> cloud_x, cloud_y;  // faint points behind
   bool line = true;
   bool points = true;
   std::vector<double> x_low = {}, x_high = {};  // error bar ends along x; or both empty
@@ -65,22 +64,27 @@ struct LineChart {
   std::string key_title;
   std::vector<ChartSeries> series;
   std::vector<ChartLabel> labels = {};
-  bool equal_axes = false;  // equal scales of x and y
-  int width = 960, height = 640;
+  bool equal_axes = false;            // equal scales of x and y
+  int width = 960, height = 640;      // pixels, with text of 16 points
+  std::optional<double> print_width;  // m; pixels follow from the size of text in print
+  std::string legend = {};            // "right", "below", "none", "top left", …; "": right or below
   std::vector<ChartReference> references = {};
   std::vector<ChartBar> bars = {};
 };
 
-// Appends to `warnings`. Throws Error{bad_value} if no point is left or lengths differ. Cost: number of
-// points.
+// Appends to `warnings`. Throws Error{bad_value} if no point is left or lengths differ.
 std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings);
+
+// Canvas of a figure `width` wide (m) with text of `font_size` points, as printed. Throws Error{bad_value} if
+// the text leaves no room.
+void print_at(LineChart& chart, double width, double font_size);
 
 // Panels one below the other, equally high, as wide as the first. Equal quantities along x share the range.
 std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
                          std::vector<std::string>& warnings);
 
-// Replaces `file` (.svg, .png, .pdf) atomically; returns warnings. Throws like chart_script, picture_format,
-// run_gnuplot, write_atomically.
+// Replaces `file` (.svg, .png, .pdf) atomically; returns warnings. Throws like chart_script, run_gnuplot,
+// write_atomically.
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file);
 std::vector<std::string> draw(std::span<const LineChart> panels, const std::filesystem::path& file);
 

@@ -158,11 +158,6 @@ std::string printed_quantity(double value, std::string_view unit, int digits) {
   return scale.unit.empty() ? number : number + " " + scale.unit;
 }
 
-std::size_t characters_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string shortened(std::string_view text, std::size_t longest) {
   if (characters_of(text) <= longest) return std::string(text);
   std::size_t end = 0;
@@ -176,12 +171,12 @@ namespace {
 
 AxisLayout names_layout(const ChartAxis& axis) {
   constexpr std::size_t longest = 24;
-  constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels on the default canvas
+  constexpr double character = 11.8, between = 14;  // pixels
   AxisLayout layout;
   layout.label = axis.label;
   layout.low = -0.5;
   layout.high = static_cast<double>(axis.names.size()) - 0.5;
-  const double room = plot_width / static_cast<double>(axis.names.size());
+  const double room = axis.names_room / static_cast<double>(axis.names.size());
   for (std::size_t k = 0; k < axis.names.size(); ++k) {
     const std::string name = shortened(axis.names[k], longest);
     layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;

@@ -21,8 +21,9 @@ struct ChartAxis {
   // Magnitude for the prefix; default: largest value, logarithmic: geometric mean.
   std::optional<double> prefix_for;
   int tics = 6;  // approximate number on a linear axis
-  // Names of values 0, 1, 2, … instead of numbers; linear axis with room for all.
+  // Names of values 0, 1, 2, …; linear axis with room for all.
   std::vector<std::string> names = {};
+  double names_room = 620;  // pixels, with text of 16 points
 };
 
 struct Tic {
@@ -49,8 +50,6 @@ std::string printed_unit(std::string_view unit);
 // With a suitable prefix: "20 µm".
 std::string printed_quantity(double value, std::string_view unit, int digits = 3);
 
-// UTF-8 characters.
-std::size_t characters_of(std::string_view text);
 // Cuts to `longest` characters and appends "…".
 std::string shortened(std::string_view text, std::size_t longest);
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -21,7 +22,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
-#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
@@ -33,28 +33,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Length of the UTF-8 character at `k`; 0 if invalid.
-std::size_t character_length(std::string_view text, std::size_t k) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(k);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length == 0 || k + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(k + i) & 0xC0) != 0x80) return 0;
-  return length;
-}
-
 std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Without variables that change the picture: language, time zone (PDF date), gnuplot's.
+// Without language, time zone (PDF date) and gnuplot's variables.
 std::vector<char*> plain_environment() {
   static char language[] = "LC_ALL=C.UTF-8", zone[] = "TZ=UTC0";
   std::vector<char*> kept;
@@ -78,7 +62,7 @@ pid_t start(const fs::path& folder) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "messages", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  // Own process group: Ctrl-C reaches only the run, which decides.
+  // Own process group: Ctrl-C reaches only the run.
   sigset_t every, none;
   sigfillset(&every);
   sigemptyset(&none);
@@ -138,7 +122,7 @@ std::string gnuplot_text(std::string_view text) {
       literal += "…";
       break;
     }
-    const std::size_t length = character_length(text, k);
+    const std::size_t length = utf8_bytes(std::string_view(text).substr(k));
     const auto byte = static_cast<unsigned char>(text[k]);
     if (length == 0) {
       literal += '?';
@@ -173,17 +157,37 @@ PictureFormat picture_format(const fs::path& file) {
               "pictures are .svg, .png or .pdf");
 }
 
-std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size) {
+std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size,
+                             std::optional<double> inches) {
   const std::string size = std::to_string(width) + "," + std::to_string(height);
-  const std::string look = " noenhanced font 'DejaVu Sans," + format_short(font_size, 4) + "' linewidth 1";
-  if (format == PictureFormat::png)
-    return "set terminal pngcairo size " + size + look + " background '#ffffff'\n";
+  const std::string look = " noenhanced font 'DejaVu Sans," + format_short(font_size, 4) + "'";
+  const std::string white = " background '#ffffff'\n";
+  const double scale = inches ? 100 * *inches / width : 1;
+  const auto scaled = [](double by) {
+    const std::string factor = format_short(by, 6);
+    return " linewidth " + factor + (by == 1 ? "" : " pointscale " + factor);
+  };
+  if (format == PictureFormat::png) {
+    if (!inches) return "set terminal pngcairo size " + size + look + scaled(1) + white;
+    const auto pixels = [&](int length) { return std::to_string(std::lround(3 * scale * length)); };
+    // pngcairo has 96 pixels per inch for text.
+    return "set terminal pngcairo size " + pixels(width) + "," + pixels(height) + look + scaled(3 * scale) +
+           " fontscale " + format_short(2.25 * scale, 6) + white;
+  }
   if (format == PictureFormat::pdf) {
     // 72 points and 100 pixels per inch.
-    const std::string inches = format_short(0.01 * width, 6) + "in," + format_short(0.01 * height, 6) + "in";
-    return "set terminal pdfcairo size " + inches + look + " fontscale 0.72 background '#ffffff'\n";
+    const auto inch = [&](int length) { return format_short(0.01 * scale * length, 6) + "in"; };
+    return "set terminal pdfcairo size " + inch(width) + "," + inch(height) + look + scaled(scale) +
+           " fontscale " + format_short(0.72 * scale, 6) + white;
   }
-  return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
+  return "set terminal svg size " + size + " dynamic" + look + scaled(1) + white;
+}
+
+std::string printed_at(std::string svg, double width, double height) {
+  const auto length = [](double metres) { return "=\"" + format_short(1000 * metres, 6) + "mm\""; };
+  const std::size_t at = svg.find("<svg");
+  if (at != std::string::npos) svg.insert(at + 4, " width" + length(width) + " height" + length(height));
+  return svg;
 }
 
 std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::path& file) {
@@ -191,8 +195,7 @@ std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::pa
   constexpr std::size_t longest = 300;
   std::string said;
   for (const char c : result.messages.substr(0, longest)) said += c == '\n' ? ' ' : c;
-  return {asperity::quoted(file.filename().string()) +
-          " may look otherwise than it should; gnuplot, which drew it, says: " + said +
+  return {asperity::quoted(file.filename().string()) + " may look wrong; gnuplot reports: " + said +
           (result.messages.size() > longest ? " …" : "")};
 }
 
@@ -238,7 +241,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   GnuplotResult result{without_date(content_of(folder.path() / "picture")),
                        without_ends(content_of(folder.path() / "messages"))};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
-  // Shell convention: on some systems only the child detects a missing program.
+  // On some systems only the child detects a missing program.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())
     throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
                 "install the package gnuplot-nox");

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@
 
 namespace asperity {
 
-// One line: apostrophes become ’, control characters spaces, invalid UTF-8 "?"; 200 characters at most.
+// One line of 200 characters at most: apostrophes become ’, control characters spaces, invalid UTF-8 "?".
 std::string gnuplot_text(std::string_view text);
 // `value` is finite; the text is exact.
 std::string gnuplot_number(double value);
@@ -24,8 +25,12 @@ enum class PictureFormat { svg, png, pdf };
 // From the file ending. Throws Error{bad_value} for others.
 PictureFormat picture_format(const std::filesystem::path& file);
 
-// First line of a script: canvas in pixels (PDF: 100 per inch), text in points.
-std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size);
+// First line of a script: canvas in pixels (PDF: 100 per inch), text in points. `inches`: width in print
+// (PNG: 300 pixels per inch; SVG: printed_at).
+std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size,
+                             std::optional<double> inches = {});
+// The SVG with a width and a height in millimetres.
+std::string printed_at(std::string svg, double width, double height);
 
 struct GnuplotData {
   std::string name;
@@ -37,7 +42,6 @@ struct GnuplotResult {
   std::string messages;  // gnuplot's standard error; empty without problems
 };
 
-// Warnings from gnuplot's messages, such as a missing font.
 std::vector<std::string> complaints_of(const GnuplotResult& result, const std::filesystem::path& file);
 
 // Draws for processes that may not start programs.
@@ -45,14 +49,14 @@ using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const Gnu
 // For the whole process; not during drawing.
 void draw_pictures_by(std::function<GnuplotDrawer> drawer);
 
-// Sets the creation date of a PDF to the start of 2000: replay gives equal bytes.
+// Sets the creation date of a PDF to the start of 2000.
 std::string without_date(std::string picture);
 
 // Script that writes the file `picture` in the working directory.
 std::string script_for_file(std::string_view script);
 
 // In a new temporary directory, checking the stop flag. Thread-safe. Throws Error{bad_state} without gnuplot,
-// Error{bad_file} if the directory cannot be written, Error{internal} with gnuplot's message on failure.
+// Error{bad_file} without the directory, Error{internal} with gnuplot's message.
 GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data = {});
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colour maps readable with any colour vision and in grey: viridis, cividis (Smith & van der Walt 2015;
-// Nuñez, Anderton & Renslow 2018), grey, heat (light grey for none, then dark inferno at contrast 3:1),
-// balance (two-sided), contact. Lines: Okabe & Ito (2008). Same colours in bindings/web/page/src/palettes.ts.
+// Colour maps readable with any colour vision and in grey. Sources: viridis (Smith & van der Walt 2015),
+// cividis (Nuñez, Anderton & Renslow 2018), lines (Okabe & Ito 2008). Same colours in
+// bindings/web/page/src/colour.ts.
 #pragma once
 
 #include <optional>

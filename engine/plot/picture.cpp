@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
+#include <utility>
 #include <vector>
 
-#include "engine/core/error.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -61,16 +63,13 @@ std::string bytes_of(const Field& field, double factor) {
 
 void check(const Grid& grid, const Field& field, const PictureOptions& options) {
   if (field.nx() != grid.nx || field.ny() != grid.ny || field.empty())
-    throw Error(ErrorCode::bad_value, "the field has " + std::to_string(field.nx()) + " × " +
-                                          std::to_string(field.ny()) + " values on a grid of " +
-                                          std::to_string(grid.nx) + " × " + std::to_string(grid.ny));
+    refuse("the field has " + std::to_string(field.nx()) + " × " + std::to_string(field.ny()) +
+           " values on a grid of " + std::to_string(grid.nx) + " × " + std::to_string(grid.ny));
   require(options.width >= 200 && options.width <= 4000, "width", options.width, "pixels",
           "give 200 to 4000");
   if (options.range && !(options.range->min < options.range->max && std::isfinite(options.range->span())))
-    throw Error(
-        ErrorCode::bad_value,
-        "`range` is from " + format_short(options.range->min) + " to " + format_short(options.range->max),
-        "give two finite numbers, the lower one first");
+    refuse("`range` is from " + format_short(options.range->min) + " to " + format_short(options.range->max),
+           "give two finite numbers, the lower one first");
 }
 
 std::string palette_command(const Palette& colours) {
@@ -140,7 +139,7 @@ std::string screen(double x, double y, const Canvas& canvas) {
   return "screen " + format_short(x / canvas.width, 8) + ", screen " + format_short(y / canvas.height, 8);
 }
 
-// White on a dark veil, readable on any colour; omitted on small maps.
+// White on a dark veil; omitted on small maps.
 std::string scale_bar(const AxisLayout& x, const Canvas& canvas) {
   const double text = 4.0 / 3.0 * canvas.font;
   const double length = round_below((x.high - x.low) / 4);
@@ -299,8 +298,7 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
     values.max = std::max(values.max, value);
   }
   if (values.min > values.max)
-    throw Error(ErrorCode::bad_value,
-                "the picture of " + asperity::quoted(options.label) + " has no finite value to show");
+    refuse("the picture of " + asperity::quoted(options.label) + " has no finite value to show");
   PictureOptions resolved = options;
   if (options.palette == "contact" && !options.range) resolved.range = Range{0, 1};
   if (options.palette == "balance" && !options.range) {
@@ -330,10 +328,9 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
 std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
                               const std::filesystem::path& file) {
   if (const std::string ending = file.extension().string(); ending != ".png")
-    throw Error(ErrorCode::bad_value,
-                "the picture " + asperity::quoted(file.string()) +
-                    (ending.empty() ? " has no ending" : " ends in " + ending),
-                "pictures of surfaces are .png");
+    refuse("the picture " + asperity::quoted(file.string()) +
+               (ending.empty() ? " has no ending" : " ends in " + ending),
+           "pictures of surfaces are .png");
   const PictureScript picture = picture_script(grid, field, options);
   const GnuplotData cells{"cells", picture.cells};
   const GnuplotResult drawn = run_gnuplot(picture.script, {&cells, 1});
@@ -344,6 +341,98 @@ std::vector<std::string> draw(const Grid& grid, const Field& field, const Pictur
 std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
                               const std::filesystem::path& file) {
   return draw(surface.grid(), surface.measured_heights(), options, file);
+}
+
+namespace {
+
+constexpr int most_stretches = 2000;  // about two per pixel
+
+void add_trace(const Profile& profile, ChartSeries& series) {
+  const auto heights = profile.measured_heights();
+  const auto at = [&](std::size_t k) { return static_cast<double>(k) * profile.spacing(); };
+  const auto add = [&](std::size_t k) {
+    series.x.push_back(at(k));
+    series.y.push_back(heights[k]);
+  };
+  // Adds the extremes and the start of a gap.
+  const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from) {
+    std::size_t low = part.size(), high = part.size(), gap = part.size();
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (std::isnan(part[k])) {
+        gap = std::min(gap, k);
+        continue;
+      }
+      if (low == part.size() || part[k] < part[low]) low = k;
+      if (high == part.size() || part[k] > part[high]) high = k;
+    }
+    for (std::size_t k = 0; k < part.size(); ++k)
+      if (k == low || k == high || k == gap) add(from + k);
+  };
+  if (heights.size() <= 2 * most_stretches) {
+    for (std::size_t k = 0; k < heights.size(); ++k) add(k);
+    return;
+  }
+  for (std::size_t stretch = 0; stretch < most_stretches; ++stretch) {
+    const std::size_t from = stretch * heights.size() / most_stretches;
+    const std::size_t to = (stretch + 1) * heights.size() / most_stretches;
+    const auto part = heights.subspan(from, to - from);
+    if (known_count(part) < part.size()) {
+      add_stretch_with_gap(part, from);
+      continue;
+    }
+    const auto [low, high] = std::ranges::minmax_element(part);
+    const auto a = from + static_cast<std::size_t>(low - part.begin());
+    const auto b = from + static_cast<std::size_t>(high - part.begin());
+    add(std::min(a, b));
+    if (a != b) add(std::max(a, b));
+  }
+}
+
+void add_outline(const Profile& profile, ChartSeries& series) {
+  const auto heights = profile.measured_heights();
+  const double radius = *profile.closed_radius();
+  // Repeats the first point.
+  for (std::size_t k = 0; k <= heights.size(); ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(heights.size());
+    const double r = radius + heights[k % heights.size()];
+    series.x.push_back(r * elementary::cos(angle));
+    series.y.push_back(r * elementary::sin(angle));
+  }
+}
+
+}  // namespace
+
+LineChart profile_chart(std::span<const NamedProfile> profiles, std::string title) {
+  if (profiles.empty()) refuse("a picture of profiles has none", "give at least one");
+  const bool closed = profiles.front().profile.closed();
+  LineChart chart;
+  chart.title = std::move(title);
+  chart.x.label = "x";
+  chart.y.label = closed ? "y" : "height";
+  chart.x.unit = chart.y.unit = "m";
+  chart.equal_axes = closed;
+  chart.height = closed ? 860 : 480;
+  for (const NamedProfile& item : profiles) {
+    if (item.profile.closed() != closed)
+      refuse("a picture has open traces and closed outlines together", "draw them in separate pictures");
+    ChartSeries series;
+    series.name = item.name;
+    series.points = item.profile.measured() == 1;
+    series.gaps = !item.profile.complete();
+    if (closed) {
+      add_outline(item.profile, series);
+    } else {
+      add_trace(item.profile, series);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+std::vector<std::string> draw(const Profile& profile, const std::string& title,
+                              const std::filesystem::path& file) {
+  const NamedProfile item{"", profile};
+  return draw(profile_chart({&item, 1}, title), file);
 }
 
 }  // namespace asperity

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
@@ -74,7 +74,6 @@ std::string axis_script(const std::string& name, const AxisLayout& layout, bool 
   return text + ")\n";
 }
 
-// Without blank lines and blanks at line ends.
 std::string without_blanks(std::string_view drawn) {
   std::string text;
   for (std::size_t at = drawn.find_first_not_of('\f'); at < drawn.size();) {
@@ -115,7 +114,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
                      const TextCanvas& canvas) {
   const Palette& colours = palette(options.palette);
   const bool coloured = canvas.colours != TextColours::none;
-  // Characters are twice as high as wide; with colours, each holds two marks.
+  // Characters are twice as high as wide; coloured ones hold two marks.
   const double ratio = grid.size_y / grid.size_x;
   const int most_rows = std::max(4, canvas.rows - 4) * (coloured ? 2 : 1);
   const double mark_height = coloured ? 1 : 2;  // in widths
@@ -136,8 +135,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
     range = any ? Range{std::min(range.min, value), std::max(range.max, value)} : Range{value, value};
     any = true;
   }
-  if (!any)
-    throw Error(ErrorCode::bad_value, "there is no finite value to show", "look at the values themselves");
+  if (!any) refuse("there is no finite value to show", "print the values instead");
   if (options.range) range = *options.range;
   if (!options.range && colours.none && range.min > 0) range.min = 0;
   const auto share = [&](int column, int row) {  // row 0: lowest
@@ -184,7 +182,7 @@ std::string text_chart(const LineChart& chart, const TextCanvas& canvas, std::ve
   if (lost > 0)
     warnings.push_back(std::to_string(lost) + (lost == 1 ? " point is" : " points are") +
                        " not drawn: not finite, or not above zero on a logarithmic axis");
-  if (xs.empty()) throw Error(ErrorCode::bad_value, "the chart has nothing to draw");
+  if (xs.empty()) refuse("the chart has nothing to draw");
   const AxisLayout x = lay_out(chart.x, xs), y = lay_out(chart.y, ys);
   const char* colours = canvas.colours == TextColours::none      ? "mono"
                         : canvas.colours == TextColours::indexed ? "ansi256"

@@ -21,8 +21,7 @@ struct TextCanvas {
   bool unicode = true;
 };
 
-// From standard output's terminal, TERM, COLORTERM, NO_COLOR and locale; without terminal 80 x 24, no
-// colours.
+// From the terminal, TERM, COLORTERM, NO_COLOR and locale; else 80 x 24, no colours.
 TextCanvas text_canvas();
 
 // `dimension`: of the values. Throws like picture_script for a bad range or palette.

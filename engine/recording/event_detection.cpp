@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spans, events and warnings from marks.
 #include "engine/recording/event_detection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/recording/recording_holes.hpp"
-#include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
 
@@ -39,21 +37,22 @@ class EventMaker {
     warn();
     std::vector<Protocol::Event> events = make_events();
     if (events.empty())
-      marks_.refuse("holds no press: no load stays or peaks above " +
+      marks_.refuse("holds no press: no load holds or peaks at more than " +
                         marks_.quantity(std::max(2 * marks_.drift(), 6 * marks_.effective_noise())) +
-                        " over the reading without load",
-                    "a smaller `zero_drift` finds lighter ones");
+                        " above the reading without load",
+                    "give a smaller `zero_drift` for lighter presses");
     thin();
     auto found = std::make_shared<const Detection>(std::move(found_));
     return Protocol(std::move(events)).detected_in(std::move(found));
   }
 
  private:
-  std::string at(std::size_t first, std::size_t last) const {
-    return recording_.name + " " + lines(first, last);
-  }
   void warn(const std::string& sentence) { monitor_.warn("\"" + recording_.name + "\": " + sentence); }
   static double load_of(const Mark& mark) { return mark.line.y; }
+  std::string lines_of(const Mark& mark) const {
+    return lines(marks_.line(mark.first), marks_.line(mark.last));
+  }
+  static std::string lines_of(const Span& span) { return lines(span.first_line, span.last_line); }
 
   void describe() {
     found_.name = recording_.name;
@@ -70,21 +69,16 @@ class EventMaker {
     const double by_chance = marks_.independent_noise() * std::sqrt(2 * found_.evidence / fewest);
     found_.least_load = std::max(found_.zero_drift, by_chance);
     double lowest = INFINITY;
-    for (const Mark& mark : marks_.marks())
-      if (mark.loaded()) lowest = std::min(lowest, load_of(mark));
-    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest, by_chance);
     for (const Mark& mark : marks_.marks()) {
-      if (mark.loaded()) {
-        found_.highest = std::max(found_.highest, load_of(mark));
-      } else {
-        found_.rested = true;
-      }
+      found_.rested = found_.rested || !mark.loaded();
+      if (!mark.loaded()) continue;
+      lowest = std::min(lowest, load_of(mark));
+      found_.highest = std::max(found_.highest, load_of(mark));
     }
-    found_.zero_low = found_.zero_high = marks_.zeros().front().level;
-    for (const RecordingMarks::Zero& zero : marks_.zeros()) {
-      found_.zero_low = std::min(found_.zero_low, zero.level);
-      found_.zero_high = std::max(found_.zero_high, zero.level);
-    }
+    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest, by_chance);
+    const auto [low, high] = std::ranges::minmax(marks_.zeros(), {}, &RecordingMarks::Zero::level);
+    found_.zero_low = low.level;
+    found_.zero_high = high.level;
   }
 
   std::string place(const RecordedHole& hole) const {
@@ -93,15 +87,19 @@ class EventMaker {
     return "the time between " + lines(recording_.line[before], recording_.line[after], " and ");
   }
 
+  static std::string listed(std::vector<std::string> places, std::string_view last) {
+    constexpr std::size_t enough = 12;
+    const std::size_t more = places.size() > enough ? places.size() - enough : 0;
+    places.resize(places.size() - more);
+    return joined(places, last) + (more > 0 ? " and in " + std::to_string(more) + " more places" : "");
+  }
+
   // A hole may hide any event, except inside one hold or rest.
   void look_at_missing() {
     const auto time = marks_.time();
     const RecordedHoles recorded = recorded_holes(recording_, marks_.row());
-    std::vector<std::string> lost;
-    std::string short_ones;
-    std::size_t short_count = 0;
+    std::vector<std::string> lost, brief;
     bool rows_lost = false;
-    constexpr std::size_t enough = 12;
     const std::vector<Mark>& marks = marks_.marks();
     std::size_t next = 0;
     for (const RecordedHole& hole : recorded.holes) {
@@ -116,33 +114,26 @@ class EventMaker {
       if (within != nullptr) {
         if (span > 20 * marks_.interval() && span > 0.2 * (time[within->last] - time[within->first]))
           warn("no load was recorded for " + seconds(span) + " in " + place(hole) +
-               ", and it is taken to have stayed at " + marks_.quantity(within->line.y));
+               ", and is assumed constant at " + marks_.quantity(within->line.y));
       } else if (hole.missing() <= few) {
-        if (short_count < enough) short_ones += (short_ones.empty() ? "" : ", ") + place(hole);
-        ++short_count;
+        brief.push_back(place(hole));
       } else {
         lost.push_back(place(hole));
         rows_lost = rows_lost || hole.absent > 0;
       }
     }
-    if (!lost.empty()) {
-      const std::size_t more = lost.size() > enough ? lost.size() - enough : 0;
-      lost.resize(lost.size() - more);
-      marks_.refuse("lacks the load in " + joined(lost, " and ") +
-                        (more > 0 ? " and in " + std::to_string(more) + " more places" : "") +
-                        ", where it neither was held nor rested: what was done there is not recorded",
-                    std::string("fill the ") + (rows_lost ? "rows" : "cells") +
-                        " in by hand, or cut the recording there");
-    }
-    if (!short_ones.empty())
-      warn("the load is missing while it changes, in " + short_ones +
-           (short_count > enough ? " and in " + std::to_string(short_count - enough) + " more places" : "") +
-           "; it is taken to have changed steadily");
+    if (!lost.empty())
+      marks_.refuse(
+          "lacks the load in " + listed(lost, " and ") + " while it changes, so the events there are unknown",
+          std::string("fill the ") + (rows_lost ? "rows" : "cells") +
+              " in by hand, or cut the recording there");
+    if (!brief.empty())
+      warn("the load is missing while it changes, in " + listed(brief, ", ") +
+           "; a steady change is assumed");
     constexpr double uneven = 5;
     if (recorded.long_step > uneven * recorded.median_step)
-      warn("one step of time in twenty is " + seconds(recorded.long_step) + " or longer, where half are " +
-           seconds(recorded.median_step) + " or shorter: it is taken to be sampled so, and what was done " +
-           "within such a step is not seen");
+      warn("one time step in twenty is " + seconds(recorded.long_step) + " or longer, and half are " +
+           seconds(recorded.median_step) + " or shorter: events within a long step are not found");
   }
 
   // --- spans
@@ -205,34 +196,21 @@ class EventMaker {
     const double instant = marks_.interval() / 100;
     const auto push = [&](Protocol::Step step, double time, const Span& span) {
       last = std::max(last, rounded(time, instant));
-      events.push_back({std::move(step), last, at(span.first_line, span.last_line)});
+      events.push_back({std::move(step), last, recording_.name + " " + lines_of(span)});
     };
     for (const Span& span : found_.spans) {
-      switch (span.kind) {
-        case Span::Kind::hold:
-        case Span::Kind::peak: {
-          if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore &&
-              !is_pulse(span))
-            break;
-          // Never so coarse that the load rounds to zero.
-          const double error = std::min(std::max(0.1 * span.load_error, 1e-9 * found_.highest), span.load);
-          push(
-              PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
-              span.begin, span);
-          under_load = true;
-          break;
-        }
-        case Span::Kind::release:
-          if (under_load) push(Protocol::Release{}, span.begin, span);
-          under_load = false;
-          break;
-        case Span::Kind::turn:
-          push(Protocol::Rotate{span.angle}, span.begin, span);
-          break;
-        case Span::Kind::rest:
-        case Span::Kind::rise:
-        case Span::Kind::fall:
-          break;
+      const bool peak = span.kind == Span::Kind::peak;
+      if (span.kind == Span::Kind::hold || (peak && !is_ignored(span))) {
+        // A load must not round to zero.
+        const double error = std::min(std::max(0.1 * span.load_error, 1e-9 * found_.highest), span.load);
+        push(PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
+             span.begin, span);
+        under_load = true;
+      } else if (span.kind == Span::Kind::release) {
+        if (under_load) push(Protocol::Release{}, span.begin, span);
+        under_load = false;
+      } else if (span.kind == Span::Kind::turn) {
+        push(Protocol::Rotate{span.angle}, span.begin, span);
       }
     }
     return events;
@@ -243,6 +221,9 @@ class EventMaker {
       return mark.kind == Mark::Kind::peak && mark.pulse && mark.begin == span.begin;
     });
   }
+  bool is_ignored(const Span& peak) const {
+    return options_.overshoot == DetectionOptions::Overshoot::ignore && !is_pulse(peak);
+  }
 
   // --- warnings
 
@@ -250,38 +231,34 @@ class EventMaker {
     const std::vector<Mark>& marks = marks_.marks();
     if (found_.highest > 0 && found_.least_load > 0.1 * found_.highest)
       warn("a reading scatters by " + marks_.quantity(found_.noise) + ", " +
-           marks_.share(found_.noise / found_.highest) + " of the highest load: a hold of " +
-           seconds(found_.shortest_hold) + " below " + marks_.quantity(found_.least_load) +
-           " would not be told from it");
+           marks_.share(found_.noise / found_.highest) + " of the highest load: noise hides a hold of " +
+           seconds(found_.shortest_hold) + " below " + marks_.quantity(found_.least_load));
     if (!marks.empty() && marks.back().loaded())
       warn("it ends under load, in line " + std::to_string(marks_.line(marks.back().last)) +
            ": the last dwell goes to the last sample, and no release follows");
     if (!marks.empty() && marks.front().loaded())
       warn("it begins under load: the first dwell is counted from the first sample");
     if (!found_.rested && !options_.zero)
-      warn("it never comes to rest without load, so the sensor is taken to read zero there");
+      warn("it has no rest without load: the zero is assumed to be 0; give `zero` if this is wrong");
     std::size_t told = 0, n = 0;
     for (const Span& span : found_.spans) {
       if (span.kind == Span::Kind::peak && is_pulse(span)) {
         if (++n <= 5)
-          warn("the load in " + lines(span.first_line, span.last_line) + " is not held: its peak of " +
-               marks_.quantity(span.load) + " is taken for a press, with the " +
-               seconds(span.end - span.begin) + " above half of it for dwell");
-      } else if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore) {
-        warn("an overshoot to " + marks_.quantity(span.load) + " in " +
-             lines(span.first_line, span.last_line) + " is left out, as `overshoot` asks");
+          warn("the load in " + lines_of(span) + " is not held: its peak of " + marks_.quantity(span.load) +
+               " is read as a press, and the " + seconds(span.end - span.begin) +
+               " above half of it as dwell");
+      } else if (span.kind == Span::Kind::peak && is_ignored(span)) {
+        warn("an overshoot to " + marks_.quantity(span.load) + " in " + lines_of(span) +
+             " is left out, by `overshoot`");
       } else if (span.kind == Span::Kind::hold) {
         const double dwell = span.end - span.begin;
         if (3 * span.dwell_error > std::max(2 * found_.interval, 0.05 * dwell) && ++told <= 5)
           warn("the dwell of " + seconds(dwell) + " at " + marks_.quantity(span.load) + " in " +
-               lines(span.first_line, span.last_line) + " is known to +-" + seconds(2 * span.dwell_error) +
-               " only");
+               lines_of(span) + " is known to +-" + seconds(2 * span.dwell_error) + " only");
         if (span.load < 0.05 * found_.highest && found_.rested && !options_.zero)
-          warn("the reading in " + lines(span.first_line, span.last_line) + " lies " +
-               marks_.quantity(span.load) + " above the zero before it, " +
-               marks_.share(span.load / found_.highest) +
-               " of the highest load, and is taken for a hold; if it is the zero that drifts, give a greater "
-               "`zero_drift`");
+          warn("the reading in " + lines_of(span) + " is " + marks_.quantity(span.load) +
+               " above the zero before it, " + marks_.share(span.load / found_.highest) +
+               " of the highest load, and is read as a hold; give a greater `zero_drift` if the zero drifts");
       }
     }
     if (n > 5) warn("and " + std::to_string(n - 5) + " more loads are not held");
@@ -289,9 +266,8 @@ class EventMaker {
     std::size_t doubts = 0;
     for (const Mark& mark : marks_.doubtful())
       if (++doubts <= 5)
-        warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) +
-             " may have stayed at " + marks_.quantity(load_of(mark)) +
-             " for a moment; the noise does not tell, and it is left out");
+        warn("the load in " + lines_of(mark) + " may have stayed at " + marks_.quantity(load_of(mark)) +
+             " for a moment; the noise hides it, and it is left out");
     if (doubts > 5) warn("and " + std::to_string(doubts - 5) + " more such moments are left out");
     warn_of_scatter();
     warn_of_limit();
@@ -315,8 +291,8 @@ class EventMaker {
     if (more > 0) runs.push_back(std::to_string(more) + " more");
     const bool one = stray.size() == 1;
     warn(std::to_string(stray.size()) + (one ? " stray reading is" : " stray readings are") +
-         " left out, in " + (one ? "line " : "lines ") + joined(runs, " and ") + ": the readings around " +
-         (one ? "it lie on a line that it" : "them lie on lines that they") + (one ? " leaves" : " leave"));
+         " left out, in " + (one ? "line " : "lines ") + joined(runs, " and ") +
+         (one ? ": it is" : ": they are") + " off the line of the readings around");
   }
 
   // A sensor at its limit repeats one reading.
@@ -337,13 +313,13 @@ class EventMaker {
       if (equal < fewest ||
           static_cast<double>(equal) < most_of_it * static_cast<double>(mark.last - mark.first + 1))
         continue;
-      if (++count == 1) where = lines(marks_.line(mark.first), marks_.line(mark.last));
+      if (++count == 1) where = lines_of(mark);
     }
     if (count > 0)
       warn("the load stays at its greatest reading, " + marks_.quantity(top) + ", to the last digit in " +
            where + (count > 1 ? " and in " + std::to_string(count - 1) + " more holds" : "") +
            ", while readings scatter by " + marks_.quantity(marks_.noise()) +
-           " elsewhere: so reads a sensor at its limit, and the load may have been higher");
+           " elsewhere: the sensor may be at its limit, and the load higher");
   }
 
   // Correlated noise or a wandering load.
@@ -352,9 +328,9 @@ class EventMaker {
       if (mark.kind != Mark::Kind::hold) continue;
       const double scatter = std::sqrt(mark.line.misfit() / mark.line.n);
       if (scatter < 3 * marks_.effective_noise() || scatter < 0.01 * load_of(mark)) continue;
-      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " scatters by " +
-           marks_.quantity(scatter) + ", from sample to sample by " + marks_.quantity(marks_.noise()) +
-           " only: it wanders, and its mean is known the worse; give the former as `noise` if it is noise");
+      warn("the load in " + lines_of(mark) + " scatters by " + marks_.quantity(scatter) +
+           ", from sample to sample by " + marks_.quantity(marks_.noise()) +
+           " only: it drifts, and its mean is less certain; give the first value as `noise` if it is noise");
       return;
     }
   }
@@ -396,23 +372,9 @@ Protocol detect_events(const PressRecording& recording, const DetectionOptions& 
 // --- text
 
 std::string_view name(RecordedSpan::Kind kind) {
-  switch (kind) {
-    case RecordedSpan::Kind::rest:
-      return "rest";
-    case RecordedSpan::Kind::rise:
-      return "rise";
-    case RecordedSpan::Kind::hold:
-      return "hold";
-    case RecordedSpan::Kind::peak:
-      return "peak";
-    case RecordedSpan::Kind::fall:
-      return "fall";
-    case RecordedSpan::Kind::release:
-      return "release";
-    case RecordedSpan::Kind::turn:
-      break;
-  }
-  return "turn";
+  constexpr std::array<std::string_view, 7> names = {"rest", "rise",    "hold", "peak",
+                                                     "fall", "release", "turn"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 std::string Detection::text() const {
@@ -432,18 +394,13 @@ std::string Detection::text() const {
          " and more above " + quantity(least_load);
   all += "\n  one hold       are loads next to each other within " + quantity(least_step) + " or so";
   all += "\n  cut            where it saves " + format_short(evidence, 3) + " squares of the noise";
-  std::size_t holds = 0, peaks = 0, releases = 0, turns = 0;
-  for (const RecordedSpan& span : spans) {
-    holds += span.kind == RecordedSpan::Kind::hold ? 1 : 0;
-    peaks += span.kind == RecordedSpan::Kind::peak ? 1 : 0;
-    releases += span.kind == RecordedSpan::Kind::release ? 1 : 0;
-    turns += span.kind == RecordedSpan::Kind::turn ? 1 : 0;
-  }
-  const auto count = [](std::size_t n, const char* what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  const auto count = [&](RecordedSpan::Kind kind) {
+    const auto n = std::ranges::count(spans, kind, &RecordedSpan::kind);
+    return std::to_string(n) + " " + std::string(asperity::name(kind)) + (n == 1 ? "" : "s");
   };
-  return all + "\n  found          " + count(holds, "hold") + ", " + count(peaks, "peak") + ", " +
-         count(releases, "release") + ", " + count(turns, "turn");
+  using Kind = RecordedSpan::Kind;
+  return all + "\n  found          " + count(Kind::hold) + ", " + count(Kind::peak) + ", " +
+         count(Kind::release) + ", " + count(Kind::turn);
 }
 
 }  // namespace asperity

@@ -1,49 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds the events in a recording of a press (press_recording.hpp): rests, rises, holds, peaks, releases,
-// turns.
+// Finds the events in a recording of a press: rests, rises, holds, peaks, releases, turns.
 //
-// The noise is the median magnitude of second differences over 0.6745, unaffected by ramps and a few jumps;
-// the greater value of above and below half of the highest load. Correlated readings: recording_marks.cpp.
-// The recording is cut into straight pieces (straight_pieces.hpp). Level pieces, merged with equal
-// neighbours, are rests within `zero_drift` of the last rest, which follows the sensor's zero; other levels
-// are holds, which end where adjacent pieces meet the level. A rise above the holds on both sides is a peak,
-// hence a press, because flattening depends on the highest load; its dwell is the time above half height.
+// The noise is the median magnitude of second differences over 0.6745, the greater value of above and below
+// half of the highest load. Level pieces (recording_marks.hpp), merged with equal neighbours, are rests
+// within `zero_drift` of the last rest, which follows the sensor's zero. Other levels are holds, which end
+// where adjacent pieces meet the level. A rise above the holds on both sides is a peak, hence a press,
+// because flattening depends on the highest load; its dwell is the time above half height.
 //
 // Ramps are assumed straight near holds. Adjacent loads within `same_load` are one hold; a hold below
 // `zero_drift` of the highest load is a rest.
 #pragma once
 
-#include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/memory.hpp"
-#include "engine/core/monitor.hpp"
-#include "engine/recording/press_recording.hpp"
+#include "engine/recording/recording_marks.hpp"
 #include "engine/specimen/protocol.hpp"
 
 namespace asperity {
-
-struct DetectionOptions {
-  enum class Overshoot { press, ignore };
-  std::optional<double> noise{};          // N or Pa, standard deviation of a sample
-  std::optional<double> zero{};           // N or Pa, constant reading without load
-  double zero_drift = 0.01;               // share of the highest load
-  double same_load = 0.02;                // share of the load
-  std::optional<double> shortest_hold{};  // s; else four usual steps of time
-  std::optional<double> evidence{};       // squares of the noise saved by a cut; else 10 + 4 ln samples
-  Overshoot overshoot = Overshoot::press;
-  double least_overshoot = 0.01;                     // share of the adjacent load; and six times the noise
-  double least_turn = 0.5 * std::numbers::pi / 180;  // rad
-  std::optional<double> turn_step{};                 // rad; unit of turns
-};
 
 struct RecordedSpan {
   enum class Kind { rest, rise, hold, peak, fall, release, turn };
   Kind kind = Kind::rest;
   double begin = 0, end = 0;  // s
-  double load = 0;            // N or Pa above zero: of a hold or peak, or after a rise or fall
+  double load = 0;            // N or Pa above zero, of or after the span
   double load_error = 0;      // standard error, from the noise
   double dwell_error = 0;     // s, of end - begin
   double angle = 0;           // rad, of a turn
@@ -54,7 +34,7 @@ std::string_view name(RecordedSpan::Kind kind);
 struct Detection {
   std::string name;
   PressBy by = PressBy::load;
-  std::size_t samples = 0, missing = 0;                    // missing: rows without a load
+  std::size_t samples = 0, missing = 0;                    // missing: without a load
   std::size_t absent = 0;                                  // estimated, in gaps of time
   double interval = 0;                                     // s, the median
   double noise = 0;                                        // N or Pa
@@ -62,8 +42,8 @@ struct Detection {
   double zero_low = 0, zero_high = 0;                      // readings without load
   bool rested = false;                                     // whether there were any
   double zero_drift = 0, shortest_hold = 0, evidence = 0;  // in N or Pa, s, squares of the noise
-  double least_load = 0;                                   // a shortest hold below this load may be missed
-  double least_step = 0;                                   // a smaller step to a shortest hold may be missed
+  double least_load = 0;                                   // shorter holds below may be missed
+  double least_step = 0;                                   // smaller steps may be missed
   std::vector<RecordedSpan> spans;
   // Thinned for a chart: load above zero.
   Array<double> time, load;
@@ -71,8 +51,8 @@ struct Detection {
   std::string text() const;
 };
 
-// With times and lines. Throws Error{bad_file}: no load above the noise, fewer than ten samples, loads or
-// rows missing outside a hold or rest, a turn under load or not a multiple of `turn_step`.
+// Throws Error{bad_file}: no load above the noise, fewer than ten samples, loads or rows missing outside a
+// hold or rest, a turn under load or not a multiple of `turn_step`.
 Protocol detect_events(const PressRecording& recording, const DetectionOptions& options = {},
                        Monitor& monitor = Monitor::silent());
 

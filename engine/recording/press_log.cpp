@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers are read with their unit: "152.78" under "[MPa]" has the bits of "152.78 MPa" in a script.
+// "152.78" under "[MPa]" has the bits of "152.78 MPa" in a script.
 #include "engine/recording/press_log.hpp"
 
 #include <array>
@@ -38,7 +38,8 @@ class LogReader {
     table_.read_titles();
     check_columns();
     table_.fail_if_any();
-    table_.read_rows(monitor_, [this](const std::vector<LogCell>& cells) { read_row(cells); });
+    table_.read_rows(monitor_, [this](const std::vector<TableCell>& cells) { return read_row(cells), true; });
+    table_.fail_if_any();
     if (events_.empty()) refuse_file(file_, "names columns but holds no row", "a row is an event");
     warn_if_sampled();
     warn_of_cells();
@@ -51,7 +52,7 @@ class LogReader {
     if (table_.problems() == 0) table_.warn_of_others(monitor_);
   }
 
-  void read_row(const std::vector<LogCell>& cells) {
+  void read_row(const std::vector<TableCell>& cells) {
     std::array<std::optional<double>, meanings> row;
     const std::size_t before = table_.problems();
     for (std::size_t k = 0; k < table_.columns(); ++k)
@@ -61,18 +62,19 @@ class LogReader {
     if (table_.problems() == before) add_events(row);
   }
 
-  std::optional<double> checked(std::size_t k, const LogCell& cell) {
-    const std::optional<double> value = table_.quantity(k, cell);
-    if (!value) return {};
+  std::optional<double> checked(std::size_t k, const TableCell& cell) {
+    const auto [kind, value, complaint, warning] = table_.read(k, cell, true);
     const int meaning = table_.column(k)->meaning;
     constexpr double most = 9007199254740992.0;
-    if (meaning == place && !(*value >= 0 && *value <= most && *value == std::floor(*value)))
-      return table_.problem(table_.here(k),
-                            shown(cell.text) + " is no seed; give a whole number from zero up"),
-             std::nullopt;
-    if (*value < 0 && meaning != time && meaning != rotation)
-      return table_.problem(table_.here(k), shown(cell.text) + " is negative"), std::nullopt;
-    return value;
+    const char* wrong = nullptr;
+    if (kind == CellKind::hole && !cell.text.empty()) wrong = " is no number";
+    if (kind == CellKind::number && meaning == place &&
+        !(value >= 0 && value <= most && value == std::floor(value)))
+      wrong = " is no seed; give a whole number from zero up";
+    else if (kind == CellKind::number && value < 0 && meaning != time && meaning != rotation)
+      wrong = " is negative";
+    if (wrong != nullptr) table_.problem(table_.here(k), shown(cell.text) + wrong);
+    return kind == CellKind::number && wrong == nullptr ? std::optional(value) : std::nullopt;
   }
 
   void check_time(const std::optional<double>& now, bool row_is_good) {
@@ -81,9 +83,9 @@ class LogReader {
     if (!now) {
       if (row_is_good) table_.problem(table_.here(*column), "the time is missing");
     } else if (last_time_ && *now < *last_time_) {
-      table_.problem(table_.here(*column), "the time " + format_short(*now) +
-                                               " s runs backwards: " + format_short(*last_time_) +
-                                               " s stands before it" + past_midnight(*last_time_ - *now));
+      table_.problem(table_.here(*column), "the time " + format_short(*now) + " s runs backwards, after " +
+                                               format_short(*last_time_) + " s" +
+                                               past_midnight(*last_time_ - *now));
     } else {
       last_time_ = now;
     }
@@ -130,7 +132,7 @@ class LogReader {
     if (now && held_.begun && held_.dwell && *held_.begun + (1 - rounded_by) * *held_.dwell > *now &&
         ++long_dwells_ == 1)
       first_long_dwell_ = "the dwell of " + format_quantity(*held_.dwell, dimension::time) + " in " +
-                          held_.line + " goes on after " + table_.here() + ", which begins " +
+                          held_.line + " ends after the start of " + table_.here() + ", " +
                           format_quantity(*now - *held_.begun, dimension::time) + " later";
     held_ = {};
   }
@@ -143,10 +145,9 @@ class LogReader {
     if (empty_loads_ > 0)
       monitor_.warn(file + "the cell of the " + (table_.has(load) ? "load" : "pressure") + " is empty in " +
                     first_empty_load_ + more(empty_loads_) +
-                    ": it is taken for zero, which takes the load off; write 0 to say so");
+                    ": it is read as 0, a release; write 0 to confirm");
     if (long_dwells_ > 0)
-      monitor_.warn(file + first_long_dwell_ + more(long_dwells_) +
-                    ": times are kept, and nothing waits for them");
+      monitor_.warn(file + first_long_dwell_ + more(long_dwells_) + ": both are kept as written");
     for (const std::string& warning : table_.warnings()) monitor_.warn(warning);
   }
 
@@ -155,8 +156,7 @@ class LogReader {
     if (rows_ >= many && rows_with_more_ == 0)
       monitor_.warn(
           file_name(file_.path()) + " has " + std::to_string(rows_) +
-          " rows and neither dwell nor turn: each is taken for an event, so a recording sampled "
-          "all the time becomes as many presses" +
+          " rows without dwell or turn, and each is read as an event" +
           (table_.find(time) ? "" : "; a recording needs a column of times: columns={ time=\"its head\" }"));
   }
 
@@ -178,10 +178,6 @@ class LogReader {
 };
 
 }  // namespace
-
-Protocol read_press_log(const std::string& path, Monitor& monitor) {
-  return read_press_log(SourceFile(path, monitor), monitor);
-}
 
 Protocol read_press_log(const SourceFile& file, Monitor& monitor, const TableForm& form) {
   return LogReader(file, monitor, form).read();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing of press logs: rows that read back as the events, and numbers in the first unit with short exact
-// texts.
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/press_log.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity {
 
@@ -20,8 +20,8 @@ struct Row {
   bool empty() const { return !place && !rotation && !load; }
 };
 
-[[noreturn]] void refuse(std::size_t k, const Protocol::Step& step, const std::string& reason,
-                         const std::string& hint = {}) {
+[[noreturn]] void refuse_event(std::size_t k, const Protocol::Step& step, const std::string& reason,
+                               const std::string& hint = {}) {
   throw Error(ErrorCode::bad_value,
               "a press log cannot hold event " + std::to_string(k + 1) + ", " + text(step) + ": " + reason,
               hint);
@@ -59,25 +59,24 @@ class Gatherer {
     const Protocol::Event& event = events_[k];
     if (const auto* press = std::get_if<PressRequest>(&event.step)) {
       if (press->by != PressBy::pressure && press->by != PressBy::load)
-        refuse(k, event.step, "it presses to a pressure or a load only");
+        refuse_event(k, event.step, "a log presses to a pressure or a load only");
       if (by && *by != press->by)
-        refuse(k, event.step,
-               "it has a column of pressures or one of loads, and events before give the other");
+        refuse_event(k, event.step, "a log has pressures or loads, and the events before give the other");
       if (press->value < 0 || !press->preload.empty())
-        refuse(k, event.step, "a log holds neither pulls nor preloads");
-      if (!(press->value > 0)) refuse(k, event.step, "zero stands for a release there", "use a release");
+        refuse_event(k, event.step, "a log holds neither pulls nor preloads");
+      if (!(press->value > 0)) refuse_event(k, event.step, "a log reads zero as a release", "use a release");
       by = press->by;
       begin(event);
       row_.dwell = press->dwell;
       row_.press = k;
       finish(press->value);
     } else if (const auto* place = std::get_if<Protocol::Place>(&event.step)) {
-      if (place->seed > (std::uint64_t{1} << 53)) refuse(k, event.step, "its seed is above 2^53");
+      if (place->seed > (std::uint64_t{1} << 53)) refuse_event(k, event.step, "its seed is above 2^53");
       if (!row_.empty()) finish(0);
       begin(event);
       row_.place = static_cast<double>(place->seed);
     } else if (const auto* rotate = std::get_if<Protocol::Rotate>(&event.step)) {
-      if (rotate->angle == 0) refuse(k, event.step, "a turn by nothing stands for none there");
+      if (rotate->angle == 0) refuse_event(k, event.step, "a log has no turn by zero");
       if (row_.rotation) finish(0);
       begin(event);
       row_.rotation = rotate->angle;
@@ -87,7 +86,7 @@ class Gatherer {
       begin(event);
       finish(0);
     } else {
-      refuse(k, event.step, "it has no column for one");
+      refuse_event(k, event.step, "a log has no column for it");
     }
   }
 
@@ -114,37 +113,26 @@ std::string exact_text(double value, const std::string& unit, Dimension dimensio
   return {};
 }
 
-struct TextColumn {
-  std::string title;
-  std::vector<std::string> cells;
-};
-
 using Member = std::optional<double> Row::*;
+using TextColumn = std::vector<std::string>;  // title, then cells
 
 TextColumn column_of(const std::vector<Row>& rows, Member member, const std::string& name,
                      Dimension dimension, std::initializer_list<std::string> units) {
-  TextColumn column;
   for (const std::string& unit : units) {
-    column = {name + " [" + unit + "]", {}};
+    TextColumn column{name + " [" + unit + "]"};
     bool exact = true;
     for (const Row& row : rows) {
       const std::optional<double>& value = row.*member;
-      column.cells.push_back(value ? exact_text(*value, unit, dimension) : "");
-      exact = exact && (!value || !column.cells.back().empty());
+      column.push_back(value ? exact_text(*value, unit, dimension) : "");
+      exact = exact && (!value || !column.back().empty());
     }
     if (exact) return column;
   }
   throw Error(ErrorCode::internal, "a number of the column " + quoted(name) + " has no exact text");
 }
 
-// So many rows look like a recording without a column of dwells.
+// More rows look like a recording unless a column has dwells.
 constexpr std::size_t rows_of_a_recording = 100;
-
-bool any(const std::vector<Row>& rows, Member member) {
-  for (const Row& row : rows)
-    if (row.*member) return true;
-  return false;
-}
 
 }  // namespace
 
@@ -152,36 +140,72 @@ std::string press_log_text(const Protocol& protocol, std::span<const ResultColum
   const Gatherer gathered(protocol);
   const std::vector<Row>& rows = gathered.rows;
   std::vector<TextColumn> columns;
+  const auto any = [&](Member member) {
+    return std::ranges::any_of(rows, [member](const Row& row) { return (row.*member).has_value(); });
+  };
+  const auto add = [&](const std::string& title, const auto& value_in) {
+    columns.push_back({title});
+    for (const Row& row : rows) {
+      const std::optional<double> value = value_in(row);
+      columns.back().push_back(value ? format_exact(*value) : "");
+    }
+  };
   if (gathered.timed) columns.push_back(column_of(rows, &Row::time, "time", dimension::time, {"s"}));
-  if (any(rows, &Row::place)) {
-    columns.push_back({"place", {}});
-    for (const Row& row : rows) columns.back().cells.push_back(row.place ? format_exact(*row.place) : "");
-  }
-  if (any(rows, &Row::rotation))
+  if (any(&Row::place)) add("place", [](const Row& row) { return row.place; });
+  if (any(&Row::rotation))
     columns.push_back(column_of(rows, &Row::rotation, "rotation", dimension::angle, {"deg", "rad"}));
   if (gathered.by == PressBy::load)
     columns.push_back(column_of(rows, &Row::load, "load", dimension::force, {"N"}));
   else
     columns.push_back(column_of(rows, &Row::load, "pressure", dimension::pressure, {"MPa", "Pa"}));
-  if (any(rows, &Row::dwell) || (gathered.timed && rows.size() >= rows_of_a_recording))
+  if (any(&Row::dwell) || (gathered.timed && rows.size() >= rows_of_a_recording))
     columns.push_back(column_of(rows, &Row::dwell, "dwell", dimension::time, {"min", "s"}));
-  for (const ResultColumn& result : results) {
-    columns.push_back({"result " + result.title, {}});
-    for (const Row& row : rows) {
-      const std::optional<double> value = row.press ? result.values[*row.press] : std::nullopt;
-      columns.back().cells.push_back(value ? format_exact(*value) : "");
-    }
-  }
+  for (const ResultColumn& result : results)
+    add("result " + result.title,
+        [&](const Row& row) { return row.press ? result.values[*row.press] : std::nullopt; });
 
   std::string text;
-  const auto line = [&](const auto& cell) {
-    for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : ", ") + cell(columns[c]);
-    text += '\n';
-  };
-  line([](const TextColumn& column) { return column.title; });
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    line([r](const TextColumn& column) { return column.cells[r]; });
+  for (std::size_t line = 0; line <= rows.size(); ++line)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      text += columns[c][line] + (c + 1 < columns.size() ? ", " : "\n");
   return text;
+}
+
+std::string bench_log_text(const SpecimenPair& pair) {
+  using Done = SpecimenPair::Done;
+  const std::vector<Done>& history = pair.history();
+  if (history.empty())
+    throw Error(ErrorCode::bad_state, "nothing was done to this contact yet, so there is nothing to log",
+                "press it first");
+  const auto only = [&](PressBy by) {
+    return std::ranges::all_of(history, [by](const Done& done) {
+      const auto* press = std::get_if<PressRequest>(&done.step);
+      return press == nullptr || press->by == by || press->value == 0;
+    });
+  };
+  const bool by_load = only(PressBy::load), as_asked = by_load || only(PressBy::pressure);
+  std::vector<ResultColumn> results = {{by_load ? "pressure [Pa]" : "load [N]", {}},
+                                       {"approach [m]", {}},
+                                       {"area_fraction", {}},
+                                       {"peak_pressure [Pa]", {}}};
+  std::vector<Protocol::Event> events;
+  for (const Done& done : history) {
+    Protocol::Event event{done.step, done.time};
+    std::vector<std::optional<double>> values(results.size());
+    if (auto* press = std::get_if<PressRequest>(&event.step)) {
+      if (press->value == 0 && press->preload.empty()) {
+        event.step = Protocol::Release{};
+      } else if (!as_asked) {
+        press->by = PressBy::pressure;
+        press->value = done.measured->pressure;
+      }
+      const Done::Measured& m = *done.measured;
+      values = {by_load ? m.pressure : m.load, m.approach, m.area_fraction, m.peak_pressure};
+    }
+    events.push_back(std::move(event));
+    for (std::size_t c = 0; c < results.size(); ++c) results[c].values.push_back(values[c]);
+  }
+  return press_log_text(Protocol(std::move(events)), results);
 }
 
 }  // namespace asperity

@@ -16,7 +16,6 @@ namespace asperity {
 
 namespace {
 
-// The last three belong to press logs.
 enum RecordedMeaning { at_time, of_load, of_pressure, of_angle, of_dwell, of_place, of_turn };
 constexpr std::array<LogColumn, 9> recording_columns{
     {{"time", at_time, dimension::time, "time [s]"},
@@ -50,7 +49,8 @@ class RecordingReader {
     recording_.load.reserve(rows);
     recording_.line.reserve(rows);
     if (angle_) recording_.angle.reserve(rows);
-    table_.read_rows(monitor_, [this](const std::vector<LogCell>& cells) { read_row(cells); });
+    table_.read_rows(monitor_, [this](const std::vector<TableCell>& cells) { return read_row(cells), true; });
+    table_.fail_if_any();
     if (recording_.time.empty()) refuse_file(file_, "names columns but holds no row", "a row is a sample");
     for (const std::string& warning : table_.warnings()) monitor_.warn(warning);
     spread_equal_times();
@@ -61,14 +61,14 @@ class RecordingReader {
   void check_columns() {
     const std::string others = table_.others();
     if (!table_.has(at_time))
-      table_.problem(table_.here(), "no column `time`, without which no event is found" +
+      table_.problem(table_.here(), "no column `time`, and events need one" +
                                         (others.empty() ? std::string() : ", among others: " + others) +
                                         "; write \"time [s]\"");
     table_.require_one_of(of_pressure, of_load);
     for (const RecordedMeaning meaning : {of_dwell, of_place, of_turn})
       if (const auto k = table_.find(meaning))
         table_.problem(table_.here(*k),
-                       "a recording has none: dwells and turns are found in it; read the table "
+                       "a recording has no such column: its dwells and turns are detected; read the table "
                        "with events=\"rows\", or leave the column out");
     if (table_.problems() > 0) return;
     table_.warn_of_others(monitor_);
@@ -78,34 +78,22 @@ class RecordingReader {
     angle_ = table_.find(of_angle);
   }
 
-  double value(std::size_t k, const LogCell& cell) {
-    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-    const TextCell number = table_.number(k, cell);
-    if (number.kind == CellKind::hole) return missing;
-    if (number.kind == CellKind::number) return number.value;
-    table_.problem(table_.here(k), table_.complaint(k, cell));
-    return missing;
-  }
-
-  void read_row(const std::vector<LogCell>& cells) {
-    const double now = value(time_, cells[time_]);
-    const double load = value(load_, cells[load_]);
+  void read_row(const std::vector<TableCell>& cells) {
+    const auto reading = table_.read(time_, cells[time_], false);
+    const double now = reading.value, load = value(load_, cells[load_]);
     const double angle = angle_ ? value(*angle_, cells[*angle_]) : 0;
-    if (std::isnan(now)) {
-      if (table_.number(time_, cells[time_]).kind == CellKind::hole)
-        table_.problem(table_.here(time_), "the time is missing");
-      return;
-    }
+    if (reading.kind == CellKind::hole) table_.problem(table_.here(time_), "the time is missing");
+    if (reading.kind != CellKind::number) return;
     const bool again = !recording_.time.empty() && now == last_time_ && equal_times_ == EqualTimes::spread;
     if (!recording_.time.empty() && !(now > last_time_) && !again) {
       const double last = last_time_;
-      table_.problem(table_.here(time_),
-                     "the time " + format_short(now, 10) + " s " +
-                         (now == last ? "stands in line " + std::to_string(recording_.line.back()) +
-                                            " too; write more of its digits, or have such rows spread by "
-                                            "equal_times=\"spread\""
-                                      : "runs backwards: " + format_short(last, 10) + " s stands before it" +
-                                            past_midnight(last - now)));
+      table_.problem(
+          table_.here(time_),
+          "the time " + format_short(now, 10) + " s " +
+              (now == last
+                   ? "is in line " + std::to_string(recording_.line.back()) +
+                         " too; write more of its digits, or spread such rows by equal_times=\"spread\""
+                   : "runs backwards, after " + format_short(last, 10) + " s" + past_midnight(last - now)));
       return;
     }
     if (again) ++equal_rows_;
@@ -115,6 +103,8 @@ class RecordingReader {
     if (angle_) recording_.angle.push_back(angle);
     recording_.line.push_back(static_cast<std::uint32_t>(table_.line()));
   }
+
+  double value(std::size_t k, const TableCell& cell) { return table_.read(k, cell, false).value; }
 
   void spread_equal_times() {
     if (equal_rows_ == 0) return;
@@ -156,21 +146,21 @@ PressRecording read_press_recording(const SourceFile& file, Monitor& monitor, co
 bool looks_like_recording(const SourceFile& file, const TableForm& form) {
   constexpr std::size_t many = 100;
   try {
-    // A rotation other than zero counts as a turn.
     LogTable table(file, recording_columns, form);
     table.read_titles();
-    // The reader reports an unreadable unit.
+    // The reader reports unreadable units.
     if (!table.has(at_time) || tells_of_events(table)) return false;
     if (table.has(of_load) == table.has(of_pressure)) return false;
     const std::optional<std::size_t> angle = table.find(of_angle);
     const bool rotation = angle && table.column(*angle)->name == "rotation";
     std::size_t rows = 0;
-    for (std::vector<LogCell> cells; table.next_row(cells); ++rows) {
-      if (!rotation && rows >= many) return true;
-      if (!rotation) continue;
-      const TextCell turned = table.number(*angle, cells[*angle]);
-      if (turned.kind == CellKind::number && turned.value != 0) return false;
-    }
+    bool turns = false;
+    table.read_rows(Monitor::silent(), [&](const std::vector<TableCell>& cells) {
+      ++rows;
+      turns = rotation && table.read(*angle, cells[*angle], false).value != 0;
+      return !turns && (rotation || rows < many);
+    });
+    if (turns) return false;
     return rows >= many;
   } catch (const Error&) {
     return false;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings of a press: load, and perhaps the body's angle, as a logger samples them.
+// Recordings of a press by a logger.
 //
-//   time [s], load [kN], angle [deg]
-//   0.00,     0.012,     0.1
-//   0.11,     0.009,     0.1
+// time [s], load [kN], angle [deg]
+// 0.00,     0.012,     0.1
+// 0.11,     0.009,     0.1
 //
 // Columns: time; load or pressure; angle (or rotation), a reading of the stage and not a turn. Titles, units
 // and separators as in log_table.hpp.
@@ -22,7 +22,7 @@ namespace asperity {
 class SourceFile;
 
 struct PressRecording {
-  std::string name;            // of the file, without folders
+  std::string name;            // without folders
   PressBy by = PressBy::load;  // or pressure
   Array<double> time;          // s, strictly increasing
   Array<double> load;          // N or Pa, NaN where missing; may be negative

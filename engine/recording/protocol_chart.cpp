@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 
@@ -42,11 +42,9 @@ class Clock {
       if (press == nullptr) continue;
       const bool plain = press->by == PressBy::load || press->by == PressBy::pressure;
       if (!plain || (by && *by != press->by))
-        throw Error(ErrorCode::bad_value,
-                    "a chart has one axis of loads, and this protocol presses by " +
-                        std::string(name(press->by)) +
-                        (by && *by != press->by ? " and by " + std::string(name(*by)) : ""),
-                    "give all presses by `pressure`, or all by `load`");
+        refuse("a chart has one axis of loads, and this protocol presses by " + std::string(name(press->by)) +
+                   (by && *by != press->by ? " and by " + std::string(name(*by)) : ""),
+               "give all presses by `pressure`, or all by `load`");
       by = press->by;
       dwelt_ = dwelt_ && press->dwell.has_value();
       dwells += press->dwell.value_or(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chart of load over time with labelled events. A detected protocol is drawn over its recording; others
-// over their times, the sum of dwells, or event by event.
+// A chart of load over time with labelled events: over the recording of a detected protocol, else over the
+// times, the sum of dwells, or event by event.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-// No labels if more than 24. Throws Error{bad_value} for presses by both pressure and load.
+// At most 24 labels, else none. Throws Error{bad_value} for presses by both pressure and load.
 LineChart protocol_chart(const Protocol& protocol, const std::string& title);
 
 }  // namespace asperity

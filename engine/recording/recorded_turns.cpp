@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The heading of the body under each load, and its changes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -89,8 +88,8 @@ class TurnFinder {
                           std::to_string(recording_.line[k]) + ", where it is " + degrees(angle) +
                           ", while a load is on from line " + std::to_string(recording_.line[first]) +
                           " to line " + std::to_string(recording_.line[last]),
-                      "a body is turned after it is released; `least_turn` says what counts as a turn, and "
-                      "`zero_drift` what as no load");
+                      "turn a body after its release; a larger `least_turn` ignores small turns, a larger "
+                      "`zero_drift` small loads");
       sum += angle;
       ++count;
     }
@@ -124,21 +123,21 @@ class TurnFinder {
     if (unknown)
       marks_.refuse(where + ", but lacks the angle while a load was on between line " +
                         std::to_string(recording_.line[before.last]) + " and line " +
-                        std::to_string(recording_.line[now.first]) + ": before or after it is not recorded",
+                        std::to_string(recording_.line[now.first]) +
+                        ": the turn may be before or after the load",
                     "fill the angle in by hand");
     const auto row = marks_.row();
-    auto sample = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), k) - row.begin());
+    auto sample = static_cast<std::size_t>(std::ranges::lower_bound(row, k) - row.begin());
     sample = std::min(sample, row.size() - 1);
     const double load = marks_.load()[sample];
     if (load > std::max({2 * marks_.drift(), 6 * marks_.effective_noise(), 0.1 * highest_}))
-      marks_.refuse(where + " under a load of " + marks_.quantity(load),
-                    "a body is turned after it is released");
+      marks_.refuse(where + " under a load of " + marks_.quantity(load), "turn a body after its release");
     if (options_.turn_step) {
       const double steps = std::round(angle / *options_.turn_step);
       const double off = angle - steps * *options_.turn_step;
       if (std::abs(off) > 0.2 * *options_.turn_step)
         marks_.refuse(where + ", which is no multiple of " + degrees(*options_.turn_step),
-                      "give another `turn_step`, or none to take turns as they were read");
+                      "give another `turn_step`, or leave it out");
       angle = steps * *options_.turn_step;
       if (angle == 0) return;
     } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/recording/recording_holes.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
 #include <cmath>

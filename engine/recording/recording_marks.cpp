@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Levels and peaks; recording_times.cpp computes times.
 #include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
@@ -13,21 +12,19 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/recording/straight_pieces.hpp"
-#include "engine/recording/stray_readings.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
+constexpr double per_deviation = 0.6745;  // of a Gaussian
 
 double median_of(Array<double>& values) { return values.empty() ? 0 : upper_median(values); }
 
-// Correlated noise, as after a filter: a first-order autoregression with coefficient r. The mean of n
-// readings is as accurate as that of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences
-// over L readings have the variance s² (1.5 - 2 r^L + 0.5 r^2L); the medians of their magnitudes at L = 1 and
-// at a greater L give r and s. Residuals of the pieces are used, so ramps and clock jitter have no effect.
+// Correlated noise: a first-order autoregression with coefficient r. The mean of n readings is as accurate as
+// of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences over L readings have the variance
+// s² (1.5 - 2 r^L + 0.5 r^2L); medians of their magnitudes at L = 1 and a greater L give r and s. Residuals
+// of the pieces exclude ramps and clock jitter.
 struct NoiseCorrelation {
   double deviation = 0;    // of a reading
   double independent = 1;  // share of independent readings
@@ -46,12 +43,12 @@ struct Bends {
   double square = 0;  // of the deviation, from the median
 };
 
-// Without the ends of pieces, where a corner may be.
+// Without the ends of pieces: corners.
 Bends bends_of(std::span<const double> time, std::span<const double> value,
                std::span<const StraightPiece> pieces, int stride) {
   Array<double> magnitudes;
   // At its limit a sensor has no noise.
-  const double top = *std::max_element(value.begin(), value.end());
+  const double top = *std::ranges::max_element(value);
   const auto lag = static_cast<std::size_t>(stride);
   constexpr std::size_t rim = 1;
   for (const StraightPiece& piece : pieces) {
@@ -91,7 +88,7 @@ std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, 
   return {};
 }
 
-// Medians of three neighbours, against single outliers.
+// Medians of three, against single outliers.
 double highest_of_three(std::span<const double> y, double sign) {
   double highest = -INFINITY;
   for (std::size_t k = 0; k + 2 < y.size(); ++k) {
@@ -116,7 +113,7 @@ RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionO
   join_levels();
   look_between();
   time_marks();
-  std::sort(stray_.begin(), stray_.end());
+  std::ranges::sort(stray_);
 }
 
 void RecordingMarks::refuse(const std::string& finding, const std::string& hint) const {
@@ -136,12 +133,11 @@ void RecordingMarks::take_samples() {
            "read it with events=\"rows\" if each of its rows is an event");
   // Squares of times and loads must not overflow.
   constexpr double least = 1e-100, most = 1e100;
-  const auto [low, high] = std::minmax_element(y_.begin(), y_.end());
+  const auto [low, high] = std::ranges::minmax_element(y_);
   const double span = t_.back() - t_.front(), greatest = std::max(std::abs(*low), std::abs(*high));
   if (!(span >= least && span <= most && std::abs(t_.back()) <= most && std::abs(t_.front()) <= most) ||
       !(greatest <= most && (greatest == 0 || greatest >= least)))
-    refuse("holds times or loads out of all measure: " + format_short(span) + " s in all, up to " +
-               quantity(greatest),
+    refuse("holds extreme times or loads: " + format_short(span) + " s in all, up to " + quantity(greatest),
            "check the units of its columns");
   Array<double> steps;
   for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
@@ -165,7 +161,7 @@ void RecordingMarks::refuse_negative_compression() const {
 }
 
 void RecordingMarks::measure_noise() {
-  double resolution = INFINITY;  // of raw readings: mended ones have more digits
+  double resolution = INFINITY;  // of raw readings; mended ones have more digits
   for (std::size_t k = 1; k + 1 < t_.size(); ++k)
     if (const double step = std::abs(recording_.load[row_[k]] - recording_.load[row_[k - 1]]); step > 0)
       resolution = std::min(resolution, step);
@@ -181,8 +177,7 @@ void RecordingMarks::measure_noise() {
            "give the noise as `noise` if it is less");
 }
 
-// Correlated readings scatter more than second differences show, and carry less information; pieces are cut
-// again.
+// Correlated readings scatter more than second differences show; pieces are cut again.
 void RecordingMarks::follow_correlation() {
   if (options_.noise || effective_noise_ > noise_) return;
   constexpr int rounds = 2;
@@ -213,37 +208,30 @@ void RecordingMarks::find_zero() {
     drift_ = options_.zero_drift * std::abs(top_ - *options_.zero);
     return;
   }
-  double least = INFINITY;
-  const StraightPiece* first = nullptr;
+  std::vector<double> levels;
   for (const StraightPiece& piece : pieces_)
-    if (is_level(piece, drift_)) {
-      if (first == nullptr) first = &piece;
-      least = std::min(least, piece.line.y);
-    }
-  if (std::isinf(least)) least = bottom_;
-  // Recordings usually begin before the press: the first level is zero if lowest.
+    if (is_level(piece, drift_)) levels.push_back(piece.line.y);
+  const double least = levels.empty() ? bottom_ : std::ranges::min(levels);
+  // Recordings usually begin before the press: a lowest first level is zero.
   constexpr double near_zero = 0.05, doubtful = 0.25;
-  const bool begins_low = first != nullptr && first->line.y <= least + near_zero * scale;
-  const std::string give = "give the sensor's reading without load as `zero` if that is wrong";
-  if (least <= near_zero * scale || (begins_low && first->line.y <= doubtful * scale)) {
-    for (const StraightPiece& piece : pieces_)
-      if (is_level(piece, drift_) && piece.line.y <= least + near_zero * scale) {
-        first_zero_ = piece.line.y;
-        break;
-      }
-    first_zero_ = first_zero_.value_or(least);
+  const auto is_low = [&](double level) { return level <= least + near_zero * scale; };
+  const bool begins_low = !levels.empty() && is_low(levels.front());
+  const std::string give = "give the reading without load as `zero` if this is wrong";
+  if (least <= near_zero * scale || (begins_low && levels.front() <= doubtful * scale)) {
+    const auto first = std::ranges::find_if(levels, is_low);
+    first_zero_ = first == levels.end() ? least : *first;
     if (std::abs(*first_zero_) > near_zero * scale)
       monitor_.warn("\"" + recording_.name + "\": the reading " + quantity(*first_zero_) + ", " +
-                    share(*first_zero_ / scale) + " of the highest, is taken for that without load; " + give);
+                    share(*first_zero_ / scale) + " of the highest, is read as the zero of the sensor; " +
+                    give);
   } else if (least <= doubtful * scale) {
     monitor_.warn("\"" + recording_.name + "\": the lowest load held, " + quantity(least) + " or " +
-                  share(least / scale) + " of the highest, is taken for a load, not for the sensor's zero; " +
-                  give);
+                  share(least / scale) +
+                  " of the highest, is read as a load, not as the zero of the sensor; " + give);
   }
   if (!first_zero_) zeros_.push_back({t_.front(), 0});
 }
 
-// The zero follows the rests.
 std::vector<bool> RecordingMarks::find_rests() {
   constexpr double near_zero = 0.05;
   double zero = first_zero_.value_or(zeros_.empty() ? 0 : zeros_.front().level);
@@ -296,7 +284,7 @@ bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
   if (std::abs(b.line.y - level) > tolerance) return false;
   const double band = std::max(tolerance, certain * effective_noise_);
   constexpr std::size_t glitch = 3;
-  constexpr double of_the_range = 0.05;  // larger ones were examined before
+  constexpr double of_the_range = 0.05;  // larger ones are examined already
   Array<std::uint32_t> out;
   for (std::size_t k = a.last + 1; k < b.first; ++k)
     if (const double off = std::abs(y_[k] - level); off > band) {
@@ -325,7 +313,7 @@ void RecordingMarks::join_levels() {
   for (Mark& mark : marks_) trim(mark);
 }
 
-// Without the ends, where a corner may be.
+// A corner may be at the ends.
 void RecordingMarks::trim(Mark& mark) const {
   const std::size_t count = mark.last - mark.first + 1, off = std::min<std::size_t>(2, count / 8);
   const double level = mark.line.y, band = certain * effective_noise_ + options_.same_load * range_;
@@ -337,8 +325,7 @@ void RecordingMarks::trim(Mark& mark) const {
 }
 
 double RecordingMarks::zero_at(double time) const {
-  const auto after = std::lower_bound(zeros_.begin(), zeros_.end(), time,
-                                      [](const Zero& zero, double t) { return zero.time < t; });
+  const auto after = std::ranges::lower_bound(zeros_, time, {}, &Zero::time);
   if (after == zeros_.begin()) return zeros_.front().level;
   if (after == zeros_.end()) return zeros_.back().level;
   const Zero& before = *(after - 1);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Begin and end of marks: where adjacent straight pieces, or the best ramp hidden in noise, meet the levels.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,8 +11,7 @@ namespace asperity {
 
 namespace {
 
-// A ramp between two known levels, hidden by noise: least squares over a grid of centres and lengths, refined
-// around the best.
+// A ramp between two known levels, hidden by noise: least squares over a refined grid of centres and lengths.
 struct RampInNoise {
   double begin = 0, end = 0;  // s
   double misfit = 0;
@@ -81,7 +79,7 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
   const std::size_t rim = step < 0 ? mark.first : mark.last;
   if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, 0, rim};
   const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
-  // The level of a drifting hold differs at its ends.
+  // A drifting hold has two end levels.
   const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * piece_noise();
   const double level = mark.line.y + (slopes ? mark.line.slope() * (t_[rim] - mark.line.t) : 0);
   const StraightPiece& piece = piece_at(beside(rim));
@@ -104,7 +102,7 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
   const auto has_more = [&] { return step < 0 ? k > 0 : k + 1 < t_.size(); };
   while (has_more() && std::abs(y_[beside(k)] - level) <= band) k = beside(k);
   const double gap = has_more() ? std::abs(t_[beside(k)] - t_[k]) : 0;
-  // A long gap adds no doubt: the load stayed as far as it was recorded.
+  // A long gap adds no doubt beyond the recorded loads.
   return {t_[k], gap / std::sqrt(12.0), std::min(gap, interval_) / std::sqrt(12.0), k};
 }
 
@@ -123,7 +121,7 @@ std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const 
   return {first, last};
 }
 
-// A slow ramp may look like stairs: a hold is dropped if a ramp fits as well.
+// A slow ramp may look like stairs: drop a hold if a ramp fits as well.
 void RecordingMarks::drop_stairs() {
   constexpr std::size_t next_to = 4;
   for (std::size_t k = 1; k + 1 < marks_.size();) {
@@ -175,7 +173,7 @@ bool RecordingMarks::drop_doubtful() {
     const double beside =
         std::max(loaded(k - 1) ? marks_[k - 1].line.y : 0.0, loaded(k + 1) ? marks_[k + 1].line.y : 0.0);
     if (top - beside > std::max(certain * effective_noise_, options_.least_overshoot * beside)) {
-      mark.kind = Mark::Kind::peak;  // an overshoot that stayed
+      mark.kind = Mark::Kind::peak;  // a remaining overshoot
       mark.line = {1, mark.line.t, top, 0, 0, 0};
       mark.begin_error = mark.end_error = interval_ / std::sqrt(12.0);
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/recording/stray_readings.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/core/grid.hpp"
-#include "engine/recording/straight_pieces.hpp"
 
 namespace asperity {
 
@@ -23,7 +22,7 @@ class StraySearch {
       : t_(time), y_(load), suspect_(load.size()) {
     Array<double> medians;
     for (std::size_t k = 0; k < y_.size(); ++k) medians.push_back(median_around(k));
-    const auto [low, high] = std::minmax_element(medians.begin(), medians.end());
+    const auto [low, high] = std::ranges::minmax_element(medians);
     range_ = *high - *low;
     const double deviation = noise.value_or(noise_of_bends(t_, y_, 0.5 * (*low + *high)));
     constexpr double noises = 8, of_the_range = 0.005;
@@ -31,7 +30,7 @@ class StraySearch {
     for (std::size_t k = 0; k < y_.size(); ++k) suspect_[k] = std::abs(y_[k] - medians[k]) > tolerance_;
   }
 
-  // If all loads are as short as stray readings, both look alike.
+  // If all loads are so short, both look alike.
   bool tells() const { return range_ > tolerance_; }
 
   Array<std::uint32_t> mend() {
@@ -61,7 +60,7 @@ class StraySearch {
     return *middle;
   }
 
-  // Through the nearest four unsuspected samples on one side, or two if a corner is among the four.
+  // Through the nearest four unsuspected samples on one side, or two at a corner.
   struct Side {
     double nearest = 0, time = 0;
     LineMoments line{};
@@ -87,8 +86,8 @@ class StraySearch {
     return side;
   }
 
-  // Clears suspects between neighbours or on the line before (overshoot). The last round allows overshoots as
-  // large as the step.
+  // Clears suspects between neighbours or on the line before (overshoot); in the last round also overshoots
+  // as large as the step.
   void acquit(bool last) {
     std::vector<bool> still = suspect_;
     for (std::size_t k = 0; k < y_.size(); ++k) {
@@ -112,7 +111,6 @@ class StraySearch {
       }
   }
 
-  // Whether the load changes as fast elsewhere.
   bool may_be_real(std::size_t first, std::size_t end) const {
     constexpr double steep = 0.3, margin = 1.5, same_load = 0.02;
     if (end - first < 2 || std::min(rise_, fall_) < steep * range_) return false;
@@ -171,7 +169,7 @@ Array<std::uint32_t> mend_stray_readings(std::span<const double> time, std::span
     if (mended.empty()) break;
     all.insert(all.end(), mended.begin(), mended.end());
   }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }

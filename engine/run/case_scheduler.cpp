@@ -53,14 +53,14 @@ class CaseScheduler {
   std::vector<Finished> run() {
     const int threads = thread_count();
     const std::size_t wanted = std::min(wanted_, static_cast<std::size_t>(threads));
-    // A single case may use all threads, unless inside another case.
+    // A single case may use all threads, unless nested.
     const bool single = wanted > 1 || threads == 1;
     {
       std::vector<std::jthread> workers;
       const Ending ending(*this);
       if (leads() || looks_first()) find_kept();
       if (looks_first()) schedule_.report({{waiting_.begin(), waiting_.end()}, {}});
-      if (follows()) ranks_->send(0, Ranks::Kind::hello, hello(wanted));
+      if (follows()) ranks_->send(0, Ranks::Kind::hello, ByteWriter().text(name_).count(wanted).take());
       start(workers, wanted, single);
       while (!look()) {
       }
@@ -75,7 +75,7 @@ class CaseScheduler {
   }
 
  private:
-  // On every exit path: no further case begins, then the threads are joined.
+  // On every exit path: no new case, then join the threads.
   struct Ending {
     explicit Ending(CaseScheduler& s) : scheduler(s) {}
     ~Ending() {
@@ -90,20 +90,15 @@ class CaseScheduler {
   };
 
   void start(std::vector<std::jthread>& workers, std::size_t wanted, bool single) {
-    for (std::size_t k = 0; k < wanted; ++k) {
-      {
-        const std::lock_guard lock(mutex_);
-        ++working_;
-      }
-      try {
+    working_ = wanted;
+    for (std::size_t k = 0; k < wanted; ++k) try {
         workers.emplace_back([this, single] { work(single); });
       } catch (const std::system_error&) {
         const std::lock_guard lock(mutex_);
-        --working_;
+        working_ -= wanted - k;
         if (workers.empty()) throw Error(ErrorCode::out_of_memory, "no thread could be started");
         return;
       }
-    }
   }
 
   void work(bool single) {
@@ -132,7 +127,7 @@ class CaseScheduler {
     return k;
   }
 
-  // Null during a stop, which can make a case fail or change its result.
+  // Null during a stop, which can falsify a case.
   Finished result_of(std::size_t k) {
     const auto stopped = [] { return stop_flag().reason() != StopReason::none; };
     try {
@@ -143,7 +138,7 @@ class CaseScheduler {
       try {
         cases_.keep(k, *result, static_cast<bool>(schedule_.own));
       } catch (const Error& error) {
-        // Other processes need a record: store a failure.
+        // Other processes wait for a record: store a failure.
         cases_.fail(*result, error.what());
         cases_.keep(k, *result, true);
       }
@@ -185,14 +180,6 @@ class CaseScheduler {
   bool leads() const { return ranks_ != nullptr && ranks_->leads(); }
   bool follows() const { return ranks_ != nullptr && !ranks_->leads(); }
 
-  std::string hello(std::size_t threads) const {
-    ByteWriter out;
-    out.text(name_);
-    out.number(static_cast<std::uint64_t>(threads));
-    return out.take();
-  }
-
-  // Whether to report on the shared store before the first case.
   bool looks_first() const { return schedule_.report && !schedule_.own && !follows(); }
 
   void find_kept() {
@@ -206,7 +193,7 @@ class CaseScheduler {
     waiting_ = std::move(missing);
   }
 
-  // Gives a rank up to `wanted` cases, some of them later if too few are waiting.
+  // Gives a rank up to `wanted` cases, some later if too few are waiting.
   void hand_out(int to, std::size_t wanted) {
     ByteWriter out;
     out.text(name_);
@@ -215,9 +202,9 @@ class CaseScheduler {
       const std::size_t many = std::min(wanted, waiting_.size());
       idle_[static_cast<std::size_t>(to)] = wanted - many;
       if (many == 0) return;
-      out.number(static_cast<std::uint64_t>(many));
+      out.count(many);
       for (std::size_t n = 0; n < many; ++n) {
-        out.number(static_cast<std::uint64_t>(waiting_.front()));
+        out.count(waiting_.front());
         given_[static_cast<std::size_t>(to)].insert(waiting_.front());
         waiting_.pop_front();
       }
@@ -232,18 +219,13 @@ class CaseScheduler {
       ByteReader in(message->bytes);
       const std::string name = in.text();
       if (message->kind == Ranks::Kind::end) {
-        take_back(from, name.empty() ? "came to its end before rank 0" : "failed: " + name);
+        take_back(from, name.empty() ? "ended before rank 0" : "failed: " + name);
       } else if (message->kind == Ranks::Kind::here) {
-        take_back(from,
-                  "came to " + name +
-                      " when rank 0 came to an ensemble: the script does not do the same in every process");
-        ranks_->send(from, Ranks::Kind::end, "");
+        part_from(from, "reached " + name + " when rank 0 reached an ensemble");
       } else if (name != name_) {
-        // Ignores a late message from a finished ensemble; a later ensemble means that the scripts differ.
+        // A late message from a finished ensemble is ignored; a later ensemble means different scripts.
         if (std::stoll(name) < std::stoll(name_)) continue;
-        take_back(from,
-                  "came to another ensemble than rank 0: the script does not do the same in every process");
-        ranks_->send(from, Ranks::Kind::end, "");
+        part_from(from, "reached another ensemble than rank 0");
       } else if (message->kind == Ranks::Kind::hello) {
         hand_out(from, static_cast<std::size_t>(in.number<std::uint64_t>()));
       } else if (message->kind == Ranks::Kind::result) {
@@ -269,6 +251,11 @@ class CaseScheduler {
     more_.notify_all();
   }
 
+  void part_from(int other, const std::string& why) {
+    take_back(other, why + ": the script must do the same in every process");
+    ranks_->send(other, Ranks::Kind::end, "");
+  }
+
   std::string all_rows() const {
     ByteWriter out;
     out.text(name_);
@@ -282,24 +269,20 @@ class CaseScheduler {
       const std::lock_guard lock(mutex_);
       finished.swap(outbox_);
     }
-    for (const auto& [k, result] : finished) {
-      ByteWriter out;
-      out.text(name_);
-      out.number(static_cast<std::uint64_t>(k));
-      out.text(cases_.bytes(k, *result));
-      ranks_->send(0, Ranks::Kind::result, out.take());
-    }
+    for (const auto& [k, result] : finished)
+      ranks_->send(0, Ranks::Kind::result,
+                   ByteWriter().text(name_).count(k).text(cases_.bytes(k, *result)).take());
     while (std::optional<Ranks::Message> message = ranks_->receive()) {
       ByteReader in(message->bytes);
       if (message->kind == Ranks::Kind::end) {
         ranks_->put_back(*std::move(message));
-        throw Error(ErrorCode::bad_state, "rank 0 came to its end, or goes another way");
+        throw Error(ErrorCode::bad_state, "rank 0 has ended or takes another way");
       }
       if (message->kind != Ranks::Kind::cases && message->kind != Ranks::Kind::rows) continue;
       if (const std::string name = in.text(); name != name_) {
         if (std::stoll(name) < std::stoll(name_)) continue;
         throw Error(ErrorCode::bad_state,
-                    "rank 0 came to another ensemble: the script does not do the same in every process");
+                    "rank 0 reached another ensemble: the script must do the same in every process");
       }
       const std::lock_guard lock(mutex_);
       if (message->kind == Ranks::Kind::cases) {
@@ -324,7 +307,7 @@ class CaseScheduler {
       if (schedule_.own(k)) {
         if (!cases_.find_kept(k, true))
           throw Error(ErrorCode::bad_file, "the result of " + cases_.name(k) + " could not be stored",
-                      "see that the folder given by --store can be written and has room");
+                      "check permission and space of the folder of --store");
         if (!results_[k]->failure.empty()) report.failed.emplace_back(k, results_[k]->failure);
         continue;
       }
@@ -364,7 +347,6 @@ class CaseScheduler {
     return over;
   }
 
-  // Returns the numbers of done and failed cases.
   std::pair<std::size_t, std::size_t> show() {
     std::string output;
     std::vector<std::string> warnings, failures;
@@ -392,14 +374,14 @@ class CaseScheduler {
   EnsembleCases& cases_;
   const CaseSchedule& schedule_;
   Ranks* const ranks_;
-  std::string name_;                          // of this ensemble in messages
-  std::vector<std::set<std::size_t>> given_;  // rank 0: cases in progress by rank
+  std::string name_;                          // in messages
+  std::vector<std::set<std::size_t>> given_;  // rank 0: unfinished cases by rank
   std::vector<std::size_t> idle_;             // rank 0: idle threads by rank
   std::size_t wanted_ = 0;
 
   std::mutex mutex_;  // guards the members up to working_
   std::condition_variable changed_, more_;
-  bool open_ = false;                                     // more cases may come
+  bool open_ = false;                                     // more may come
   std::vector<std::pair<std::size_t, Finished>> outbox_;  // other ranks: finished cases
   std::deque<std::size_t> waiting_;                       // not yet begun
   std::vector<Finished> results_;

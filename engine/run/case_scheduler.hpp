@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distributes the cases of an ensemble over threads, shards and ranks of mpirun. The calling thread shows
-// progress, output and warnings in the order of the cases. A case that ends during a stop has no result. If
-// several threads compute cases, the engine's own loops are single-threaded. Results have the same bits for
-// any number of threads.
+// progress, output and warnings in the order of the cases. A case that ends during a stop has no result. With
+// parallel cases the engine's own loops are single-threaded. Results have the same bits for any number of
+// threads.
 #pragma once
 
 #include <cstddef>
@@ -54,11 +54,11 @@ class EnsembleCases {
   virtual Finished compute(std::size_t k) = 0;
   // Makes running cases fail soon.
   virtual void interrupt() = 0;
-  // failed() makes a failed case; fail() marks a computed case as failed.
+  // failed() makes a failed case; fail() marks a computed one.
   virtual Finished failed(const std::string& why) const = 0;
   virtual void fail(FinishedCase& found, const std::string& why) const = 0;
 
-  // From the store; null if missing or invalid, or a failure without `with_failures`.
+  // From the store; null if missing, invalid, or a failure without `with_failures`.
   virtual Finished find_kept(std::size_t k, bool with_failures) const = 0;
   // Stores a failure only if `always`. Throws Error only if `always`.
   virtual void keep(std::size_t k, const FinishedCase& found, bool always) const = 0;
@@ -79,15 +79,14 @@ struct CaseSchedule {
   Ranks* ranks = nullptr;  // null: this process alone
   // Cases computed here; the others come from the store. Empty: all.
   std::function<bool(std::size_t k)> own{};
-  bool needs_others = true;  // with `own`: whether the script needs the other rows
+  bool needs_others = true;  // with `own`: the script needs other rows
   std::function<void(std::string_view)> print{};
-  // Called after the cases of `own`, otherwise before the first case. May end the process. Empty: the store
-  // is not shared.
+  // Called after the cases of `own`, else before the first case. May end the process. Empty: no shared store.
   std::function<void(const StoreReport& report)> report{};
 };
 
-// Results in the order of the cases. A failed case only warns: failures do not depend on timing. Throws Error
-// on a stop, after all cases have ended; Error{bad_state} if another rank reaches another ensemble.
+// Results in order. A failed case only warns: failures do not depend on timing. Throws Error on a stop, after
+// all cases have ended; Error{bad_state} if another rank reaches another ensemble.
 std::vector<std::unique_ptr<FinishedCase>> run_cases(EnsembleCases& cases, const CaseSchedule& schedule);
 
 }  // namespace asperity

@@ -10,6 +10,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 
@@ -21,8 +22,8 @@ struct Value {
 };
 
 struct Level {
-  double x;     // value of the other column
-  double mean;  // of the rows that share it
+  double x;     // of the other column
+  double mean;  // of rows with this x
 };
 
 struct Finding {
@@ -32,7 +33,7 @@ struct Finding {
 
 std::string row_name(std::size_t row) { return "row " + std::to_string(row + 1); }
 
-// All digits if six would hide the difference.
+// All digits if six hide the difference.
 std::string telling(double value, double beside) {
   const std::string text = format_short(value);
   return value != beside && text == format_short(beside) ? format_exact(value) : text;
@@ -61,7 +62,7 @@ std::vector<Level> levels_of(const Table& table, const std::vector<Value>& value
     const auto x = number_in(table.cell(value.row, other));
     if (!x || std::isnan(*x)) {
       finding.obstacle = row_name(value.row) + " has " + short_text(table.cell(value.row, other)) + " in " +
-                         quoted(name) + ", which has no place in an order";
+                         quoted(name) + ", which has no order";
       return {};
     }
     points.emplace_back(*x, value.number);
@@ -135,10 +136,11 @@ bool is_near(const Expectation& e, double value) {
   return std::abs(value - near) <= allowed + (std::isfinite(rounding) ? rounding : 0.0);
 }
 
-std::vector<Value> values_of(const Expectation& e, const Table& table, Finding& finding) {
+// Values of `table`, which is `given` in display units.
+std::vector<Value> values_of(const Expectation& e, const Table& given, const Table& table, Finding& finding) {
   std::vector<std::size_t> rows;
   try {
-    rows = e.where.rows(table);
+    rows = e.where.rows(given);
   } catch (const Error& error) {
     finding.obstacle = error.what();
     return {};
@@ -194,8 +196,16 @@ void require_order(const Expectation& e) {
            "no value is both; exchange them");
 }
 
-void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, const TableColumn& column) {
-  if (!wanted || wanted->quantity.empty()) return;
+void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, const TableColumn& column,
+                   bool unit_in_name) {
+  if (!wanted) return;
+  const auto show_with_unit = [&] {
+    if (!column.unit.empty()) wanted->quantity = format_short(wanted->value) + " " + column.unit;
+  };
+  if (wanted->quantity.empty()) {
+    if (!unit_in_name) wanted->value = in_unit(wanted->value, column.unit);
+    return show_with_unit();
+  }
   const Quantity given = parse_quantity(wanted->quantity);
   const Dimension unit = parse_unit(column.unit).dimension;
   try {
@@ -211,26 +221,26 @@ void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, c
                 column.unit.empty()
                     ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
                           si_unit(given.dimension) + "\" } before the first row"
-                    : "give a plain number, which is counted in " + column.unit + ", or " + other);
+                    : "give " + other + ", or a plain number in SI");
   }
-  wanted->quantity = format_short(wanted->value) + (column.unit.empty() ? "" : " " + column.unit);
+  wanted->quantity = format_short(wanted->value);
+  show_with_unit();
+}
+
+Expectation in_column_unit(const Expectation& expectation, const TableColumn& column) {
+  Expectation counted = expectation;
+  const bool unit_in_name = !split_column_unit(expectation.column).unit.empty();
+  count_in_unit(counted.near, "near", column, unit_in_name);
+  count_in_unit(counted.within, "within", column, unit_in_name);
+  count_in_unit(counted.at_least, "at_least", column, unit_in_name);
+  count_in_unit(counted.at_most, "at_most", column, unit_in_name);
+  counted.column = column.name;
+  return counted;
 }
 
 }  // namespace
 
 ExpectedValue::ExpectedValue(std::string_view text) : value(parse_quantity(text).value), quantity(text) {}
-
-Expectation in_column_unit(const Expectation& expectation, const Table& table) {
-  const auto place = table.find_column(expectation.column);
-  if (!place) return expectation;
-  Expectation counted = expectation;
-  const TableColumn& column = table.columns()[*place];
-  count_in_unit(counted.near, "near", column);
-  count_in_unit(counted.within, "within", column);
-  count_in_unit(counted.at_least, "at_least", column);
-  count_in_unit(counted.at_most, "at_most", column);
-  return counted;
-}
 
 void check(const Expectation& e) {
   if (!e.near && !e.at_least && !e.at_most && !e.increasing_in && !e.decreasing_in)
@@ -240,10 +250,9 @@ void check(const Expectation& e) {
     refuse(e.within ? "`near` is given both `within` and `rel`" : "`near` needs a width",
            "give `within` (absolute) or `rel` (a fraction of `near`)");
   if (e.near && e.near->value == 0 && e.relative)
-    refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
+    refuse("`near` is 0, so `rel` gives no width", "give `within`");
   if (!e.near && (e.within || e.relative))
-    refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`",
-           "say what the value should be near");
+    refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`", "give `near` as well");
   require_number(e.near, "near", true, false);
   require_number(e.within, "within", true, true);
   if (e.relative) require_number(ExpectedValue(*e.relative), "rel", true, true);
@@ -257,12 +266,19 @@ void check(const Expectation& e) {
     refuse("`increasing_in` and `decreasing_in` both name " + quoted(*e.increasing_in), "keep one of them");
 }
 
-Verdict evaluate(const Expectation& asked, const Table& table, std::string_view notebook) {
+Verdict evaluate(const Expectation& asked, const Table& given, std::string_view notebook) {
   check(asked);
-  const Expectation e = in_column_unit(asked, table);
-  if (table.find_column(e.column)) require_order(e);
+  const Table table = in_display_units(given, {&asked.column, 1});
+  Expectation e = asked;
+  std::string unit;
+  if (table.find_column(e.column)) {
+    const TableColumn& column = table.columns()[table.column(e.column, "column")];
+    e = in_column_unit(asked, column);
+    require_order(e);
+    unit = column.unit.empty() ? "" : " " + column.unit;
+  }
   Finding finding;
-  const std::vector<Value> values = values_of(e, table, finding);
+  const std::vector<Value> values = values_of(e, given, table, finding);
   if (finding.obstacle.empty()) {
     if (e.near)
       judge_rows(
@@ -291,7 +307,7 @@ Verdict evaluate(const Expectation& asked, const Table& table, std::string_view 
     verdict.sentence = subject + " cannot be judged " + wanted(e) + ": " + finding.obstacle;
   } else if (holds) {
     verdict.sentence = std::string(e.should_fail ? "holds, and should fail: " : "") + subject + " is " +
-                       wanted(e) + " (" + found_text(values, table.rows()) + ")";
+                       wanted(e) + " (" + found_text(values, table.rows()) + unit + ")";
   } else {
     verdict.sentence =
         (e.should_fail ? "fails, as it should: " + subject + " is not " : subject + " should be ") +
@@ -302,6 +318,55 @@ Verdict evaluate(const Expectation& asked, const Table& table, std::string_view 
     }
   }
   return verdict;
+}
+
+Json to_json(const Verdict& verdict) {
+  Json json;
+  json.set("notebook", verdict.notebook).set("passed", verdict.passed);
+  if (!verdict.judged) json.set("judged", false);
+  if (verdict.should_fail) json.set("should_fail", true);
+  if (!verdict.label.empty()) json.set("label", verdict.label);
+  json.set("sentence", verdict.sentence);
+  return json;
+}
+
+void ExpectationLog::add(Verdict verdict) {
+  const std::lock_guard lock(mutex_);
+  verdicts_.push_back(std::move(verdict));
+}
+
+std::vector<Verdict> ExpectationLog::exchange(std::vector<Verdict> verdicts) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(verdicts_, std::move(verdicts));
+}
+
+std::vector<Verdict> ExpectationLog::verdicts() const {
+  const std::lock_guard lock(mutex_);
+  return verdicts_;
+}
+
+std::size_t ExpectationLog::failed() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<std::size_t>(std::ranges::count(verdicts_, false, &Verdict::passed));
+}
+
+std::string ExpectationLog::summary() const {
+  const std::vector<Verdict> all = verdicts();
+  if (all.empty()) return {};
+  const auto held = static_cast<std::size_t>(std::ranges::count(all, true, &Verdict::passed));
+  const auto controls = static_cast<std::size_t>(
+      std::ranges::count_if(all, [](const Verdict& v) { return v.passed && v.should_fail; }));
+  const bool one = all.size() == 1;
+  std::string text;
+  if (held == all.size()) {
+    text = one ? "1 expectation holds" : std::to_string(all.size()) + " expectations hold";
+  } else {
+    text = std::to_string(all.size() - held) + " of " + std::to_string(all.size()) +
+           (one ? " expectation" : " expectations") + (all.size() - held == 1 ? " fails" : " fail");
+  }
+  if (controls == 1) text += " (1 negative control fails, as it should)";
+  if (controls > 1) text += " (" + std::to_string(controls) + " negative controls fail, as they should)";
+  return text;
 }
 
 }  // namespace asperity

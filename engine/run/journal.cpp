@@ -15,7 +15,6 @@
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_folder.hpp"
-#include "engine/run/timed_lock.hpp"
 
 namespace asperity {
 
@@ -27,22 +26,18 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
 std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
   // O_NOFOLLOW refuses a link before the first read.
   auto journal = std::make_unique<Journal>();
-  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (journal->descriptor_ < 0 && errno == ELOOP)
-    throw Error(ErrorCode::bad_file, quoted(path.string()) + " is a link",
-                "a run writes its own files where they are; take the link away");
-  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
+  const auto opened = [&] {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0 && errno == ELOOP) throw_link(path);
+    if (descriptor < 0) throw_file_error("take up", path, errno);
+    return descriptor;
+  };
+  ::close(opened());
   // A copy by hard links (cp -al) must keep its bytes.
   part_from_other_names(path);
-  ::close(std::exchange(journal->descriptor_, -1));
-  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
+  journal->descriptor_ = opened();
   JournalLines recorded = read_journal(path, true);
-  const auto ended = [&] {
-    const Json* event = recorded.lines.empty() ? nullptr : recorded.lines.back().find("event");
-    return event != nullptr && *event == Json("end");
-  };
-  if (ended()) {
+  if (!recorded.lines.empty() && recorded.lines.back()["event"] == Json("end")) {
     recorded.lines.pop_back();
     recorded.ends.pop_back();
   }
@@ -72,32 +67,29 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
     if (!fields.is_null())
       for (const auto& [name, value] : fields.members()) line.set(name, value);
     if (!repeats(line)) append_whole(descriptor_, line.text() + "\n", path_);
-    digester_.add(without_unhashed(line).text());
+    digester_.add(without(line).text());
   }
   ++count_;
   if (watcher_) watcher_(event, fields);
   return count_;
 }
 
-// A different value in the same step ends the repetition.
 bool Journal::repeats(const Json& line) {
   const auto at = static_cast<std::size_t>(count_);
   if (at >= recorded_.size()) return false;
   const Json& recorded = recorded_[at];
-  const Json now = without_unhashed(Json::parse(line.text(), "a line of the journal"));
+  const Json now = without(Json::parse(line.text(), "a line of the journal"));
   if (now == recorded) return true;
   const DifferingMember differs = differing_members(&recorded, &now).front();
   const std::string where = "line " + std::to_string(count_ + 1) + " of the journal";
   const std::string what =
       quoted(differs.path) + " was " + brief(differs.one) + " and is now " + brief(differs.other);
   for (const char* part : {"event", "function", "self", "inputs", "notebook", "script", "digest", "seed"}) {
-    const Json *one = recorded.find(part), *other = now.find(part);
-    if ((one == nullptr) == (other == nullptr) && (one == nullptr || *one == *other)) continue;
-    throw Error(
-        ErrorCode::bad_state, "the run goes another way than the one it takes up: in " + where + " " + what,
-        "something it reads has changed; run the script anew, with --reuse for what is still the same");
+    if (recorded[part] == now[part]) continue;
+    throw Error(ErrorCode::bad_state, "the run differs from the resumed one: in " + where + " " + what,
+                "its inputs have changed; run the script again, with --reuse for unchanged results");
   }
-  departure_ = "from " + where + " on it was written anew: " + what;
+  departure_ = "from " + where + " on it is written again: " + what;
   if (::ftruncate(descriptor_, at == 0 ? 0 : ends_[at - 1]) != 0) throw_file_error("take up", path_, errno);
   recorded_.clear();
   return false;
@@ -156,20 +148,20 @@ JournalFacts facts_of(const std::vector<Json>& lines) {
   return {static_cast<std::int64_t>(lines.size()), digester.hex()};
 }
 
-Json without_unhashed(const Json& record) {
+Json without(const Json& record, std::string_view name) {
   Json::Members kept;
   for (const Json::Member& member : record.members())
-    if (member.first != "unhashed") kept.push_back(member);
+    if (member.first != name) kept.push_back(member);
   return Json::object(std::move(kept));
 }
 
 namespace {
 
-// Results of heavy calls carry their own digests.
+// Heavy results have their own digests.
 std::string results_remain(const std::filesystem::path& journal) {
   const std::string run = journal.parent_path().string();
-  return "its results are taken by `asperity run " + (journal.parent_path() / "script.lua").string() +
-         " --reuse " + run + "`";
+  return "use its results by `asperity run " + (journal.parent_path() / "script.lua").string() + " --reuse " +
+         run + "`";
 }
 
 }  // namespace
@@ -189,11 +181,11 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
       throw Error(ErrorCode::bad_file, name + " holds zeros, as a power cut leaves them",
                   results_remain(path));
     Json record = Json::parse(line, name);
-    const Json* number = record.is_object() ? record.find("n") : nullptr;
+    const Json* number = record.find("n");
     if (number == nullptr || number->number() != static_cast<double>(read.lines.size() + 1))
-      throw Error(ErrorCode::bad_file, name + " does not carry its number",
-                  "lines were taken out or put in: the journal was altered; " + results_remain(path));
-    read.lines.push_back(without_unhashed(record));
+      throw Error(ErrorCode::bad_file, name + " has a wrong number",
+                  "the journal was altered; " + results_remain(path));
+    read.lines.push_back(without(record));
     read.ends.push_back(bytes);
   }
   return read;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The journal of a run: one line of JSON per event, {"n":<number from 1>,"event":<name>, <fields>}, written
-// at once, so a killed run loses nothing. Equal runs write equal lines; varying values (seconds) belong in a
-// field "unhashed".
+// at once. Equal runs write equal lines; varying values (seconds) belong in a field "unhashed".
 #pragma once
 
 #include <chrono>
@@ -35,16 +34,14 @@ class Journal {
   // Throws Error{bad_file} if the file exists or cannot be created.
   explicit Journal(std::filesystem::path path);
   // Resumes an interrupted run: removes a torn last line, everything after a hole from a power cut, and an
-  // event "end"; later writes are compared with the remaining lines. Throws Error{bad_file} if the file is
-  // inaccessible, a link, or damaged before its end.
+  // event "end"; later writes are compared with the remaining lines. Throws Error{bad_file} for an
+  // inaccessible file, a link, or damage before the end.
   static std::unique_ptr<Journal> again(std::filesystem::path path);
   ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   // Returns the line number. `fields`: object or null. Throws Error{bad_file} if the disk refuses (the file
-  // then ends with the previous line), Error{bad_state} after close() and if the recorded line is another
-  // step.
+  // then ends with the previous line), Error{bad_state} after close() and for a step other than the recorded
+  // one.
   std::int64_t write(std::string_view event, const Json& fields = {});
 
   // Called in order, after each write.
@@ -53,19 +50,18 @@ class Journal {
   }
 
   std::int64_t count() const;
-  // Whether recorded lines remain.
   bool repeating() const;
   // The first difference from the record; "" if none.
   std::string departure() const;
   const std::filesystem::path& path() const { return path_; }
-  // Whether the file was removed or replaced.
+  // Removed or replaced on disk.
   bool is_lost() const;
-  // Whether the closed file differs from the written lines.
+  // The closed file differs from the written lines.
   bool is_altered() const;
-  // None before close(), without a file, and while the disk blocks a writer.
+  // None before close(), without a file, and behind a blocked writer.
   std::optional<JournalFacts> facts() const;
 
-  // Writes a last line; false if the disk blocks a writer longer than `patience`.
+  // Writes a last line; false if a writer is blocked longer than `patience`.
   bool close(std::string_view event, const Json& fields, std::chrono::milliseconds patience);
 
  private:
@@ -92,10 +88,9 @@ struct JournalLines {
 };
 JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn);
 
-Json without_unhashed(const Json& record);
+Json without(const Json& record, std::string_view member = "unhashed");
 
-// Members at any depth, null where missing. At least one; its path is empty if the records are not both
-// objects or differ in order only.
+// Null where missing. At least one; without path if the records are not both objects or differ in order only.
 struct DifferingMember {
   std::string path;  // "row.area"
   const Json *one, *other;

@@ -2,6 +2,7 @@
 #include "engine/run/ledger.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <new>
 
 #include "engine/contact/scene/known_effects.hpp"
@@ -20,35 +21,10 @@ Json to_json(const Cost& cost) {
 
 std::string seconds_text(double seconds) { return format_quantity(seconds, dimension::time, 3); }
 
-std::string columns(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      if (k == widths.size()) widths.push_back(0);
-      widths[k] = std::max(widths[k], row[k].size());
-    }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line = " ";
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::string padding(widths[k] - row[k].size(), ' ');
-      line += k == 0 ? " " + row[k] + padding : "  " + padding + row[k];
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
-
 std::vector<std::string> cells(std::string name, std::int64_t calls, const Cost& cost) {
   return {std::move(name), calls == 0 ? "" : std::to_string(calls), seconds_text(cost.seconds),
           cost.transforms == 0 ? "" : format_short(cost.transforms, 4),
           cost.bytes == 0 ? "" : format_bytes(cost.bytes)};
-}
-
-template <class Entry, class CostOf>
-void dearest_first(std::vector<Entry>& entries, CostOf cost_of) {
-  std::stable_sort(entries.begin(), entries.end(),
-                   [&](const Entry& a, const Entry& b) { return cost_of(a).seconds > cost_of(b).seconds; });
 }
 
 }  // namespace
@@ -66,7 +42,7 @@ std::string LedgerReport::text() const {
     if (!line.in_case) rows.push_back(cells(line.call, line.calls, line.cost));
   rows.push_back(cells("the script, and all else", 0, {unaccounted(), 0, 0}));
   rows.push_back(cells("together", 0, {seconds, transforms, bytes}));
-  if (std::any_of(lines.begin(), lines.end(), [](const LedgerLine& line) { return line.in_case; })) {
+  if (std::ranges::any_of(lines, [](const LedgerLine& line) { return line.in_case; })) {
     rows.push_back({"inside cases, all threads together"});
     for (const LedgerLine& line : lines)
       if (line.in_case) rows.push_back(cells("  " + line.call, line.calls, line.cost));
@@ -75,7 +51,7 @@ std::string LedgerReport::text() const {
     rows.push_back({"contacts, by effect"});
     for (const auto& [effect, cost] : by_effect) rows.push_back(cells("  " + effect, 0, cost));
   }
-  std::string result = "ledger\n" + columns(rows);
+  std::string result = "ledger" + aligned(rows, true) + "\n";
   if (!by_effect.empty() && !effects_off.empty())
     result += "  off, and nothing done for them: " + joined(effects_off, ", ") + "\n";
   return result;
@@ -101,9 +77,8 @@ Json LedgerReport::json() const {
 
 void Ledger::add(std::string_view call, bool in_case, const Cost& own) {
   const std::scoped_lock lock(mutex_);
-  auto line = std::find_if(lines_.begin(), lines_.end(), [&](const LedgerLine& known) {
-    return known.call == call && known.in_case == in_case;
-  });
+  auto line = std::ranges::find_if(
+      lines_, [&](const LedgerLine& known) { return known.call == call && known.in_case == in_case; });
   if (line == lines_.end()) line = lines_.insert(lines_.end(), {std::string(call), in_case, 0, {}});
   ++line->calls;
   line->cost += own;
@@ -112,8 +87,8 @@ void Ledger::add(std::string_view call, bool in_case, const Cost& own) {
 void Ledger::add_effects(std::span<const std::pair<std::string, Cost>> by_effect) {
   const std::scoped_lock lock(mutex_);
   for (const auto& added : by_effect) {
-    auto known = std::find_if(by_effect_.begin(), by_effect_.end(),
-                              [&](const auto& entry) { return entry.first == added.first; });
+    auto known =
+        std::ranges::find_if(by_effect_, [&](const auto& entry) { return entry.first == added.first; });
     if (known == by_effect_.end()) known = by_effect_.insert(by_effect_.end(), {added.first, {}});
     known->second += added.second;
   }
@@ -131,10 +106,13 @@ LedgerReport Ledger::report() const {
     report.transforms += line.cost.transforms;
     report.bytes = std::max(report.bytes, line.cost.bytes);
   }
-  dearest_first(report.lines, [](const LedgerLine& line) { return line.cost; });
+  const auto dearest_first = [](auto& entries, auto seconds) {
+    std::ranges::stable_sort(entries, std::greater(), seconds);
+  };
+  dearest_first(report.lines, [](const LedgerLine& line) { return line.cost.seconds; });
   std::stable_partition(report.lines.begin(), report.lines.end(),
                         [](const LedgerLine& line) { return !line.in_case; });
-  dearest_first(report.by_effect, [](const auto& entry) { return entry.second; });
+  dearest_first(report.by_effect, [](const auto& entry) { return entry.second.seconds; });
   std::vector<std::string> run;
   for (const auto& [effect, cost] : report.by_effect) run.push_back(effect);
   report.effects_off = effects_not_in(run);
@@ -158,11 +136,11 @@ LedgerScope::~LedgerScope() {
     ledger_.add(owner_.empty() ? std::string(call_) : std::string(owner_) + "." + std::string(call_),
                 in_case_, own);
   } catch (const std::bad_alloc&) {
-    return;  // its time then counts as the script's
+    return;  // counts as the script's time
   }
   if (outer_ == nullptr) return;
   outer_->inner_.transforms += all.transforms;
-  // The time of an ensemble is its waiting time for cases, on any thread.
+  // An ensemble costs its waiting time for cases, on any thread.
   if (outer_->in_case_ == in_case_) outer_->inner_.seconds += all.seconds;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work and cost of a run by call and contact effect, without recorded inner calls, so lines add up. Cases of
-// an ensemble run in parallel: their lines sum seconds over threads and are not added.
+// Work and cost of a run by call and contact effect, without recorded inner calls, so lines add up. Lines of
+// ensemble cases sum seconds over parallel threads and are not added.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ struct LedgerLine {
   std::string call;  // "contact:press"
   bool in_case = false;
   std::int64_t calls = 0;
-  Cost cost;  // without inner calls; bytes: maximum of a call
+  Cost cost;  // without inner calls; bytes: maximum
 };
 
 struct LedgerReport {
@@ -32,7 +32,7 @@ struct LedgerReport {
   double transforms = 0;                                // of all lines
   std::int64_t bytes = 0;                               // maximum of the lines
 
-  // The script itself, and unrecorded short calls.
+  // The script, and unrecorded short calls.
   double unaccounted() const;
   std::string text() const;
   Json json() const;
@@ -56,14 +56,12 @@ class LedgerScope {
   // Shorter calls get a line only if `lasting`.
   static constexpr double shortest = 50e-6;  // s
 
-  // The line is "owner.call", or `call` without owner. Both outlive the scope.
+  // Line "owner.call", or `call`. Both outlive the scope.
   LedgerScope(Ledger& ledger, std::string_view owner, std::string_view call, bool in_case, bool lasting);
   ~LedgerScope();
   // keep() always records a line, forget() never.
   void keep() { lasting_ = true; }
   void forget() { forgotten_ = true; }
-  LedgerScope(const LedgerScope&) = delete;
-  LedgerScope& operator=(const LedgerScope&) = delete;
 
  private:
   Ledger& ledger_;

@@ -7,18 +7,24 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/timed_lock.hpp"
+#include "engine/run/run_folder.hpp"
 
 namespace asperity {
 
-namespace {
-
 Json to_json(const Cell& cell) {
-  if (is_number(cell)) return *number_in(cell);  // journals do not distinguish integers
+  if (is_number(cell)) return *number_in(cell);
   if (const bool* truth = std::get_if<bool>(&cell)) return *truth;
   if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
   return {};
+}
+
+namespace {
+
+// A number in the display unit.
+Json shown_json(const Cell& cell, const std::string& unit) {
+  return is_number(cell) && !unit.empty() ? Json(in_unit(*number_in(cell), unit)) : asperity::to_json(cell);
 }
 
 }  // namespace
@@ -31,11 +37,11 @@ void Notebook::order_columns(const std::vector<std::string>& columns) {
   if (columns == order_) return;
   if (!table_.columns().empty())
     throw Error(ErrorCode::bad_state,
-                "the columns of the notebook " + quoted(name_) + " stand in another order already",
+                "the columns of the notebook " + quoted(name_) + " already have another order",
                 "give their order where the notebook is first opened");
   Table ordered;
   for (const std::string& column : columns) {
-    const auto [name, unit] = split_column_unit(column);
+    const auto [name, unit, mean_of] = split_column_unit(column);
     if (!ordered.declare_column(name))
       throw Error(ErrorCode::bad_value, "`columns` names " + quoted(name) + " twice",
                   "give each column one place");
@@ -46,23 +52,20 @@ void Notebook::order_columns(const std::vector<std::string>& columns) {
 }
 
 void Notebook::write(std::span<const Entry> given) {
-  std::vector<Entry> row(given.begin(), given.end());
-  if (const std::lock_guard lock(mutex_); !order_.empty())
-    std::ranges::stable_sort(row, {}, [this](const Entry& entry) {
-      const auto place = table_.find_column(split_column_unit(entry.column).name);
-      return place && *place < order_.size() ? *place : order_.size();
-    });
+  const std::lock_guard lock(mutex_);
+  std::vector<Entry> row = table_.resolved(given);
+  std::ranges::stable_sort(row, {}, [this](const Entry& entry) {
+    const auto place = table_.find_column(entry.column);
+    return place && *place < order_.size() ? *place : order_.size();
+  });
   Json values = Json::object();
   Json units;
   for (const Entry& entry : row) {
-    values.set(entry.column, to_json(entry.value));
+    values.set(entry.column, shown_json(entry.value, entry.unit));
     if (!entry.unit.empty()) units.set(entry.column, entry.unit);
   }
-  const std::lock_guard lock(mutex_);
-  table_.check(row);
   Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});
   if (!units.is_null()) fields.set("units", std::move(units));
-  // The first row may lack a declared column.
   if (table_.rows() == 0 && !order_.empty()) {
     std::vector<std::string> columns;
     for (const TableColumn& column : table_.columns()) columns.push_back(column.name);
@@ -71,7 +74,7 @@ void Notebook::write(std::span<const Entry> given) {
   journal_.write("row", fields);
   const bool new_header = table_.append(row);
   if (csv_.empty()) return;
-  // A resumed run's file has these rows already.
+  // The resumed file has these rows already.
   if (journal_.repeating()) {
     stale_ = true;
     return;
@@ -87,12 +90,6 @@ void Notebook::declare_unit(std::string_view column, std::string_view unit) {
   const std::lock_guard lock(mutex_);
   const bool new_header = table_.declare_unit(column, unit);
   if (new_header && !csv_.empty() && table_.rows() > 0 && !journal_.repeating()) rewrite();
-}
-
-std::string Notebook::unit_of(std::string_view column) const {
-  const std::lock_guard lock(mutex_);
-  const auto place = table_.find_column(column);
-  return place ? table_.columns()[*place].unit : std::string();
 }
 
 void Notebook::rewrite() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows with free columns. Each row is in the journal and the CSV file before `write` returns. A new column or
-// unit rewrites the file atomically.
+// Rows with free columns, in journal and CSV file before `write` returns. A new column or unit rewrites the
+// file atomically.
 #pragma once
 
 #include <chrono>
@@ -12,13 +12,15 @@
 #include <vector>
 
 #include "engine/run/expectation.hpp"
-#include "engine/run/expectation_log.hpp"
 #include "engine/run/journal.hpp"
 #include "engine/statistics/table.hpp"
 
 namespace asperity {
 
-// Thread-safe. RunDirectory::notebook owns journal and log.
+// Journals do not distinguish integers.
+Json to_json(const Cell& cell);
+
+// Thread-safe. Use RunDirectory::notebook.
 class Notebook {
  public:
   // Empty `csv`: no file. The first row creates the file.
@@ -27,20 +29,24 @@ class Notebook {
   const std::string& name() const { return name_; }
   const std::filesystem::path& csv() const { return csv_; }
 
-  // These columns come first, in this order; names may have units. The same order may be repeated. Throws
-  // Error{bad_state} if there are other columns, and as Table::declare_unit does.
+  // These columns come first; names may have units. The same order may be repeated. Throws Error{bad_state}
+  // after other columns, and as Table::declare_unit does.
   void order_columns(const std::vector<std::string>& columns);
 
-  // Journal event "row". Throws as Table::check and Journal::write do, with nothing changed; Error{bad_file}
-  // if the CSV write fails: the row stays, and the next write or save tries again.
+  // Journal event "row". Throws as Table::resolved and Journal::write do, with nothing changed;
+  // Error{bad_file} if the CSV write fails: the row stays, and the next write or save tries again.
   void write(std::span<const Entry> row);
   void declare_unit(std::string_view column, std::string_view unit);
-  // "" without unit or column.
-  std::string unit_of(std::string_view column) const;
-  // Journal event "expect", and an entry in the run's log. Throws as check() and in_column_unit() do.
+  // Journal event "expect", and a log entry. Throws as evaluate() does.
   Verdict expect(const Expectation& expectation);
 
   Table table() const;
+  // Reads the rows without a copy.
+  template <class Read>
+  auto read(const Read& read) const {
+    const std::lock_guard lock(mutex_);
+    return read(table_);
+  }
 
   // Replaces another notebook's CSV. Throws Error{bad_file}.
   void write_again();
@@ -58,7 +64,7 @@ class Notebook {
   mutable std::mutex mutex_;
   Table table_;
   std::vector<std::string> order_;
-  bool stale_ = false;  // the file lacks a row or a column
+  bool stale_ = false;  // a row or column is missing
 };
 
 }  // namespace asperity

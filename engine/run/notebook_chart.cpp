@@ -11,6 +11,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/table_operations.hpp"
 
 namespace asperity {
 
@@ -57,7 +58,7 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
   return columns;
 }
 
-// In order of their first rows; empty if the column has a number.
+// In order of first rows; empty if the column has a number.
 std::vector<std::string> names_along(const Table& table, const std::vector<std::size_t>& rows,
                                      std::size_t column) {
   constexpr std::size_t most = 60;
@@ -73,7 +74,7 @@ std::vector<std::string> names_along(const Table& table, const std::vector<std::
     throw Error(ErrorCode::bad_value,
                 asperity::quoted(table.columns()[column].name) + " holds " + std::to_string(names.size()) +
                     " different names, and an axis has room for " + std::to_string(most),
-                "choose some with `where`, or write a column of numbers beside them");
+                "choose some with `where`, or add a column of numbers");
   return names;
 }
 
@@ -83,7 +84,6 @@ std::optional<double> place_of_name(const std::vector<std::string>& names, const
   return static_cast<double>(place - names.begin());
 }
 
-// Rows with text instead of a number, and the first text.
 struct Unreadable {
   std::size_t rows = 0;
   std::string column, text;
@@ -188,8 +188,9 @@ std::string line_name(const NotebookChart& options, const std::string& y, const 
   return name + (number && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
 }
 
-double in_unit(const ExpectedValue& value, const TableColumn& column) {
-  if (value.quantity.empty()) return value.value;
+double on_axis(const ExpectedValue& value, const TableColumn& column, const std::string& name) {
+  if (value.quantity.empty())
+    return split_column_unit(name).unit.empty() ? in_unit(value.value, column.unit) : value.value;
   try {
     return parse_quantity_in(value.quantity, column.unit);
   } catch (const Error& error) {
@@ -221,21 +222,23 @@ Range range_along(const LineChart& chart) {
   return range;
 }
 
+// `y_names`: drawn columns, and the columns they average.
 void add_fits(LineChart& chart, const NotebookChart& options, const std::vector<std::string>& y_names) {
+  const std::string x_name = split_column_unit(options.x).name;
   for (std::size_t k = 0; k < options.fits.size(); ++k) {
     const FittedCurve& fit = options.fits[k];
-    if (fit.x != options.x || std::ranges::find(y_names, fit.y) == y_names.end())
+    if (fit.x != x_name || std::ranges::find(y_names, fit.y) == y_names.end())
       throw Error(ErrorCode::bad_value,
                   "`fit` is of " + asperity::quoted(fit.y) + " against " + asperity::quoted(fit.x) +
                       ", and the chart shows " + asperity::quoted(joined(y_names, ", ")) + " against " +
-                      asperity::quoted(options.x),
+                      asperity::quoted(x_name),
                   "draw the columns that were fitted");
     std::vector<double> x, y, low, high;
     for (const CurvePoint& point : fit.curve) {
-      x.push_back(point.x);
-      y.push_back(point.y);
-      low.push_back(point.low);
-      high.push_back(point.high);
+      x.push_back(in_unit(point.x, chart.x.unit));
+      y.push_back(in_unit(point.y, chart.y.unit));
+      low.push_back(in_unit(point.low, chart.y.unit));
+      high.push_back(in_unit(point.high, chart.y.unit));
     }
     std::string name = fit.name;
     if (name.empty()) name = options.fits.size() > 1 ? "fit " + std::to_string(k + 1) : "fit";
@@ -259,7 +262,7 @@ void add_functions(LineChart& chart, const NotebookChart& options) {
       const double at = chart.x.logarithmic ? range.min * elementary::pow(range.max / range.min, share)
                                             : range.min * (1 - share) + range.max * share;
       x.push_back(std::clamp(at, range.min, range.max));
-      y.push_back(function.value(x.back()));
+      y.push_back(in_unit(function.value(from_unit(x.back(), chart.x.unit)), chart.y.unit));
     }
     chart.series.push_back(curve_series(function.name, std::move(x), std::move(y)));
   }
@@ -274,18 +277,37 @@ void add_functions(LineChart& chart, const NotebookChart& options) {
                         : "none of the " + std::to_string(rows.size()) + " rows has a number in both";
   if (!rows.empty() && unreadable.rows > 0)
     hint = asperity::quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
-           "\"; names stand along x: write a column of numbers beside them";
+           "\"; names can only be along x: add a column of numbers";
   throw Error(
       ErrorCode::bad_value,
       "the chart of " + asperity::quoted(y) + " against " + asperity::quoted(x) + " has nothing to draw",
       hint);
 }
 
+// With units: all along y have that of the first, if dimensions are equal.
+std::vector<std::string> units_of_axes(const Table& table, const NotebookChart& options) {
+  std::vector<std::string> named = {options.x};
+  if (options.one_line_per) named.push_back(*options.one_line_per);
+  std::vector<std::string> up = options.y;
+  for (const auto& column : {options.spread_column, options.low, options.high})
+    if (column) up.push_back(*column);
+  if (up.empty()) return named;
+  const std::string unit = table.display_unit_of(up.front(), table.column(up.front(), "y"));
+  for (const std::string& name : up) {
+    const auto k = table.find_column(name);
+    const std::string& own = k ? table.columns()[*k].unit : unit;
+    const bool alike = k && (own.empty() || parse_unit(own).dimension == parse_unit(unit).dimension);
+    if (alike && !unit.empty()) named.push_back(split_column_unit(name).name + " [" + unit + "]");
+  }
+  return named;
+}
+
 }  // namespace
 
-LineChart chart_of(const Table& table, const NotebookChart& options, std::vector<std::string>& warnings) {
+LineChart chart_of(const Table& given, const NotebookChart& options, std::vector<std::string>& warnings) {
+  const Table table = in_display_units(given, units_of_axes(given, options));
   Columns columns = find_columns(table, options);
-  const std::vector<std::size_t> rows = options.where.rows(table);
+  const std::vector<std::size_t> rows = options.where.rows(given);
   columns.names = names_along(table, rows, columns.x);
   if (!columns.names.empty() && (options.log_x || !options.fits.empty() || !options.functions.empty()))
     throw Error(ErrorCode::bad_value,
@@ -295,8 +317,12 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
   chart.title = options.title;
   const TableColumn& x = table.columns()[columns.x];
   const TableColumn& y = table.columns()[columns.y.front()];
-  std::vector<std::string> names;
-  for (const std::size_t k : columns.y) names.push_back(table.columns()[k].name);
+  std::vector<std::string> names, fitted;
+  for (const std::size_t k : columns.y) {
+    names.push_back(table.columns()[k].name);
+    fitted.push_back(names.back());
+    if (!table.columns()[k].mean_of.empty()) fitted.push_back(table.columns()[k].mean_of);
+  }
   chart.x.label = options.x_label.value_or(x.name);
   chart.x.unit = x.unit;
   chart.x.logarithmic = options.log_x;
@@ -322,19 +348,54 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
   for (const ReferenceLine& line : options.references) {
     ChartReference across;
     across.name = line.name;
-    if (line.x) across.x = in_unit(*line.x, x);
-    if (line.y) across.y = in_unit(*line.y, y);
+    if (line.x) across.x = on_axis(*line.x, x, options.x);
+    if (line.y) across.y = on_axis(*line.y, y, options.y.front());
     chart.references.push_back(std::move(across));
   }
-  add_fits(chart, options, names);
+  const bool named =
+      !options.fits.empty() || !options.functions.empty() ||
+      std::ranges::any_of(options.references, [](const auto& line) { return !line.name.empty(); });
+  if (named && chart.series.size() == 1 && chart.series.front().name.empty()) {
+    const std::string& mean_of = table.columns()[columns.y.front()].mean_of;
+    chart.series.front().name = mean_of.empty() ? names.front() : "mean of " + mean_of;
+  }
+  add_fits(chart, options, fitted);
   add_functions(chart, options);
+  chart.legend = options.legend;
+  if (options.width || options.font_size)
+    print_at(chart, options.width.value_or(0.24), options.font_size.value_or(8));
   return chart;
 }
 
 std::string default_chart_file(std::string_view notebook, const NotebookChart& options) {
   std::string name(notebook);
-  for (const std::string& y : options.y) name += "-" + y;
-  return safe_file_name(name + "-" + options.x) + ".svg";
+  for (const std::string& y : options.y) name += "-" + split_column_unit(y).name;
+  return safe_file_name(name + "-" + split_column_unit(options.x).name) + ".svg";
+}
+
+void note_chart(RunDirectory& run, std::string_view name, const NotebookChart& options,
+                const std::vector<std::string>& warnings) {
+  Json where = Json::object();
+  for (const Condition& condition : options.where.conditions()) {
+    Json::List accepted;
+    for (const Cell& cell : condition.accepted) accepted.push_back(to_json(cell));
+    where.set(split_column_unit(condition.column).name, std::move(accepted));
+  }
+  Json fields =
+      Json::object({{"notebook", name}, {"file", options.file.value_or(default_chart_file(name, options))}});
+  if (!warnings.empty()) fields.set("warnings", Json::strings(warnings));
+  fields.set("unhashed", Json::object({{"x", options.x},
+                                       {"y", Json::strings(options.y)},
+                                       {"per", options.one_line_per.value_or("")},
+                                       {"log_x", options.log_x},
+                                       {"log_y", options.log_y},
+                                       {"title", options.title},
+                                       {"x_label", options.x_label.value_or("")},
+                                       {"y_label", options.y_label.value_or("")},
+                                       {"where", std::move(where)},
+                                       {"points", options.points},
+                                       {"spread", options.spread}}));
+  run.journal().write("chart", fields);
 }
 
 DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& table,
@@ -343,8 +404,12 @@ DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& tab
   const PictureFormat format = picture_format(file);
   DrawnChart drawn;
   std::vector<LineChart> panels = {chart_of(table, options, drawn.warnings)};
-  for (const NotebookChart* next = options.below.get(); next != nullptr; next = next->below.get())
-    panels.push_back(chart_of(table, *next, drawn.warnings));
+  for (const NotebookChart* next = options.below.get(); next != nullptr; next = next->below.get()) {
+    NotebookChart panel = *next;
+    panel.width = options.width;
+    panel.font_size = options.font_size;
+    panels.push_back(chart_of(table, panel, drawn.warnings));
+  }
   drawn.file = run.path_for(file);
   if (run.dry()) {
     chart_script(panels, format, drawn.warnings);
@@ -352,9 +417,7 @@ DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& tab
   }
   const std::vector<std::string> more = draw(panels, drawn.file);
   drawn.warnings.insert(drawn.warnings.end(), more.begin(), more.end());
-  Json fields = Json::object({{"notebook", std::string(name)}, {"file", file}});
-  if (!drawn.warnings.empty()) fields.set("warnings", Json::strings(drawn.warnings));
-  run.journal().write("chart", fields);
+  note_chart(run, name, options, drawn.warnings);
   return drawn;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The chart of a notebook or table: columns against a column, one line per value of another column. Rows with
 // equal line and x are averaged. With `spread`, means carry error bars (standard deviation with n-1, or mean
-// errors); otherwise rows are faint points. `in_order` joins the rows as written. A column of texts gives an
-// axis of names.
+// errors); otherwise rows are faint points. `in_order` joins the rows as written. Texts give an axis of
+// names.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@
 
 namespace asperity {
 
-// The confidence interval of the curve, not of a new measurement.
+// In SI. Confidence interval of the curve, not of a measurement.
 struct CurvePoint {
   double x = 0, y = 0, low = 0, high = 0;
 };
@@ -37,30 +37,33 @@ struct FittedCurve {
 
 struct FunctionLine {
   std::string name;
-  std::function<double(double x)> value;
+  std::function<double(double x)> value;  // in SI
 };
 
-// In the column's unit; quantities are converted.
+// In SI, in the unit of the name in `x` and `y`, or a quantity.
 struct ReferenceLine {
   std::optional<ExpectedValue> x, y;
   std::string name;
 };
 
 struct NotebookChart {
-  std::string x;
+  std::string x;                            // its unit is the axis's
   std::vector<std::string> y;               // of one unit
-  std::optional<std::string> one_line_per;  // a column, in ascending order of values
-  bool spread = false;                      // standard deviation of the rows
+  std::optional<std::string> one_line_per;  // a column; ascending values
+  bool spread = false;                      // standard deviations
   std::optional<std::string> spread_column;
   TableFilter where;
   bool log_x = false, log_y = false;
   bool in_order = false;
-  std::optional<bool> lines;  // default: without fits and axis of names
+  std::optional<bool> lines;  // default: unless fits or names
   bool points = true;
   std::string title;
   std::optional<std::string> x_label, y_label;  // units are added
   std::optional<std::string> file;              // default_chart_file()
-  std::optional<std::string> low, high;         // columns with the ends of error bars
+  std::optional<double> width;                  // m, as printed
+  std::optional<double> font_size;              // points, with `width`; default 8
+  std::string legend = {};                      // as LineChart's
+  std::optional<std::string> low, high;         // columns: ends of error bars
   std::vector<ReferenceLine> references;
   std::vector<FittedCurve> fits;
   std::vector<FunctionLine> functions;
@@ -74,6 +77,10 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
 // "<notebook>-<y>-<x>.svg"
 std::string default_chart_file(std::string_view notebook, const NotebookChart& options);
 
+// Journal event "chart"; in a dry run, for the journal's watcher only.
+void note_chart(RunDirectory& run, std::string_view name, const NotebookChart& options,
+                const std::vector<std::string>& warnings);
+
 struct DrawnChart {
   std::filesystem::path file;
   std::vector<std::string> warnings;
@@ -81,7 +88,6 @@ struct DrawnChart {
 
 // Journal event "chart". A dry run only checks. Throws as chart_of, RunDirectory::path_for and draw do.
 DrawnChart draw_chart(RunDirectory& run, const Notebook& notebook, const NotebookChart& options);
-// `name`: for the journal and the default file.
 DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& table,
                       const NotebookChart& options);
 

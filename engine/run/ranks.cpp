@@ -74,35 +74,31 @@ void Ranks::call_together(const std::string& what, int ensembles) {
       if (name == what)
         here.insert(message.from);
       else
-        lose(message.from, "came to " + name + " when rank 0 came to " + what +
-                               ": the script does not do the same in every process");
+        lose(message.from, "reached " + name + " when rank 0 reached " + what +
+                               ": the script must do the same in every process");
     } else if (message.kind == Kind::end) {
-      lose(message.from, name.empty() ? "came to its end before rank 0" : "failed: " + name);
+      lose(message.from, name.empty() ? "ended before rank 0" : "failed: " + name);
     } else if (message.kind == Kind::hello && std::stoll(name) > ensembles) {
-      lose(message.from, "came to an ensemble when rank 0 came to " + what +
-                             ": the script does not do the same in every process");
-    }  // else a late message of a finished ensemble
+      lose(message.from, "reached an ensemble when rank 0 reached " + what +
+                             ": the script must do the same in every process");
+    }  // else a late message
   }
-  ByteWriter out;
-  out.number(meetings_);
-  out.text(losses_.empty() ? "" : losses_.front());
-  send_to_others(Kind::go, out.take());
+  const std::string loss = losses_.empty() ? "" : losses_.front();
+  send_to_others(Kind::go, ByteWriter().number(meetings_).text(loss).take());
   if (!losses_.empty()) throw_apart(what, losses_.front());
 }
 
 void Ranks::wait_for_call(const std::string& what, int ensembles) {
-  ByteWriter out;
-  out.text(what);
-  send(0, Kind::here, out.take());
+  send(0, Kind::here, ByteWriter().text(what).take());
   for (;;) {
     Message message = next();
     ByteReader in(message.bytes);
     if (message.kind == Kind::end) {
       put_back(std::move(message));
-      throw_apart(what, "rank 0 came to its end, or goes another way");
+      throw_apart(what, "rank 0 has ended or takes another way");
     }
     if ((message.kind == Kind::cases || message.kind == Kind::rows) && std::stoll(in.text()) > ensembles)
-      throw_apart(what, "rank 0 came to an ensemble");
+      throw_apart(what, "rank 0 reached an ensemble");
     if (message.kind != Kind::go || in.number<std::uint64_t>() != meetings_) continue;
     if (const std::string why = in.text(); !why.empty()) throw_apart(what, why);
     return;
@@ -113,27 +109,16 @@ std::optional<FoundResult> RankStore::find(const std::string& key) {
   if (ranks_.leads()) {
     if (ranks_.own_store == nullptr) return {};
     std::optional<FoundResult> found = ranks_.own_store->find(key);
-    if (found) {
-      KeptFields fields;
-      for (const auto& [name, field] : found->fields) fields.emplace_back(name, &field);
-      ranks_.send_to_others(Ranks::Kind::kept, result_bytes(key, *found, fields));
-    }
+    if (found) ranks_.send_to_others(Ranks::Kind::kept, result_bytes(key, *found, found->kept()));
     return found;
   }
-  for (;;) {
-    std::optional<Ranks::Message> message = ranks_.receive();
-    if (!message) {
-      stop_flag().check();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      continue;
-    }
-    if (message->kind == Ranks::Kind::kept) {
-      ByteReader in(message->bytes);
-      if (in.text() == key) return result_from(in);
-    }
-    ranks_.put_back(*std::move(message));
-    return {};
+  Ranks::Message message = ranks_.next();
+  if (message.kind == Ranks::Kind::kept) {
+    ByteReader in(message.bytes);
+    if (in.text() == key) return result_from(in);
   }
+  ranks_.put_back(std::move(message));
+  return {};
 }
 
 void RankStore::keep(const std::string& key, std::string_view call, const ResultFacts& facts,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processes of one run of one script. Rank 0 distributes cases, broadcasts rows, and alone computes heavy
-// calls outside ensembles. Rank 0 can replace a failed rank. Call from the script's thread.
+// The processes of one run of one script. Rank 0 distributes cases, broadcasts rows, alone computes heavy
+// calls outside ensembles, and can replace a failed rank. Call from the script's thread.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ class Ranks {
 
   void send(int to, Kind kind, const std::string& bytes);
   void send_to_others(Kind kind, const std::string& bytes);
-  // None if no message waits. Messages of lost ranks are dropped.
+  // None waiting: nothing. Drops messages of lost ranks.
   std::optional<Message> receive();
-  // Returned by the next receive().
+  Message next();
   void put_back(Message message) { put_back_.push_front(std::move(message)); }
 
   // The run then fails at its end.
@@ -46,7 +46,7 @@ class Ranks {
   void meet(const std::string& what, int ensembles);
   virtual Team& team() = 0;
 
-  // For cases; null: none. On ranks other than 0 the store of `--store`.
+  // For cases; may be null. On other ranks the store of `--store`.
   ResultStore* own_store = nullptr;
 
  protected:
@@ -57,7 +57,6 @@ class Ranks {
  private:
   void call_together(const std::string& what, int ensembles);
   void wait_for_call(const std::string& what, int ensembles);
-  Message next();
 
   std::deque<Message> put_back_;
   std::uint64_t meetings_ = 0;
@@ -65,8 +64,8 @@ class Ranks {
   std::vector<std::string> losses_;
 };
 
-// Heavy calls outside ensembles: rank 0 loads or computes each result and sends it to the others. If rank 0
-// fails, every rank tries.
+// Heavy calls outside ensembles: rank 0 loads or computes each result and sends it. If rank 0 fails, every
+// rank tries.
 class RankStore final : public ResultStore {
  public:
   explicit RankStore(Ranks& ranks) : ranks_(ranks) {}

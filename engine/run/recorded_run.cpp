@@ -2,7 +2,11 @@
 #include "engine/run/recorded_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "engine/core/digest.hpp"
@@ -21,7 +25,7 @@ namespace {
 constexpr const char* unhashed = "unhashed";
 
 const Json& member(const Json& record, std::string_view name, const fs::path& file) {
-  if (const Json* found = record.is_object() ? record.find(name) : nullptr) return *found;
+  if (const Json* found = record.find(name)) return *found;
   throw Error(ErrorCode::bad_file, quoted(file.string()) + " has no `" + std::string(name) + "`",
               "it is not the record of a run, or it was altered");
 }
@@ -36,7 +40,7 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
   std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
   if (!recorded.ended()) {
     compared = recorded.journal.size();
-    // The end of an unfinished run is no result.
+    // An unfinished run's end is no result.
     if (compared > 0 && described(recorded.journal.back()) == "end") --compared;
   }
   for (std::size_t k = 0; k < compared; ++k) {
@@ -50,11 +54,11 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
 }
 
 std::optional<std::string> named(const Json& entry) {
-  const Json* file = entry.is_object() ? entry.find("file") : nullptr;
+  const Json* file = entry.find("file");
   return file != nullptr ? std::optional(file->string()) : std::nullopt;
 }
 
-// A record from elsewhere may name only files in its folder of copies.
+// A foreign record may name only its own copies.
 void read_loaded(RecordedRun& run) {
   for (const Json& entry : run.inputs.list()) {
     const Json *copy = entry.find("copy"), *digest = entry.find("digest");
@@ -88,8 +92,7 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
   for (const RecordedRun* run : {&recorded, &again})
     if (const Json* entries = run->manifest.find(list))
       for (const Json& entry : entries->list())
-        if (const auto file = named(entry);
-            file && std::find(files.begin(), files.end(), *file) == files.end())
+        if (const auto file = named(entry); file && std::ranges::find(files, *file) == files.end())
           files.push_back(*file);
   const std::string kind(list.substr(0, list.size() - 1));  // "outputs" -> "output"
   for (const std::string& file : files) {
@@ -97,6 +100,40 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
     if (one != nullptr && other != nullptr && *one == *other) continue;
     found.push_back({kind + " " + quoted(file), brief(one), brief(other)});
   }
+}
+
+constexpr double rounding_of_column = 1e-12;
+
+// Rows of one notebook, or verdicts of its expectations, in journal order.
+struct Results {
+  std::string name;                          // "events, row"
+  std::vector<const Json*> entries{};        // objects
+  std::map<std::string, double> greatest{};  // by column of numbers
+};
+
+std::vector<Results> results_in(const std::vector<Json>& journal) {
+  std::vector<Results> all;
+  for (const Json& line : journal) {
+    const Json *row = line.find("row"), &notebook = line["notebook"];
+    const bool is_verdict = row == nullptr && line.find("passed") != nullptr;
+    if (!notebook.is_string() || !(is_verdict || (row != nullptr && row->is_object()))) continue;
+    const std::string name = notebook.string() + (is_verdict ? ", expectation" : ", row");
+    auto place = std::ranges::find(all, name, &Results::name);
+    if (place == all.end()) place = all.insert(all.end(), Results{name});
+    place->entries.push_back(is_verdict ? &line : row);
+    if (is_verdict) continue;
+    for (const auto& [column, value] : row->members())
+      if (value.is_number())
+        place->greatest[column] = std::max(place->greatest[column], std::abs(value.number()));
+  }
+  return all;
+}
+
+bool agree(const Json& one, const Json& other, double greatest) {
+  if (!one.is_number() || !other.is_number()) return one == other;
+  const double a = one.number(), b = other.number();
+  return a == b || std::abs(a - b) <= std::max(digits_kept * std::max(std::abs(a), std::abs(b)),
+                                               rounding_of_column * greatest);
 }
 
 }  // namespace
@@ -116,8 +153,8 @@ Difference difference_of(std::string where, const std::vector<DifferingMember>& 
 }
 
 std::string program_version(const RecordedRun& run) {
-  const Json* version = run.versions.is_object() ? run.versions.find("asperity") : nullptr;
-  return version != nullptr && version->is_string() ? version->string() : std::string();
+  const Json& version = run.versions["asperity"];
+  return version.is_string() ? version.string() : std::string();
 }
 
 Json read_manifest(const fs::path& root) {
@@ -146,12 +183,12 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   if (const Json* knobs = manifest.find("knobs")) run.knobs = given_knobs(*knobs);
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
-  if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;
+  if (const Json* machine = rest.find("machine")) run.machine = *machine;
   for (const auto& [name, text] : {std::pair("shard", &run.shard), std::pair("store", &run.store)})
-    if (const Json* found = rest.is_object() ? rest.find(name) : nullptr) *text = found->string();
-  run.manifest = without_unhashed(manifest);
+    if (const Json* found = rest.find(name)) *text = found->string();
+  run.manifest = without(manifest);
   const Json* inputs = manifest.find("inputs");
-  if (inputs == nullptr && rest.is_object()) inputs = rest.find(run_names::inputs_so_far);
+  if (inputs == nullptr) inputs = rest.find(run_names::inputs_so_far);
   if (inputs != nullptr) run.inputs = *inputs;
   read_loaded(run);
   try {
@@ -197,7 +234,6 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
     const Json* digest = entry.find("digest");
     if (!file || digest == nullptr || entry.find("copy") != nullptr) continue;
     bool found = false, same = false;
-    // The run's own files have names inside the run.
     for (const fs::path& place : {fs::path(*file), run.root / *file}) {
       std::error_code missing;
       if (same || !fs::is_regular_file(place, missing)) continue;
@@ -205,9 +241,9 @@ std::vector<std::string> altered_inputs(const RecordedRun& run) {
       same = file_digest(place) == digest->string();
     }
     if (!same)
-      sentences.push_back("\"" + plain_text(*file) + "\"" +
-                          (found ? " is not what it was when the run had read it"
-                                 : ", which the run had read, is not found from here"));
+      sentences.push_back(
+          "\"" + plain_text(*file) + "\"" +
+          (found ? " has changed since the run read it" : ", an input of the run, is not found here"));
   }
   for (std::string& sentence : altered_originals(run)) sentences.push_back(std::move(sentence));
   return sentences;
@@ -219,7 +255,7 @@ std::vector<std::string> altered_originals(const RecordedRun& run) {
     std::error_code missing;
     if (fs::is_regular_file(file, missing) && file_digest(file) != loaded.digest)
       sentences.push_back("\"" + plain_text(file) +
-                          "\" is not what it was when the run loaded it; the run's own copy is used");
+                          "\" has changed since the run loaded it; the run's own copy is used");
   }
   return sentences;
 }
@@ -231,9 +267,38 @@ std::vector<Difference> differences(const RecordedRun& recorded, const RecordedR
   if (!recorded.ended()) return found;
   compare_files(recorded, again, "outputs", found);
   const Json *one = recorded.manifest.find("expectations"), *other = again.manifest.find("expectations");
-  if ((one == nullptr) != (other == nullptr) || (one != nullptr && !(*one == *other)))
+  if (!(recorded.manifest["expectations"] == again.manifest["expectations"]))
     found.push_back({"expectations", brief(one), brief(other)});
   return found;
+}
+
+bool same_minor_version(std::string_view one, std::string_view other) {
+  const auto minor = [](std::string_view version) { return version.substr(0, version.rfind('.')); };
+  return one == other || (std::count(one.begin(), one.end(), '.') == 2 && minor(one) == minor(other));
+}
+
+AcrossVersions compare_across_versions(const RecordedRun& recorded, const RecordedRun& again) {
+  AcrossVersions result;
+  const std::vector<Results> now = results_in(again.journal);
+  for (const Results& then : results_in(recorded.journal)) {
+    const auto place = std::ranges::find(now, then.name, &Results::name);
+    const std::size_t count = then.entries.size(),
+                      again_count = place != now.end() ? place->entries.size() : 0;
+    const bool verdicts = then.name.ends_with(", expectation");
+    for (std::size_t k = 0; k < std::min(count, again_count); ++k)
+      for (const auto& [column, value] : then.entries[k]->members()) {
+        if (verdicts && column != "passed") continue;
+        const Json* other = place->entries[k]->find(column);
+        const auto greatest = then.greatest.find(column);
+        ++result.compared;
+        if (other == nullptr || !agree(value, *other, greatest != then.greatest.end() ? greatest->second : 0))
+          result.differences.push_back(
+              {then.name + " " + std::to_string(k + 1) + ", " + column, brief(&value), brief(other)});
+      }
+    if (again_count < count || (recorded.ended() && again_count > count))
+      result.differences.push_back({then.name + "s", std::to_string(count), std::to_string(again_count)});
+  }
+  return result;
 }
 
 }  // namespace asperity

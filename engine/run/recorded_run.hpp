@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run loaded from its directory, and its differences from another run, except for members "unhashed"
-// (dates, seconds, machine, threads).
+// A run loaded from its directory, and its differences from another run, except for members "unhashed".
 #pragma once
 
 #include <cstdint>
@@ -8,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/files/json.hpp"
@@ -25,9 +25,9 @@ using LoadedFiles = std::map<std::string, LoadedFile, std::less<>>;  // by name 
 
 struct RecordedRun {
   std::filesystem::path root;
-  // "done", "failed", "shard" (ended for lack of other cases), "interrupted", "killed", "running" (crashed).
+  // "done", "failed", "shard" (lacks other cases), "interrupted", "killed", "running" (crashed).
   std::string status;
-  std::string shard, store;  // "1/3" and the shared folder, of a shard; else ""
+  std::string shard, store;  // of a shard: "1/3", shared folder
   std::string script_path;   // as given
   std::string script_text;
   std::vector<std::string> arguments;
@@ -42,9 +42,9 @@ struct RecordedRun {
   Json manifest;
   Json inputs = Json::List();             // so far
   LoadedFiles loaded;                     // with unaltered copies
-  std::vector<std::string> loaded_fault;  // a sentence for each altered copy
+  std::vector<std::string> loaded_fault;  // one per altered copy
 
-  // Journal and list of files are complete.
+  // Complete journal and list of files.
   bool ended() const { return status == "done" || status == "failed"; }
 };
 
@@ -64,7 +64,7 @@ std::vector<std::string> altered_outputs(const RecordedRun& run);
 // The same for input files, from the working folder; empty for an unfinished run.
 std::vector<std::string> altered_inputs(const RecordedRun& run);
 
-// A sentence per loaded file that changed since, from the working folder.
+// Loaded script files, from the working folder.
 std::vector<std::string> altered_originals(const RecordedRun& run);
 
 struct Difference {
@@ -74,7 +74,27 @@ struct Difference {
 
 Difference difference_of(std::string where, const std::vector<DifferingMember>& members);
 
-// Inputs, journal, outputs, expectations. An unfinished run is compared as far as it came.
+// Inputs, journal, outputs, expectations. An unfinished run is compared up to its end.
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again);
+
+// Compares the results of a run by another minor version: rows of notebooks and verdicts of expectations.
+// Versions may round differently and change laws, so numbers are compared to `digits_kept`; digests, files,
+// keys and warnings are not compared.
+
+// Relative. Other last digits of the heights change a solve within its tolerance (1e-6 by default), and a
+// derived number by up to ten times as much (tests/contact/half_space/half_space_digits_test.cpp).
+inline constexpr double digits_kept = 1e-5;
+
+// "0.2.0" and "0.2.7", not "0.3.0"; also equal texts.
+bool same_minor_version(std::string_view one, std::string_view other);
+
+struct AcrossVersions {
+  std::vector<Difference> differences;  // in recorded order
+  std::int64_t compared = 0;            // recorded values and verdicts
+};
+
+// An unfinished run: up to its end. A number below 1e-12 of the greatest of its column is rounding, and is
+// not compared.
+AcrossVersions compare_across_versions(const RecordedRun& recorded, const RecordedRun& again);
 
 }  // namespace asperity

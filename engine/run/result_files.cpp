@@ -9,8 +9,9 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/files/source_file.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 namespace asperity {
 
@@ -18,67 +19,58 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view numbers = "numbers/", fields = "fields/", spent = "cost/";
-constexpr std::string_view form = "asperity result 1";
+constexpr std::string_view form = "asperity result 2", file_ending = ".result";
 
-std::string digest_of(const std::string& key, const Hdf5Content& content) {
+std::string digest_of(std::string_view call, const std::string& key, const ResultFacts& facts,
+                      const KeptFields& fields) {
   Digester digester;
-  digester.add(form).add(key);
-  for (const auto& [name, text] : content.texts)
-    if (name != "digest") digester.add(name).add(text);
-  for (const Hdf5Array& array : content.arrays) {
-    digester.add(array.name);
-    for (const std::size_t length : array.shape) digester.add(static_cast<std::int64_t>(length));
-    digester.add(std::get<std::span<const double>>(array.values));
-  }
+  digester.add(form).add(call);
+  write_result(key, facts, fields, [&](std::string_view piece) { digester.add(piece); });
   return digester.hex();
 }
 
-void sort_by_name(Hdf5Content& content) {
-  std::ranges::sort(content.arrays, {}, &Hdf5Array::name);
-  std::ranges::sort(content.texts);
-}
-
-Hdf5Array number_array(std::string_view group, std::string_view name, double value, std::string unit = {}) {
-  return owning_array(std::string(group) + std::string(name), {}, Array<double>(1, value), std::move(unit));
-}
-
 std::string not_kept(const Error& error) {
-  return "a result could not be kept and would be computed again if the run were resumed: " +
-         std::string(error.what());
+  return "a result could not be stored and is computed again on --resume: " + std::string(error.what());
 }
 
-[[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw Error(ErrorCode::bad_file, quoted(file.string()) + " " + what);
+std::int64_t bytes_of_result(const std::string& key, const FoundResult& result) {
+  constexpr std::size_t each = 64;  // overhead, approximate
+  std::size_t bytes = 4 * each + 2 * key.size();
+  for (const auto& [name, value] : result.numbers) bytes += each + name.size();
+  for (const auto& [name, text] : result.texts) bytes += each + name.size() + text.size();
+  for (const auto& [name, field] : result.fields) bytes += each + name.size() + field.size() * sizeof(double);
+  return static_cast<std::int64_t>(bytes);
+}
+
+// First: a refused copy counts against the run.
+bool has_room(std::int64_t bytes) {
+  const std::int64_t limit = memory::limit();
+  return limit == 0 || memory::held() + bytes <= limit;
 }
 
 }  // namespace
 
-ResultFiles::ResultFiles(ResultFilesSetup setup)
-    : setup_(std::move(setup)),
-      log_(setup_.folder / ResultLog::folder_name, [this](const std::string& file, std::string sentence) {
-        const std::lock_guard lock(mutex_);
-        note(file, std::move(sentence));
-      }) {
+ResultFiles::ResultFiles(ResultFilesSetup setup) : setup_(std::move(setup)), folders_({setup_.folder}) {
   // Another run may be writing.
   sweep_parts(setup_.folder, Parts::abandoned);
-  for (const fs::path& folder : setup_.also)
-    other_logs_.emplace_back(folder / ResultLog::folder_name,
-                             [this](const std::string& file, std::string sentence) {
-                               const std::lock_guard lock(mutex_);
-                               note(file, std::move(sentence));
-                             });
+  folders_.insert(folders_.end(), setup_.also.begin(), setup_.also.end());
+  for (const fs::path& folder : folders_)
+    logs_.emplace_back(folder / ResultLog::folder_name,
+                       [this](const std::string& file, std::string sentence) {
+                         const std::lock_guard lock(mutex_);
+                         note(file, std::move(sentence));
+                       });
 }
 
 std::string ResultFiles::name_of(const std::string& key) const {
   return Digester().add(form).add(setup_.build).add(key).hex();
 }
 
-// Called without the lock, which notices of a log take.
+// Without the lock, which notices of a log take.
 std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, const std::string& name) {
-  std::optional<ResultLog::Found> record = log_.find(name);
+  std::optional<ResultLog::Found> record = logs_.front().find(name);
   const bool own = record.has_value();
-  for (std::size_t k = 0; !record && k < other_logs_.size(); ++k) record = other_logs_[k].find(name);
+  for (std::size_t k = 1; !record && k < logs_.size(); ++k) record = logs_[k].find(name);
   if (!record) return {};
   std::optional<FoundResult> found;
   try {
@@ -87,7 +79,7 @@ std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, con
     found = result_from(in);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
-    return {};  // intact, but of another key
+    return {};  // intact, another key
   }
   if (!own) keep_in_log(name, record->bytes);
   const std::lock_guard lock(mutex_);
@@ -101,11 +93,9 @@ std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, con
 }
 
 std::optional<FoundResult> ResultFiles::find(const std::string& key) {
-  const std::string stem = name_of(key), name = stem + ".h5";
+  const std::string stem = name_of(key), name = stem + std::string(file_ending);
   if (std::optional<FoundResult> found = find_in_logs(key, stem)) return found;
-  std::vector<fs::path> folders = {setup_.folder};
-  folders.insert(folders.end(), setup_.also.begin(), setup_.also.end());
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : folders_) {
     const fs::path file = folder / name;
     std::error_code problem;
     if (!fs::is_regular_file(file, problem)) continue;
@@ -126,37 +116,17 @@ std::optional<FoundResult> ResultFiles::find(const std::string& key) {
 
 std::optional<FoundResult> ResultFiles::read(const fs::path& file, const std::string& key) {
   try {
-    Hdf5Content content = read_hdf5(file);
-    sort_by_name(content);
-    const std::string* digest = content.text("digest");
-    for (const Hdf5Array& array : content.arrays)
-      if (!std::holds_alternative<std::span<const double>>(array.values) || array.shape.size() > 2)
-        damaged(file, "holds " + quoted(array.name) + ", which is no part of a result");
-    if (digest == nullptr || *digest != digest_of(key, content))
-      damaged(file, "is not what was written: a kept result was altered");
-    FoundResult found;
-    for (const auto& [name, text] : content.texts)
-      if (name.starts_with("text ")) found.texts.emplace_back(name.substr(5), text);
-    for (const Hdf5Array& array : content.arrays) {
-      const auto values = std::get<std::span<const double>>(array.values);
-      if (array.name.starts_with(numbers)) {
-        found.numbers.emplace_back(array.name.substr(numbers.size()), values.front());
-      } else if (array.name.starts_with(fields)) {
-        Field field(static_cast<int>(array.shape.at(1)), static_cast<int>(array.shape.at(0)));
-        std::ranges::copy(values, field.values().begin());
-        found.fields.emplace_back(array.name.substr(fields.size()), std::move(field));
-      }
-    }
-    found.cost.seconds = std::get<std::span<const double>>(content.array("cost/seconds")->values).front();
-    found.cost.transforms =
-        std::get<std::span<const double>>(content.array("cost/transforms")->values).front();
-    found.cost.bytes = static_cast<std::int64_t>(
-        std::get<std::span<const double>>(content.array("cost/bytes")->values).front());
+    const SourceFile source(file.string(), Monitor::silent());
+    ByteReader in(source.bytes());
+    const std::string digest = in.text(), call = in.text();
+    if (in.text() != key) ByteReader::damaged();
+    FoundResult found = result_from(in);
+    if (!in.at_end() || digest != digest_of(call, key, found, found.kept())) ByteReader::damaged();
     return found;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
     const std::lock_guard lock(mutex_);
-    note(file.string(), error.sentence() + "; it was computed again");
+    note(file.string(), quoted(file.string()) + " is damaged or cannot be read; it was computed again");
     return {};
   }
 }
@@ -171,7 +141,7 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   fs::create_hard_link(from, to, problem);  // fails on another disk
   if (!problem) return;
   try {
-    AtomicFile copy(to);  // other runs may copy it, too
+    AtomicFile copy(to);  // others may copy it
     if (fs::copy_file(from, copy.temporary(), problem)) copy.commit();
   } catch (const Error&) {
     // the original remains
@@ -188,30 +158,17 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
     keep_in_log(name_of(key), result_bytes(key, facts, kept));
     return;
   }
-  Hdf5Content content;
-  content.texts = {{"form", std::string(form)}, {"call", std::string(call)}, {"key", key}};
-  for (const auto& [name, text] : facts.texts) content.texts.emplace_back("text " + name, text);
-  for (const auto& [name, value] : facts.numbers)
-    content.arrays.push_back(number_array(numbers, name, value));
-  content.arrays.push_back(number_array(spent, "seconds", facts.cost.seconds, "s"));
-  content.arrays.push_back(number_array(spent, "transforms", facts.cost.transforms));
-  content.arrays.push_back(number_array(spent, "bytes", static_cast<double>(facts.cost.bytes), "byte"));
   std::int64_t bytes = 4096;
-  for (const auto& [name, field] : kept) {
-    content.arrays.push_back({std::string(fields) + name,
-                              {static_cast<std::size_t>(field->ny()), static_cast<std::size_t>(field->nx())},
-                              field->values(),
-                              ""});
-    bytes += static_cast<std::int64_t>(field->size() * sizeof(double));
-  }
-  sort_by_name(content);
-  content.texts.emplace_back("digest", digest_of(key, content));
-  const std::string name = name_of(key) + ".h5";
+  for (const auto& [name, field] : kept) bytes += static_cast<std::int64_t>(field->size() * sizeof(double));
+  const std::string name = name_of(key) + std::string(file_ending);
   const std::lock_guard lock(mutex_);
   try {
     ready_folder();
     if (!has_room(bytes)) return;
-    write_hdf5(setup_.folder / name, content);
+    AtomicFile file(setup_.folder / name);
+    file.write(ByteWriter().text(digest_of(call, key, facts, kept)).text(call).take());
+    write_result(key, facts, kept, [&](std::string_view piece) { file.write(piece); });
+    file.commit(Durable::yes);
     wait_for_disk(setup_.folder);
     used_.insert(name);
     ++counts_.kept;
@@ -228,7 +185,7 @@ void ResultFiles::keep_in_log(const std::string& name, const std::string& bytes)
       ready_for_log_ = true;  // the log restores missing folders
       if (!has_room(static_cast<std::int64_t>(bytes.size()) + ResultLog::bytes_beside)) return;
     }
-    const fs::path file = log_.keep(name, bytes);  // may wait for the disk: no lock
+    const fs::path file = logs_.front().keep(name, bytes);  // may wait for the disk: no lock
     const std::lock_guard lock(mutex_);
     if (file != log_file_) used_.insert(file.lexically_relative(setup_.folder).string());
     log_file_ = file;
@@ -241,7 +198,7 @@ void ResultFiles::keep_in_log(const std::string& name, const std::string& bytes)
 
 void ResultFiles::bring_to_disk() {
   try {
-    log_.wait_for_disk();
+    logs_.front().wait_for_disk();
   } catch (const Error& error) {
     const std::lock_guard lock(mutex_);
     note("write", not_kept(error));
@@ -267,16 +224,15 @@ bool ResultFiles::takes(std::int64_t bytes) {
 bool ResultFiles::has_room(std::int64_t bytes) {
   if (make_room(bytes)) return true;
   const bool shared = setup_.most_added - added_ < bytes;
-  note("room", "results of this run no longer fit the " +
-                   format_bytes(shared ? setup_.most_added : setup_.most_bytes) +
-                   (shared ? " that it may add to its store" : " of its store") +
-                   ": some would be computed again if it were resumed (" +
-                   (shared ? "--limit-disk" : "--store-limit") + ")");
+  note("room",
+       "results of this run exceed the " + format_bytes(shared ? setup_.most_added : setup_.most_bytes) +
+           (shared ? " that it may add to its store" : " of its store") +
+           ": some are computed again on --resume (" + (shared ? "--limit-disk" : "--store-limit") + ")");
   return false;
 }
 
 // Scans the folder after a quarter of its free room was used, because others write there. A full folder loses
-// a sixteenth of its limit at once: a scan for each of n results would cost n².
+// a sixteenth of its limit at once: a scan per result would cost n².
 bool ResultFiles::make_room(std::int64_t bytes) {
   if (bytes > setup_.most_bytes || bytes > setup_.most_added - added_) return false;
   if (setup_.most_bytes == unlimited || added_since_ + bytes <= room_ / 4) {
@@ -305,7 +261,7 @@ bool ResultFiles::make_room(std::int64_t bytes) {
         old.push_back({entry->last_write_time(gone), entry->path(), size});
     }
   };
-  go_through(setup_.folder, ".h5");
+  go_through(setup_.folder, file_ending);
   go_through(setup_.folder / ResultLog::folder_name, ".results");
   std::ranges::sort(old, {}, &Old::used);
   const std::int64_t spare = held + bytes > setup_.most_bytes ? setup_.most_bytes / 16 : 0;
@@ -334,6 +290,79 @@ std::vector<std::string> ResultFiles::notices() const {
 }
 
 ResultFiles::Counts ResultFiles::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+std::optional<FoundResult> ResultMemory::find(const std::string& key) {
+  std::shared_ptr<const FoundResult> known;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto at = places_.find(key); at != places_.end()) {
+      entries_.splice(entries_.begin(), entries_, at->second);
+      known = at->second->result;
+      ++counts_.found;
+    }
+  }
+  if (known != nullptr) {
+    if (!has_room(bytes_of_result(key, *known))) clear();
+    return *known;
+  }
+  std::optional<FoundResult> found = behind_ != nullptr ? behind_->find(key) : std::nullopt;
+  if (!found) {
+    const std::lock_guard lock(mutex_);
+    ++counts_.missed;
+    return {};
+  }
+  if (has_room(bytes_of_result(key, *found))) put(key, std::make_shared<const FoundResult>(*found));
+  return found;
+}
+
+void ResultMemory::keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+                        const KeptFields& fields) {
+  std::int64_t bytes = 0;
+  for (const auto& [name, field] : fields) bytes += static_cast<std::int64_t>(field->size() * sizeof(double));
+  if (bytes <= most_bytes_ && has_room(bytes)) {
+    FoundResult result;
+    static_cast<ResultFacts&>(result) = facts;
+    for (const auto& [name, field] : fields) result.fields.emplace_back(name, *field);
+    put(key, std::make_shared<const FoundResult>(std::move(result)));
+  } else if (bytes <= most_bytes_) {
+    clear();  // as in find()
+  }
+  if (behind_ != nullptr) behind_->keep(key, call, facts, fields);
+}
+
+void ResultMemory::put(const std::string& key, std::shared_ptr<const FoundResult> result) {
+  const std::int64_t bytes = bytes_of_result(key, *result);
+  const std::lock_guard lock(mutex_);
+  if (const auto at = places_.find(key); at != places_.end()) {
+    counts_.bytes -= at->second->bytes;
+    entries_.erase(at->second);
+    places_.erase(at);
+  }
+  if (bytes > most_bytes_) return;
+  while (counts_.bytes + bytes > most_bytes_) drop_last();
+  entries_.push_front({key, std::move(result), bytes});
+  places_.emplace(key, entries_.begin());
+  counts_.bytes += bytes;
+}
+
+void ResultMemory::drop_last() {
+  counts_.bytes -= entries_.back().bytes;
+  places_.erase(entries_.back().key);
+  entries_.pop_back();
+  ++counts_.dropped;
+}
+
+void ResultMemory::clear() {
+  const std::lock_guard lock(mutex_);
+  places_.clear();
+  entries_.clear();
+  counts_.bytes = 0;
+}
+
+ResultMemory::Counts ResultMemory::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
 }

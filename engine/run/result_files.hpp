@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of heavy calls in a folder: one HDF5 file per result, and logs (core/files/result_log.hpp). Files
-// are written atomically with a digest; a damaged file is reported, recomputed and replaced. Keys include the
-// build, whose rounding may differ. Runs and machines may share folders.
+// Results of heavy calls in a folder shared by runs and machines: one file per result, and logs
+// (core/files/result_log.hpp). Files are written atomically with a digest; a damaged file is reported,
+// recomputed and replaced. Keys include the build, whose rounding may differ.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <list>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,17 +25,16 @@ namespace asperity {
 
 struct ResultFilesSetup {
   std::filesystem::path folder;
-  std::vector<std::filesystem::path> also;          // searched too; results found here are copied to `folder`
-  std::int64_t most_bytes = std::int64_t{8} << 30;  // the least recently used files are removed
-  // Bytes that this run may add to a shared folder.
+  std::vector<std::filesystem::path> also;          // hits here are copied to `folder`
+  std::int64_t most_bytes = std::int64_t{8} << 30;  // least recently used files go
+  // By this run, to a shared folder.
   std::int64_t most_added = std::numeric_limits<std::int64_t>::max();
   double least_seconds = 0.01;                // cheaper results get no file
-  double least_seconds_of_many = 0.002;       // nor a record in a log
+  double least_seconds_of_many = 0.002;       // nor a log record
   std::string build;                          // identity of the program
-  std::vector<std::filesystem::path> needed;  // on the disk before the first result
+  std::vector<std::filesystem::path> needed;  // synced before the first result
 };
 
-// For a shared folder, whose files other runs may need.
 inline constexpr std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
 
 class ResultFiles final : public ResultStore {
@@ -48,11 +50,10 @@ class ResultFiles final : public ResultStore {
     double seconds_saved = 0;  // cost of the found results
   };
   Counts counts() const;
-  // Reserves bytes for another file; false if it does not fit.
+  // Reserves bytes for another file; false without room.
   bool takes(std::int64_t bytes);
-  // Failures become notices.
   void bring_to_disk();
-  // Results that were damaged or not stored.
+  // Results damaged or not stored.
   std::vector<std::string> notices() const;
   const std::filesystem::path& folder() const { return setup_.folder; }
 
@@ -70,17 +71,58 @@ class ResultFiles final : public ResultStore {
   void note(std::string_view about, std::string sentence);
 
   const ResultFilesSetup setup_;
+  std::vector<std::filesystem::path> folders_;  // `folder` and `also`
   bool needed_on_disk_ = false;
   mutable std::mutex mutex_;        // guards all below except logs, and the folder
   std::set<std::string> used_;      // by this run; never removed
   std::filesystem::path log_file_;  // of the last record
   bool ready_for_log_ = false;
   std::int64_t added_ = 0;
-  std::int64_t room_ = 0, added_since_ = 0;  // free room at the last scan; added since
+  std::int64_t room_ = 0, added_since_ = 0;  // last free room; added since
   std::vector<std::pair<std::string, std::string>> notices_;
   Counts counts_;
-  ResultLog log_;
-  std::deque<ResultLog> other_logs_;  // of `also`
+  std::deque<ResultLog> logs_;  // of the folders
+};
+
+// Results of heavy calls for repeated runs in one process. Drops the least recently used. May precede a store
+// on the disk.
+
+// Thread-safe.
+class ResultMemory final : public ResultStore {
+ public:
+  // 0 bytes store nothing. `behind` is searched on a miss and gets every result; it outlives the memory; may
+  // be null.
+  explicit ResultMemory(std::int64_t most_bytes, ResultStore* behind = nullptr)
+      : most_bytes_(most_bytes), behind_(behind) {}
+
+  std::optional<FoundResult> find(const std::string& key) override;
+  void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+            const KeptFields& fields) override;
+  void clear();
+
+  struct Counts {
+    std::int64_t found = 0;    // here
+    std::int64_t missed = 0;   // neither here nor behind
+    std::int64_t dropped = 0;  // to make room
+    std::int64_t bytes = 0;
+  };
+  Counts counts() const;
+
+ private:
+  struct Entry {
+    std::string key;
+    std::shared_ptr<const FoundResult> result;
+    std::int64_t bytes;
+  };
+  void put(const std::string& key, std::shared_ptr<const FoundResult> result);
+  void drop_last();
+
+  const std::int64_t most_bytes_;
+  ResultStore* const behind_;
+  mutable std::mutex mutex_;  // guards all below
+  std::list<Entry> entries_;  // most recently used first
+  std::unordered_map<std::string, std::list<Entry>::iterator> places_;
+  Counts counts_;
 };
 
 }  // namespace asperity

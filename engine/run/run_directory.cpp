@@ -5,13 +5,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <system_error>
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
@@ -32,25 +34,13 @@ void RunDirectory::require_place() const {
   if (!root_.empty() && place_of(root_) != place_)
     throw Error(ErrorCode::bad_file,
                 quoted(root_.string()) + " was moved or removed while the run wrote there",
-                "go on with --resume where it is now");
+                "resume it with --resume at its new place");
 }
 
 std::string_view name(RunStatus status) {
-  switch (status) {
-    case RunStatus::running:
-      return "running";
-    case RunStatus::done:
-      return "done";
-    case RunStatus::shard:
-      return "shard";
-    case RunStatus::failed:
-      return "failed";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::killed:
-      return "killed";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 6> names = {"running", "done",        "shard",
+                                                     "failed",  "interrupted", "killed"};
+  return names.at(static_cast<std::size_t>(status));
 }
 
 RunDirectory::RunDirectory(const RunSetup& setup) : trusted_(setup.trusted) { make(setup); }
@@ -80,7 +70,6 @@ RunDirectory::Prepared RunDirectory::prepared_for(const RunSetup& setup) {
     prepared.path = numbered_directory(setup.runs, setup.script_name, holding);
     prepared.lock = RunLock::take(prepared.path);
   }
-  // The other process may have no access to these folders.
   for (const fs::path& folder : holding) wait_for_names_in(folder);
   return prepared;
 }
@@ -118,8 +107,6 @@ RunDirectory::RunDirectory(Without kind, bool trusted)
     : kind_(kind == Without::dry ? Kind::dry : Kind::loose),
       trusted_(trusted),
       journal_(std::make_unique<Journal>()) {}
-
-RunDirectory::~RunDirectory() = default;
 
 std::vector<fs::path> RunDirectory::needed_to_resume() const {
   if (kind_ != Kind::directory || later_) return {};
@@ -160,7 +147,7 @@ void RunDirectory::begin(const RunSetup& setup) {
   if (!setup.shard.empty()) unhashed_.set("shard", setup.shard);
   if (again) take_up();
   journal_->write("begin", Json::object({{"script", script}, {"digest", digest}, {"seed", setup.seed}}));
-  // Sufficient for a resume after a power cut.
+  // Enough to resume after a power cut.
   write_manifest(durable);
   if (scratch_) return;
   wait_for_disk(root_);
@@ -170,24 +157,18 @@ void RunDirectory::begin(const RunSetup& setup) {
 // Keeps earlier dates.
 void RunDirectory::take_up() {
   const Json earlier = read_manifest(root_);
-  const Json* kept = earlier.find("unhashed");
+  const Json& kept = earlier["unhashed"];
   Json::List dates;
-  if (kept != nullptr) {
-    if (const Json* known = kept->find("resumed")) dates = known->list();
-    if (const Json* started = kept->find("started")) unhashed_.set("started", *started);
-  }
+  if (const Json* known = kept.find("resumed")) dates = known->list();
+  if (const Json* started = kept.find("started")) unhashed_.set("started", *started);
   dates.push_back(utc_now());
   unhashed_.set("resumed", std::move(dates));
-  // Expected outputs stay recorded until the mending succeeds.
-  const Json* status = earlier.find("status");
-  if (status != nullptr && *status == Json(name(RunStatus::done))) {
-    if (const Json* outputs = earlier.find("outputs")) recorded_outputs_ = *outputs;
-  } else if (kept != nullptr) {
-    if (const Json* outputs = kept->find(mending_member)) recorded_outputs_ = *outputs;
-  }
+  // Stays recorded until the mending succeeds.
+  recorded_outputs_ =
+      earlier["status"] == Json(name(RunStatus::done)) ? earlier["outputs"] : kept[mending_member];
   if (!recorded_outputs_.is_null()) unhashed_.set(mending_member, recorded_outputs_);
   const Json* read = earlier.find("inputs");
-  if (read == nullptr && kept != nullptr) read = kept->find(run_names::inputs_so_far);
+  if (read == nullptr) read = kept.find(run_names::inputs_so_far);
   if (read == nullptr) return;
   for (const Json& entry : read->list()) {
     const Json *file = entry.find("file"), *digest = entry.find("digest");
@@ -207,11 +188,6 @@ void RunDirectory::note(std::string_view key, Json value) {
   manifest_.set(key, std::move(value));
 }
 
-void RunDirectory::note_unhashed(std::string_view key, Json value) {
-  const std::lock_guard lock(mutex_);
-  unhashed_.set(key, std::move(value));
-}
-
 Json RunDirectory::inputs() const {
   Json::List list;
   for (const Input& input : inputs_) {
@@ -229,7 +205,7 @@ std::string RunDirectory::own_name(const fs::path& place) const {
 
 void RunDirectory::note_loaded(std::string_view file, const std::string& text) {
   const std::string digest = content_digest(text);
-  // Named by content: names may lead out, and files may change.
+  // Named by content: names may lead out, files may change.
   const std::string copy = std::string(run_names::loaded) + "/" +
                            safe_file_name(fs::path(std::string(file)).stem().string()) + "-" +
                            digest.substr(0, 12) + ".lua";
@@ -252,11 +228,163 @@ bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::st
     try {
       inputs_on_disk_ = inputs_.size();
       write_manifest(Durable::no);
-    } catch (const Error&) {  // finish() reports an unwritable manifest
+    } catch (const Error&) {  // finish() reports it
     }
   }
   return std::ranges::any_of(
       recorded_inputs_, [&](const auto& known) { return known.first == file && known.second != digest; });
+}
+
+void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) const {
+  const fs::path base = root_.empty() ? fs::current_path() : root_;
+  bool outside = relative.is_absolute() || *relative.begin() == "..";
+  if (!outside && !root_.empty()) {
+    // A link inside may lead out.
+    const fs::path real = fs::weakly_canonical(base / relative);
+    const fs::path real_base = fs::weakly_canonical(base);
+    // weakly_canonical does not resolve a dangling link.
+    const bool dangling = fs::is_symlink(base / relative) && !fs::exists(base / relative);
+    outside = dangling || std::ranges::mismatch(real_base, real).in1 != real_base.end();
+  }
+  if (outside)
+    throw Error(ErrorCode::not_permitted, "the file " + quoted(file) + " is outside the run directory",
+                "give a path in the run directory, or add `--trust`");
+}
+
+fs::path RunDirectory::path_for(std::string_view file) {
+  if (later_) {
+    RunSetup setup = *later_;
+    setup.script_text = text_();
+    make(setup);
+    later_.reset();
+  }
+  fs::path given = fs::path(std::string(file)).lexically_normal();
+  // Methods return absolute inner paths.
+  if (given.is_absolute() && !root_.empty())
+    if (const fs::path inside = given.lexically_relative(root_); !inside.empty() && *inside.begin() != "..")
+      given = inside;
+  if (file.empty() || file.find('\0') != std::string_view::npos || !given.has_filename() ||
+      given.filename() == "." || given.filename() == "..")
+    refuse(quoted(file) + " is not the name of a file", "give a name such as \"heights.npy\"");
+  constexpr std::size_t longest = 255;  // bytes of a name
+  for (const fs::path& part : given)
+    if (part.native().size() > longest)
+      refuse("a file name is " + std::to_string(part.native().size()) + " bytes long",
+             "give at most " + std::to_string(longest));
+  const bool outside_allowed = trusted_ && (given.is_absolute() || *given.begin() == "..");
+  if (!outside_allowed) keep_inside(given, file);
+  fs::path place = given.is_absolute() || root_.empty() ? given : root_ / given;
+  for (const std::string_view own : run_names::files)
+    if (!root_.empty() && place.lexically_normal() == root_ / own)
+      throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
+                  "choose another name");
+  for (const std::string_view folder : {run_names::store, run_names::views, run_names::loaded}) {
+    const fs::path own = root_ / folder;
+    if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
+      throw Error(
+          ErrorCode::not_permitted,
+          "the folder " + quoted(folder) + " belongs to the run itself, and the file is " + quoted(file),
+          "choose another name");
+  }
+  if (kind_ == Kind::dry) return place;
+  std::error_code ignored;
+  if (fs::is_directory(place, ignored)) refuse(quoted(file) + " is a folder", "give the name of a file");
+  require_place();
+  make_folders(place.parent_path());
+  const std::lock_guard lock(mutex_);
+  if (outputs_.insert(given.string()).second) unseen_.insert(given.string());
+  some_unseen_ = !unseen_.empty();
+  return place;
+}
+
+void RunDirectory::see_outputs() {
+  if (!some_unseen_) return;
+  const std::lock_guard lock(mutex_);
+  std::error_code missing;
+  std::erase_if(unseen_, [&](const std::string& file) { return fs::exists(root_ / file, missing); });
+  some_unseen_ = !unseen_.empty();
+}
+
+void RunDirectory::forget_output(const fs::path& place) {
+  const std::lock_guard lock(mutex_);
+  const std::string own = own_name(place);
+  outputs_.erase(own.empty() ? place.string() : own);
+  unseen_.erase(own.empty() ? place.string() : own);
+}
+
+fs::path RunDirectory::place_to_read(std::string_view file) const {
+  const fs::path given{std::string(file)};
+  std::error_code ignored;
+  if (given.is_absolute() || root_.empty()) return given;
+  const fs::path in_run = (root_ / given).lexically_normal();
+  const auto is_given = [name = given.lexically_normal()](const std::string& output) {
+    return fs::path(output).lexically_normal() == name;
+  };
+  const std::lock_guard lock(mutex_);
+  const bool written = std::ranges::any_of(outputs_, is_given) && fs::exists(in_run, ignored);
+  if (!written && fs::exists(given, ignored)) return given;
+  return fs::exists(in_run, ignored) ? in_run : given;
+}
+
+std::vector<std::string> RunDirectory::written() const {
+  const std::lock_guard lock(mutex_);
+  return {outputs_.begin(), outputs_.end()};
+}
+
+RunDirectory::Findings RunDirectory::set_aside() {
+  Findings findings;
+  findings.verdicts = expectations_.exchange({});
+  const std::lock_guard lock(mutex_);
+  findings.notebooks = std::exchange(notebooks_, {});
+  journal_->write("again", Json::object());
+  return findings;
+}
+
+void RunDirectory::put_back(Findings findings) {
+  expectations_.exchange(std::move(findings.verdicts));
+  std::vector<std::shared_ptr<Notebook>> made;
+  {
+    const std::lock_guard lock(mutex_);
+    made = std::exchange(notebooks_, std::move(findings.notebooks));
+  }
+  for (const auto& notebook : made) {
+    std::error_code gone;
+    if (notebook->csv().empty()) continue;
+    fs::remove(notebook->csv(), gone);
+    forget_output(notebook->csv());
+  }
+  for (const auto& notebook : notebooks_) notebook->write_again();
+}
+
+Verdict RunDirectory::expect(const Expectation& expectation, const Table& table, std::string_view name) {
+  Verdict verdict = evaluate(expectation, table, name);
+  expectations_.add(verdict);
+  journal_->write("expect", to_json(verdict));
+  return verdict;
+}
+
+std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {
+  if (name.empty()) refuse("a notebook has an empty name", "give it a name");
+  const auto find = [&]() -> std::shared_ptr<Notebook> {
+    for (const auto& notebook : notebooks_)
+      if (notebook->name() == name) return notebook;
+    return nullptr;
+  };
+  std::string file = safe_file_name(name);
+  {
+    const std::lock_guard lock(mutex_);
+    if (auto known = find()) return known;
+    const std::string stem = file;
+    const auto taken = [&] {
+      return std::ranges::any_of(notebooks_, [&](const auto& n) { return n->csv().stem() == file; });
+    };
+    for (int n = 2; taken(); ++n) file = stem + "-" + std::to_string(n);
+  }
+  const fs::path csv = dry() ? fs::path() : path_for(file + ".csv");
+  const std::lock_guard lock(mutex_);
+  if (auto known = find()) return known;
+  notebooks_.push_back(std::make_shared<Notebook>(std::string(name), csv, *journal_, expectations_));
+  return notebooks_.back();
 }
 
 }  // namespace asperity

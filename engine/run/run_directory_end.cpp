@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The end of a run: outputs are listed, compared and synced before the final manifest.
 #include <algorithm>
 #include <exception>
 #include <functional>
@@ -12,13 +11,13 @@
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
-#include "engine/run/timed_lock.hpp"
+#include "engine/run/run_folder.hpp"
 
 namespace asperity {
 
 namespace fs = std::filesystem;
 
-// Content, and names in every folder up to the run's.
+// Content, and names up to the run's folder.
 void RunDirectory::wait_for_outputs(const Json& outputs) const {
   std::set<fs::path> folders = {root_};
   std::set<std::string> files;
@@ -39,7 +38,6 @@ void RunDirectory::wait_for_outputs(const Json& outputs) const {
   for (const fs::path& folder : holding_) wait_for_names_in(folder);
 }
 
-// Refuses differing outputs of a mended run.
 void RunDirectory::require_recorded(const Json& outputs) const {
   if (recorded_outputs_.is_null()) return;
   std::vector<std::string> unlike;
@@ -51,28 +49,27 @@ void RunDirectory::require_recorded(const Json& outputs) const {
     if (found == now.end() || !(*found == entry)) unlike.push_back(quoted(file_of(entry)));
   }
   if (!unlike.empty())
-    throw Error(ErrorCode::bad_state, joined(unlike, " and ") + " could not be made again as recorded",
-                "the script does not do the same again, or what it reads has changed");
+    throw Error(ErrorCode::bad_state, joined(unlike, " and ") + " could not be restored as recorded",
+                "the script or its inputs have changed");
 }
 
-// Restores the script: a resume needs it.
+// Restores the script for a resume.
 void RunDirectory::require_own_files() const {
   const fs::path script = root_ / run_names::script;
   std::error_code missing;
   if (!text_ && (!fs::is_regular_file(script, missing) || text_of_run_file(script) != script_text_)) {
     write_atomically(script, script_text_, Durable::yes);
-    throw Error(
-        ErrorCode::bad_file,
-        quoted(script.string()) + " was altered or taken away while the run went on, and is written again",
-        "take the run up with --resume");
+    throw Error(ErrorCode::bad_file,
+                quoted(script.string()) + " was altered or removed during the run, and is written again",
+                "resume the run with --resume");
   }
   if (journal_->is_altered())
     throw Error(ErrorCode::bad_file,
                 quoted(journal_->path().string()) + " was altered by others while the run wrote it",
-                "its results are kept: take the run up with --resume");
+                "its results are stored: resume the run with --resume");
 }
 
-// A trusted script may remove files itself.
+// A trusted script may remove files.
 void RunDirectory::require_present() const {
   std::vector<std::string> gone;
   std::error_code missing;
@@ -84,20 +81,19 @@ void RunDirectory::require_present() const {
   for (const Input& input : inputs_)
     if (!input.copy.empty() && !scratch_) look(input.copy);
   if (!gone.empty())
-    throw Error(
-        ErrorCode::bad_file,
-        joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") + " taken away while the run went on",
-        "take the run up with --resume, which writes it again");
+    throw Error(ErrorCode::bad_file,
+                joined(gone, " and ") + (gone.size() > 1 ? " were" : " was") + " removed during the run",
+                "resume the run with --resume, which writes it again");
   if (journal_->is_lost())
     throw Error(ErrorCode::bad_file,
-                quoted(journal_->path().string()) + " was taken away while the run wrote it",
-                "its results are kept: take the run up with --resume");
+                quoted(journal_->path().string()) + " was removed while the run wrote it",
+                "its results are stored: resume the run with --resume");
 }
 
 Json RunDirectory::outputs(bool with_digests) const {
   Json::List list;
   for (const std::string& file : outputs_) {
-    const fs::path place = root_ / file;  // an absolute `file` replaces the root
+    const fs::path place = root_ / file;  // absolute: replaces the root
     std::error_code missing;
     const auto bytes = fs::file_size(place, missing);
     if (missing) continue;
@@ -133,10 +129,7 @@ void RunDirectory::note_end(RunStatus status, std::string_view reason, Json file
   if (draws && status == RunStatus::done && unhashed_.find("barriers") == nullptr)
     unhashed_.set("machine", machine_facts_of_pictures());
   if (recorded_outputs_.is_null() || (status != RunStatus::done && status != RunStatus::failed)) return;
-  Json::Members kept;
-  for (const Json::Member& member : unhashed_.members())
-    if (member.first != mending_member) kept.push_back(member);
-  unhashed_ = Json::object(std::move(kept));
+  unhashed_ = without(unhashed_, mending_member);
 }
 
 bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
@@ -145,7 +138,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   std::exception_ptr first;
   std::string reason(given_reason);
   const auto ends_well = [&] { return status == RunStatus::done || status == RunStatus::shard; };
-  // A failure turns done into failed; the first one is thrown.
+  // A failure turns done into failed; throws the first.
   const auto attempt = [&](const std::function<void()>& step) {
     try {
       step();
@@ -159,13 +152,13 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   const std::unique_lock lock = lock_within(mutex_, patience);
   attempt([&] { require_place(); });
   const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock() && !first;
-  // Without the lock, notebooks and manifest may be half changed.
+  // Without it, notebooks and manifest may be half changed.
   if (lock.owns_lock())
     for (const auto& notebook : notebooks_) attempt([&] { notebook->save(patience); });
   Json files = Json::List();
   if (records)
     attempt([&] {
-      // A killed run does not read large files again.
+      // A killed run has no time for large files.
       files = outputs(status != RunStatus::killed);
       if (!ends_well()) return;
       require_recorded(files);
@@ -178,7 +171,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
   });
   if (records) {
     if (status == RunStatus::done && !scratch_) attempt([&] { require_own_files(); });
-    // Later comparisons trust the manifest: files first.
+    // Comparisons trust the manifest: files first.
     const auto durable = [&] {
       return !scratch_ && (ends_well() || status == RunStatus::failed) ? Durable::yes : Durable::no;
     };

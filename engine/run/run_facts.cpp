@@ -34,6 +34,8 @@ std::string utc_now() {
 
 namespace {
 
+constexpr std::size_t digested_piece = std::size_t{1} << 20;
+
 std::string vector_instructions(const std::string& flags) {
   const std::string all = " " + flags + " ";
   std::vector<std::string> found;
@@ -100,10 +102,6 @@ std::vector<std::string> differing_machines(const Json& then, const Json& now) {
   compare("picture_font", "font in pictures", true);
   compare("build", "build of the program: identity", true);
   return lines;
-}
-
-namespace {
-constexpr std::size_t digested_piece = std::size_t{1} << 20;
 }
 
 std::string content_digest(std::string_view content) {

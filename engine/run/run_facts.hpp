@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Facts for a manifest that never enter a result: machine, date, digests of files.
+// Facts for a manifest: machine, date, digests of files. They never enter a result.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +15,14 @@ namespace asperity {
 std::string utc_now();
 
 // Processor, vector instructions, memory (bytes), system, C library and its rounding (program_identity.hpp),
-// build; unknown facts are missing. Determined once: call before access to /proc ends.
+// build; unknown facts are missing. Computed once: call before access to /proc ends.
 Json machine_facts();
 
-// Differences that may change last digits: "another processor: X, here Y". Empty also if `then` has no facts.
+// Differences with possible effect on last digits: "another processor: X, here Y". Empty also for empty
+// `then`.
 std::vector<std::string> differing_machines(const Json& then, const Json& now);
 
-// Also gnuplot and the font of pictures.
+// Includes gnuplot and the font.
 Json machine_facts_of_pictures();
 
 // Reads pieces of 1 MiB. Throws Error{bad_file}.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -36,21 +36,18 @@ std::string without_quotes(std::string text) {
 void require_knob(const RunKnob& knob) {
   const auto shown = [&](double value) { return shown_knob_value(value, knob.dimension); };
   if (!is_knob_name(knob.name))
-    throw Error(ErrorCode::bad_value, "`name` is " + quoted(knob.name.substr(0, longest_name)),
-                "give a name of at most 60 characters, without =, quotes and blanks at its ends");
+    refuse("`name` is " + quoted(knob.name.substr(0, longest_name)),
+           "give a name of at most 60 characters, without =, quotes and blanks at its ends");
   for (const auto& [key, value] :
        {std::pair("`from`", knob.from), std::pair("`to`", knob.to), std::pair("`value`", knob.value)})
-    if (!std::isfinite(value))
-      throw Error(ErrorCode::bad_value, std::string(key) + " is " + shown(value), "give a finite number");
+    if (!std::isfinite(value)) refuse(std::string(key) + " is " + shown(value), "give a finite number");
   if (!(knob.from < knob.to))
-    throw Error(ErrorCode::bad_value, "`from` is " + shown(knob.from) + " and `to` is " + shown(knob.to),
-                "give the lower bound first, and another one above it");
+    refuse("`from` is " + shown(knob.from) + " and `to` is " + shown(knob.to),
+           "give the lower bound first, and another one above it");
   if (knob.value < knob.from || knob.value > knob.to)
-    throw Error(ErrorCode::bad_value, "`value` is " + shown(knob.value),
-                "give one from " + bounds_text(knob));
+    refuse("`value` is " + shown(knob.value), "give one from " + bounds_text(knob));
   if (knob.log && !(knob.from > 0))
-    throw Error(ErrorCode::bad_value, "`from` is " + shown(knob.from) + " with log=true",
-                "give `from` above 0, or leave `log` out");
+    refuse("`from` is " + shown(knob.from) + " with log=true", "give `from` above 0, or leave `log` out");
 }
 
 std::string bounds_text(const RunKnob& knob) {
@@ -59,24 +56,22 @@ std::string bounds_text(const RunKnob& knob) {
 
 void give_knob(GivenKnobs& given, const std::string& name, const std::string& text) {
   if (!is_knob_name(name))
-    throw Error(ErrorCode::bad_value, quoted(name.substr(0, longest_name)) + " is no name of a knob",
-                "a name has at most 60 characters, without =, quotes and blanks at its ends");
+    refuse(quoted(name.substr(0, longest_name)) + " is no name of a knob",
+           "a name has at most 60 characters, without =, quotes and blanks at its ends");
   const std::string value = without_quotes(text);
   try {
     (void)parse_quantity(value);
   } catch (const Error& error) {
-    throw Error(ErrorCode::bad_value, "the knob " + quoted(name) + ": " + error.sentence(), error.hint());
+    refuse("the knob " + quoted(name) + ": " + error.sentence(), error.hint());
   }
   if (!given.emplace(name, value).second)
-    throw Error(ErrorCode::bad_value, "the knob " + quoted(name) + " is given twice",
-                "leave one of them out");
+    refuse("the knob " + quoted(name) + " is given twice", "leave one of them out");
 }
 
 GivenKnobs given_knobs(const Json& recorded) {
   GivenKnobs given;
   for (const auto& [name, knob] : recorded.members())
-    if (const Json* value = knob.is_object() ? knob.find("value") : nullptr)
-      given.emplace(name, format_exact(value->number()));
+    if (const Json* value = knob.find("value")) given.emplace(name, format_exact(value->number()));
   return given;
 }
 
@@ -96,18 +91,16 @@ double RunKnobs::value_for(const RunKnob& knob, const Given& given) const {
   const std::string cure = "give " + bounds_text(knob);
   const Dimension kind = given.quantity.dimension;
   if (kind != knob.dimension && kind != dimension::number)
-    throw Error(ErrorCode::bad_value,
-                what + ", " + describe(kind) + ", and it is " +
-                    (knob.dimension == dimension::number ? "a plain number" : describe(knob.dimension)),
-                cure);
+    refuse(what + ", " + describe(kind) + ", and it is " +
+               (knob.dimension == dimension::number ? "a plain number" : describe(knob.dimension)),
+           cure);
   const double value = given.quantity.value;
-  if (!(value >= knob.from && value <= knob.to))
-    throw Error(ErrorCode::bad_value, what + ", out of its bounds", cure);
+  if (!(value >= knob.from && value <= knob.to)) refuse(what + ", out of its bounds", cure);
   return value;
 }
 
 double RunKnobs::make(const RunKnob& knob) {
-  met(knob.name);  // even if refused: check_all_made() then passes
+  met(knob.name);  // also if refused, for check_all_made()
   require_knob(knob);
   const std::lock_guard lock(mutex_);
   for (const Made& made : made_) {
@@ -116,10 +109,9 @@ double RunKnobs::make(const RunKnob& knob) {
     const auto told = [](const RunKnob& of) {
       return bounds_text(of) + ", " + shown_knob_value(of.value, of.dimension) + (of.log ? ", log" : "");
     };
-    throw Error(ErrorCode::bad_value,
-                "the knob " + quoted(knob.name) + " was made before with other keys: " + told(made.knob) +
-                    ", and now " + told(knob),
-                "make it once and use its value, or give the other one another name");
+    refuse("the knob " + quoted(knob.name) + " was made before with other keys: " + told(made.knob) +
+               ", and now " + told(knob),
+           "make it once and use its value, or give the other one another name");
   }
   const auto given = given_.find(knob.name);
   made_.push_back({knob, given == given_.end() ? knob.value : value_for(knob, given->second)});
@@ -168,7 +160,7 @@ void RunKnobs::check_all_made() const {
   for (const auto& [name, given] : given_) {
     if (met_.contains(name) || std::ranges::find(names, name) != names.end()) continue;
     throw Error(ErrorCode::unknown_name,
-                "the knob " + quoted(name) + " was set, and no line of the script made such a knob" +
+                "the knob " + quoted(name) + " was set, and the script makes no such knob" +
                     did_you_mean(name, names),
                 names.empty() ? "the script made no knobs" : "its knobs are " + joined(listed, " and "));
   }

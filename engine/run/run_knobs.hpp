@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bounded numbers of a script, which the user may set on the command line, in the prompt, on the page, or
-// from an earlier run. Values are SI.
+// Bounded numbers of a script, set by the command line, the prompt, the page, or an earlier run. Values are
+// SI.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,9 @@ void require_knob(const RunKnob& knob);
 // "1 MPa to 200 MPa"
 std::string bounds_text(const RunKnob& knob);
 
-// By name, as text: "50 MPa", or a plain number in SI.
+// By name: "50 MPa", or a number in SI.
 using GivenKnobs = std::map<std::string, std::string>;
-// `text` may have quotes. Throws Error{bad_value} for an invalid name, no quantity, or a second value.
+// `text` may be quoted. Throws Error{bad_value} for an invalid name, no quantity, or a second value.
 void give_knob(GivenKnobs& given, const std::string& name, const std::string& text);
 // From the member `knobs` of a manifest.
 GivenKnobs given_knobs(const Json& recorded);
@@ -48,9 +48,9 @@ class RunKnobs {
   // The given value, else the default. Throws as require_knob(); Error{bad_value} for a second knob with
   // other keys, another dimension, or a value out of bounds.
   double make(const RunKnob& knob);
-  // Notes the name in a dry run, which has no value and bounds.
+  // For a dry run, without value and bounds.
   void met(const std::string& name);
-  // The value of `text`. Throws Error{unknown_name} without such a knob, Error{bad_value} as make().
+  // Throws Error{unknown_name} without such a knob, Error{bad_value} as make().
   double value_of(const std::string& name, const std::string& text) const;
 
   struct Made {
@@ -59,15 +59,15 @@ class RunKnobs {
   };
   std::vector<Made> made() const;  // in order
   bool empty() const;
-  // Removes the knobs of a failed line.
+  // After a failed line.
   void keep_first(std::size_t count);
 
   // Throws Error{unknown_name} for a value without knob.
   void check_all_made() const;
 
-  // Exact given values, for keys of dependent results.
+  // Exact, for keys of dependent results.
   std::string given_text() const;
-  // For a manifest: name -> value, from, to, log, unit (SI); value alone for a knob not made.
+  // Manifest: name -> value, from, to, log, unit (SI); value alone if not made.
   Json json() const;
 
  private:

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/specimen/protocol.hpp"
+#include "engine/core/require.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,8 +19,6 @@ namespace {
 constexpr int digits = 6;
 constexpr std::size_t most_events = 10'000'000;
 
-std::string number_of(std::size_t n) { return std::to_string(n); }
-
 // format_quantity has no minutes.
 std::string duration(double seconds) {
   const double minutes = seconds / 60;
@@ -27,27 +27,13 @@ std::string duration(double seconds) {
 }
 
 std::string load_text(const PressRequest& request) {
-  switch (request.by) {
-    case PressBy::pressure:
-      return format_quantity(request.value, dimension::pressure, digits);
-    case PressBy::load:
-      return format_quantity(request.value, dimension::force, digits);
-    case PressBy::approach:
-      return "to an approach of " + format_quantity(request.value, dimension::length, digits);
-    case PressBy::indentation:
-    case PressBy::flatten:
-      break;
-  }
+  if (request.by_load())
+    return format_quantity(request.value,
+                           request.by == PressBy::load ? dimension::force : dimension::pressure, digits);
+  if (request.by == PressBy::approach)
+    return "to an approach of " + format_quantity(request.value, dimension::length, digits);
   return "to `" + std::string(name(request.by)) + "` " + format_short(request.value);
 }
-
-struct Kind {
-  std::string_view operator()(const PressRequest&) const { return "press"; }
-  std::string_view operator()(const Protocol::Release&) const { return "release"; }
-  std::string_view operator()(const Protocol::Place&) const { return "place"; }
-  std::string_view operator()(const Protocol::Rotate&) const { return "rotate"; }
-  std::string_view operator()(const Protocol::Shift&) const { return "shift"; }
-};
 
 struct Detail {
   std::string operator()(const PressRequest& s) const {
@@ -68,9 +54,8 @@ struct Detail {
 };
 
 struct Checker {
+  void operator()(const auto&) const {}
   void operator()(const PressRequest& s) const { check_numbers(s); }
-  void operator()(const Protocol::Release&) const {}
-  void operator()(const Protocol::Place&) const {}
   void operator()(const Protocol::Rotate& s) const { finite(s.angle, "the angle of `rotate`"); }
   void operator()(const Protocol::Shift& s) const {
     finite(s.x, "`x` of `shift`");
@@ -78,8 +63,7 @@ struct Checker {
   }
   static void finite(double value, const char* what) {
     if (!std::isfinite(value))
-      throw Error(ErrorCode::bad_value, std::string(what) + " is " + format_short(value),
-                  "give a finite value");
+      refuse(std::string(what) + " is " + format_short(value), "give a finite value");
   }
 };
 
@@ -98,22 +82,25 @@ struct Adder {
 
 }  // namespace
 
-std::string_view kind(const Protocol::Step& step) { return std::visit(Kind{}, step); }
+std::string_view kind(const Protocol::Step& step) {
+  constexpr std::array<std::string_view, std::variant_size_v<Protocol::Step>> names{
+      "press", "release", "place", "rotate", "shift"};
+  return names[step.index()];
+}
 
 std::string text(const Protocol::Step& step) { return std::string(kind(step)) + std::visit(Detail{}, step); }
 
 Protocol::Protocol(std::vector<Event> events) {
   if (events.empty())
-    throw Error(ErrorCode::bad_value, "a protocol of no events was asked",
-                "give at least one, such as { press={ pressure=\"10 MPa\" } }");
+    refuse("a protocol has no events", "give at least one, such as { press={ pressure=\"10 MPa\" } }");
   if (events.size() > most_events)
-    throw Error(ErrorCode::bad_value, "a protocol of " + number_of(events.size()) + " events was asked",
-                "at most " + number_of(most_events) + " can be kept");
+    refuse("a protocol has " + std::to_string(events.size()) + " events",
+           "give at most " + std::to_string(most_events));
   for (std::size_t k = 0; k < events.size(); ++k) {
     try {
       std::visit(Checker{}, events[k].step);
     } catch (const Error& error) {
-      throw Error(error.code(), "event " + number_of(k + 1) + ": " + error.sentence(), error.hint());
+      throw Error(error.code(), "event " + std::to_string(k + 1) + ": " + error.sentence(), error.hint());
     }
   }
   events_ = std::make_shared<const std::vector<Event>>(std::move(events));
@@ -141,10 +128,9 @@ Protocol Protocol::plus(const Protocol& next) const {
 Protocol Protocol::repeated(std::int64_t times) const {
   const auto most = static_cast<std::int64_t>(most_events / count());
   if (times < 1 || times > most)
-    throw Error(ErrorCode::bad_value,
-                "a protocol of " + number_of(count()) + " events was to be repeated " +
-                    std::to_string(times) + " times",
-                "give a whole number from 1 to " + std::to_string(most));
+    refuse("a protocol of " + std::to_string(count()) + " events cannot be repeated " +
+               std::to_string(times) + " times",
+           "give a whole number from 1 to " + std::to_string(most));
   if (times == 1) return *this;
   std::vector<Event> all;
   all.reserve(count() * static_cast<std::size_t>(times));
@@ -155,15 +141,15 @@ Protocol Protocol::repeated(std::int64_t times) const {
 
 std::string Protocol::text() const {
   constexpr std::size_t first = 20, last = 5;
-  const std::size_t n = count(), width = number_of(n).size();
-  std::string all = "protocol of " + number_of(n) + (n == 1 ? " event" : " events");
+  const std::size_t n = count(), width = std::to_string(n).size();
+  std::string all = "protocol of " + std::to_string(n) + (n == 1 ? " event" : " events");
   for (std::size_t k = 0; k < n; ++k) {
     if (n > first + last && k == first) {
-      all += "\n  ... " + number_of(n - first - last) + " more";
+      all += "\n  ... " + std::to_string(n - first - last) + " more";
       k = n - last;
     }
     const Event& event = (*events_)[k];
-    const std::string number = number_of(k + 1);
+    const std::string number = std::to_string(k + 1);
     all += "\n  " + std::string(width - number.size(), ' ') + number + "  " + asperity::text(event.step);
     if (event.time || !event.origin.empty())
       all += " (" + (event.time ? "at " + format_short(*event.time) + " s" : "") +

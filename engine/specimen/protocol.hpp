@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A loading protocol: the events of a specimen pair. Immutable, cheap to copy. protocol_run.hpp carries it
-// out.
+// A loading protocol: the events of a specimen pair. Immutable, cheap to copy. ProtocolRun
+// (specimen_pair.hpp) carries it out.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class Protocol {
     std::uint64_t seed = 1;
   };
   struct Rotate {
-    double angle = 0;  // rad, from the present angle, counter-clockwise seen from above the lower body
+    double angle = 0;  // rad, relative, counter-clockwise from above
   };
   struct Shift {
     double x = 0, y = 0;  // m
@@ -35,7 +35,7 @@ class Protocol {
   struct Event {
     Step step;
     std::optional<double> time{};  // s, stored only
-    std::string origin{};          // source, not part of the value: "press_log.csv line 7"
+    std::string origin{};          // not part of the value: "press_log.csv line 7"
   };
 
   // Throws Error{bad_value} without events and for impossible numbers, naming the event from 1.
@@ -45,17 +45,16 @@ class Protocol {
   std::size_t count() const { return events_->size(); }
   std::size_t presses() const;
 
-  // Both drop recorded times, which would run backwards, and throw Error{bad_value} for less than one time or
-  // more than ten million events.
+  // Both drop recorded times and throw Error{bad_value} for less than one time or over ten million events.
   Protocol plus(const Protocol& next) const;
   Protocol repeated(std::int64_t times) const;
 
   // `recording` is not part of value and digest.
   Protocol detected_in(std::shared_ptr<const Detection> recording) const;
-  // Null unless all events are those of a recording.
+  // Null unless all events are recorded.
   const std::shared_ptr<const Detection>& recording() const { return recording_; }
 
-  // Long protocols are abbreviated in the middle.
+  // Abbreviated in the middle.
   std::string text() const;
   std::string digest() const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/specimen/specimen_pair.hpp"
+#include "engine/core/require.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,11 @@
 
 #include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
-#include "engine/accuracy/expected_transforms.hpp"
 #include "engine/contact/after_event.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/part_monitor.hpp"
+#include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -25,7 +25,7 @@ Scene checked(const Scene& scene) {
   check(scene);
   check_accuracy(scene);
   Scene result = scene;
-  if (scene.accuracy.asked) result.accuracy.tolerance = first_tolerance(*scene.accuracy.asked);
+  result.accuracy = before_choice(scene.accuracy);
   return result;
 }
 
@@ -35,15 +35,13 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
-// Also solves companion grids, with the cost `estimate`. With chosen accuracy the coarser grids come first
-// and the press starts from them.
+// With companion grids at the cost `estimate`. With chosen accuracy the press starts from coarser grids.
 State pressed_with_estimate(const Solver& solver, const Scene& scene, const ContactGeometry& geometry,
                             const Plan& plan, const PressRequest& request, const ChosenAccuracy* chosen,
                             Monitor& monitor) {
   const bool finer = scene.accuracy.estimate == Accuracy::Estimate::finer;
-  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
-  const bool coarser_first = chosen != nullptr && !finer && by_load;
-  // A quarter plus a sixteenth of the cells, or four times the cells.
+  const bool coarser_first = chosen != nullptr && !finer && request.by_load();
+  // A quarter plus a sixteenth, or four times the cells.
   const double share_of_press = finer ? 0.2 : 0.75;
   const double from = coarser_first ? 1 - share_of_press : 0;
   const auto begun = PartMonitor::Clock::now();
@@ -70,40 +68,25 @@ State pressed_with_estimate(const Solver& solver, const Scene& scene, const Cont
   return state->costing_also({cost, {{"estimate", cost}}});
 }
 
-// An attraction without work appears in the ledger only.
-State showing_what_costs_nothing(const Plan& plan, State state) {
-  for (const GapTerm& term : plan.attraction)
-    if (!(term.work > 0)) state = state.costing_also({{}, {{term.effect, {}}}});
-  return state;
-}
-
-// Mean squares along one direction.
-struct Differences {
-  double inside = 0, across = 0;
-};
-
+// Rms step across the rim over twice the one inside, along one direction.
 template <class At>
-Differences differences(int along, int lines, const At& at) {
-  Differences found;
+bool steps_along(int along, int lines, const At& at) {
+  double inside = 0, across = 0;
   const auto squared = [](double difference) { return difference * difference; };
   for (int line = 0; line < lines; ++line) {
-    for (int k = 0; k + 1 < along; ++k) found.inside += squared(at(k + 1, line) - at(k, line));
-    found.across += squared(at(0, line) - at(along - 1, line));
+    for (int k = 0; k + 1 < along; ++k) inside += squared(at(k + 1, line) - at(k, line));
+    across += squared(at(0, line) - at(along - 1, line));
   }
-  found.inside /= std::max(1.0, static_cast<double>(along - 1) * lines);
-  found.across /= lines;
-  return found;
+  constexpr double times = 2;
+  return across / lines > times * times * (inside / std::max(1.0, static_cast<double>(along - 1) * lines));
 }
 
-// Whether the root mean square step across the rim exceeds twice the one inside.
 bool steps_at_the_rim(const Surface& surface) {
   if (surface.traits().periodic) return false;
   const Field& z = surface.heights();
   const int nx = surface.grid().nx, ny = surface.grid().ny;
-  constexpr double times = 2;
-  const auto steps = [](const Differences& d) { return d.across > times * times * d.inside; };
-  return steps(differences(nx, ny, [&](int k, int line) { return z(k, line); })) ||
-         steps(differences(ny, nx, [&](int k, int line) { return z(line, k); }));
+  return steps_along(nx, ny, [&](int k, int line) { return z(k, line); }) ||
+         steps_along(ny, nx, [&](int k, int line) { return z(line, k); });
 }
 
 int whole_cells(double length, double cell, std::string_view key) {
@@ -111,14 +94,11 @@ int whole_cells(double length, double cell, std::string_view key) {
   const double whole = std::round(cells);
   constexpr double most = 1e9;
   if (!(std::abs(cells) <= most))
-    throw Error(ErrorCode::bad_value,
-                "`shift` along " + std::string(key) + " is " + format_short(length) + " m",
-                "give a finite length of a whole number of cells");
+    refuse("`shift` along " + std::string(key) + " is " + format_short(length) + " m",
+           "give a finite length of a whole number of cells");
   if (std::abs(cells - whole) > 1e-9 * std::max(1.0, std::abs(whole)))
-    throw Error(ErrorCode::bad_value,
-                "`shift` along " + std::string(key) + " is " + format_short(cells, 10) + " cells",
-                "surfaces are never resampled in place: give a whole number of cells of " +
-                    format_quantity(cell, dimension::length, 10));
+    refuse("`shift` along " + std::string(key) + " is " + format_short(cells, 10) + " cells",
+           "give a whole number of cells of " + format_quantity(cell, dimension::length, 10));
   return static_cast<int>(whole);
 }
 
@@ -171,8 +151,14 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
           ? ready->press(request, monitor)
           : pressed_with_estimate(*ready, scene_, *geometry_, plan_, request, chosen_.get(), monitor);
   if (first) state = state.costing_also(ready->preparation());
+  return finished(state, request, monitor);
+}
+
+State SpecimenPair::finished(State state, const PressRequest& request, Monitor& monitor) {
   state = state.costing_also(leave_on_bodies(state, monitor));
-  state = showing_what_costs_nothing(plan_, std::move(state));
+  // Attractions without work appear in the ledger only.
+  for (const GapTerm& term : plan_.attraction)
+    if (!(term.work > 0)) state = state.costing_also({{}, {{term.effect, {}}}});
   carry(state, request);
   return state;
 }
@@ -185,10 +171,7 @@ State SpecimenPair::choose_and_press(const PressRequest& request, Monitor& monit
   after.plan_ = std::move(choice.plan);
   after.solver_ = std::move(choice.solver);
   after.chosen_ = choice.state.chosen();
-  State state = std::move(choice.state);
-  state = state.costing_also(after.leave_on_bodies(state, monitor));
-  state = showing_what_costs_nothing(plan_, std::move(state));
-  after.carry(state, request);
+  State state = after.finished(std::move(choice.state), request, monitor);
   *this = std::move(after);
   return state;
 }
@@ -227,9 +210,9 @@ StateCost SpecimenPair::leave_on_bodies(const State& state, Monitor& monitor) {
   }
   constexpr double noticeable = 0.05;
   if (std::abs(after.mapped_volume - 1) > noticeable && !std::exchange(warned_of_mapping_, true))
-    monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
-                 " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
-                 "finer cells would tell more");
+    monitor.warn("at this angle, the cells give the upper body " +
+                 format_short(100 * after.mapped_volume, 3) +
+                 " % of its plastic volume, scaled to 100 % here; finer cells need less scaling");
   // Nothing throws below.
   std::swap(scene_, scene);
   std::swap(plan_, plan);
@@ -242,15 +225,14 @@ StateCost SpecimenPair::leave_on_bodies(const State& state, Monitor& monitor) {
 void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
   if (warned_of_overhang_ || !geometry_->overhangs()) return;
   warned_of_overhang_ = true;
-  monitor.warn("turned like this, the bodies face each other on " +
-               format_short(100 * geometry_->overlap_fraction(), 3) +
-               " % of the tile: nothing presses on the rest, where the gap is missing; `pressure` stays load "
-               "over the whole tile, and `overlap_fraction` of each state says how much of it they share");
+  monitor.warn(
+      "after this turn, the bodies face each other on " +
+      format_short(100 * geometry_->overlap_fraction(), 3) +
+      " % of the tile, the `overlap_fraction` of each state; `pressure` is load over the whole tile");
 }
 
 void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
-  if (warned_of_rim_ || scene_.boundary != Boundary::periodic || !scene_.elasticity.model().moves_every_node)
-    return;
+  if (warned_of_rim_ || scene_.boundary != Boundary::periodic || scene_.elasticity.model().is_local) return;
   std::vector<std::string> bodies;
   if (steps_at_the_rim(scene_.lower)) bodies.emplace_back("lower");
   if (const auto* rough = std::get_if<Surface>(&scene_.upper); rough && steps_at_the_rim(*rough))
@@ -259,8 +241,9 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
   warned_of_rim_ = true;
   const ElasticModel& model = scene_.elasticity.model();
   monitor.warn("the " + joined(bodies, " and the ") + (bodies.size() > 1 ? " bodies do" : " body does") +
-               " not continue across the rim of the tile, so on a periodic " + std::string(model.called) +
-               " the step there presses too" + (model.periodic_only ? "" : "; boundary=\"free\" has none"));
+               " not continue across the rim of the tile: on a periodic " + std::string(model.called) +
+               " the step at the rim carries load, too" +
+               (model.periodic_only ? "" : "; boundary=\"free\" avoids it"));
 }
 
 void SpecimenPair::carry(const State& state, const PressRequest& request) {
@@ -307,7 +290,7 @@ void SpecimenPair::lay(const Pose& pose) {
   auto geometry = std::make_shared<ContactGeometry>(scene_, pose, geometry_->memory());
   geometry->keep_first_touch(*geometry_);
   Plan plan = planned(scene_, *geometry);
-  // Under a rigid flat all placements are one contact.
+  // Under a rigid flat placements are one contact.
   const Material* flat = std::get_if<Material>(&scene_.upper);
   if (flat == nullptr || !flat->rigid) solver_.reset();
   geometry_ = std::move(geometry);
@@ -323,19 +306,16 @@ void SpecimenPair::place(std::uint64_t seed) {
 Pose SpecimenPair::turned(const Pose& from, double angle) const {
   constexpr double quarter = 0.5 * std::numbers::pi;
   const double quarters = angle / quarter;
-  const std::string asked =
-      "a turn by " + format_short(angle * 180 / std::numbers::pi, 10) + " deg was asked";
-  if (!(std::abs(quarters) < 1e6)) throw Error(ErrorCode::bad_value, asked, "give a finite angle");
+  const std::string asked = "a turn by " + format_short(angle * 180 / std::numbers::pi, 10) + " deg";
+  if (!(std::abs(quarters) < 1e6)) refuse(asked, "give a finite angle");
   const Grid& grid = scene_.lower.grid();
   const Pose turned = from.turned(angle, grid);
   if (scene_.boundary == Boundary::periodic && !turned.on_lattice()) {
     const double whole = std::round(turned.angle() / quarter);
     if (std::abs(turned.angle() - whole * quarter) <= 1e-9)
-      throw Error(ErrorCode::bad_value, asked + " of a tile that is not square",
-                  "it can be turned by 180 deg");
-    throw Error(ErrorCode::bad_value, asked + "; a periodic contact turns by whole multiples of 90 deg only",
-                "put the body down afresh with `place{seed=}`, or give boundary=\"free\": surfaces are never "
-                "resampled in place");
+      refuse(asked + " does not fit a tile that is not square", "turn it by 180 deg, or use a square tile");
+    refuse(asked + " does not fit a periodic tile, which turns by multiples of 90 deg",
+           "place the body again with `place{seed=}`, or give boundary=\"free\"");
   }
   return turned;
 }
@@ -347,9 +327,8 @@ void SpecimenPair::rotate(double angle) {
 
 Pose SpecimenPair::shifted(const Pose& from, double x, double y) const {
   if (scene_.boundary != Boundary::periodic)
-    throw Error(ErrorCode::bad_value,
-                "`shift` was asked on a free boundary, where a shifted body overhangs the rim",
-                "use `boundary` = \"periodic\"");
+    refuse("`shift` is given on a free boundary, where a shifted body overhangs the rim",
+           "use `boundary` = \"periodic\"");
   const Grid& grid = scene_.lower.grid();
   return from.lattice().shifted(whole_cells(x, grid.hx(), "x"), whole_cells(y, grid.hy(), "y"));
 }
@@ -357,6 +336,15 @@ Pose SpecimenPair::shifted(const Pose& from, double x, double y) const {
 void SpecimenPair::shift(double x, double y) {
   lay(shifted(pose(), x, y));
   history_.push_back({Protocol::Shift{x, y}});
+}
+
+std::optional<State> SpecimenPair::perform(const Protocol::Step& step, Monitor& monitor) {
+  if (const auto* request = std::get_if<PressRequest>(&step)) return press(*request, monitor);
+  if (std::holds_alternative<Protocol::Release>(step)) release();
+  if (const auto* placed = std::get_if<Protocol::Place>(&step)) place(placed->seed);
+  if (const auto* turn = std::get_if<Protocol::Rotate>(&step)) rotate(turn->angle);
+  if (const auto* moved = std::get_if<Protocol::Shift>(&step)) shift(moved->x, moved->y);
+  return {};
 }
 
 void SpecimenPair::check_ahead(const Protocol::Step& step, Pose& lying) const {
@@ -367,18 +355,16 @@ void SpecimenPair::check_ahead(const Protocol::Step& step, Pose& lying) const {
   const auto* press = std::get_if<PressRequest>(&step);
   if (press == nullptr) return;
   check(*press, plan_.attracts());
-  const bool by_load = press->by == PressBy::load;
-  if ((!by_load && press->by != PressBy::pressure) || !plan_.yield || !plan_.yield->limits() ||
-      plan_.yield->hardens())
-    return;
-  const double pressure = by_load ? press->value / scene_.lower.grid().area() : press->value;
+  if (!press->by_load() || !plan_.yield || !plan_.yield->limits() || plan_.yield->hardens()) return;
+  const double pressure =
+      press->by == PressBy::load ? press->value / scene_.lower.grid().area() : press->value;
   const double hardness = plan_.yield->softened(press->dwell) * plan_.yield->hardness();
   if (pressure >= hardness)
-    throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
-                    " cannot be carried: `hardness` is " + format_quantity(hardness, dimension::pressure) +
-                    (hardness < plan_.yield->hardness() ? " after that dwell" : ""),
-                "press with less than the hardness, or give `hardening`");
+    refuse_infeasible("a mean pressure of " + format_quantity(pressure, dimension::pressure) +
+                          " cannot be carried: `hardness` is " +
+                          format_quantity(hardness, dimension::pressure) +
+                          (hardness < plan_.yield->hardness() ? " after that dwell" : ""),
+                      "press with less than the hardness, or give `hardening`");
 }
 
 Surface SpecimenPair::upper() const {
@@ -401,6 +387,53 @@ SpecimenPair SpecimenPair::copy() const {
   result.states_.clear();
   result.closed_ = false;
   return result;
+}
+
+ProtocolRun::ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair)
+    : protocol_(std::move(protocol)),
+      pair_(std::move(pair)),
+      presses_(protocol_.presses()),
+      begun_(std::chrono::steady_clock::now()) {
+  Pose lying = pair_->pose();
+  for (std::size_t k = 0; k < protocol_.count(); ++k)
+    with_title(k, [&] { pair_->check_ahead(protocol_.events()[k].step, lying); });
+}
+
+std::string ProtocolRun::title(std::size_t k) const {
+  return "event " + std::to_string(k + 1) + " of " + std::to_string(protocol_.count()) + ": " +
+         text(protocol_.events()[k].step);
+}
+
+template <class Work>
+void ProtocolRun::with_title(std::size_t k, const Work& work) const {
+  try {
+    work();
+  } catch (const Error& error) {
+    const std::string& origin = protocol_.events()[k].origin;
+    throw Error(error.code(),
+                title(k) + (origin.empty() ? "" : " (" + origin + ")") + ": " + error.sentence(),
+                error.hint());
+  }
+}
+
+std::optional<State> ProtocolRun::step(Monitor& monitor) {
+  const Protocol::Event& event = protocol_.events()[next_];
+  std::optional<State> state;
+  with_title(next_, [&] {
+    stop_flag().check();
+    const bool press = std::holds_alternative<PressRequest>(event.step);
+    const double all = presses_ == 0 ? 1 : static_cast<double>(presses_);
+    const double before = static_cast<double>(pressed_) / all;
+    const double after = static_cast<double>(pressed_ + (press ? 1 : 0)) / all;
+    PartMonitor part(monitor, "protocol", title(next_), before, after, begun_);
+    part.begin();
+    const std::size_t done = pair_->history().size();
+    state = pair_->perform(event.step, part);
+    pair_->date(done, event.time);
+    if (press) ++pressed_;
+    ++next_;
+  });
+  return state;
 }
 
 }  // namespace asperity

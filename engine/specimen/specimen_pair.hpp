@@ -5,9 +5,11 @@
 // pose change. Not thread-safe.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/accuracy/chosen_accuracy.hpp"
@@ -20,9 +22,9 @@
 
 namespace asperity {
 
-// From the stream "placement" of `seed`, exact on the lattice: a turn by 0, 90, 180 or 270 deg (0 or 180 if
-// cells or sizes differ in x and y), then shifts by whole cells, except on a free boundary, where the body
-// would leave the rim. A shift represents the new surface that a turn brings away from the axis of a disc.
+// From stream "placement" of `seed`, exact on the lattice: a turn by 0, 90, 180 or 270 deg (0 or 180 if cells
+// or sizes differ in x and y), then shifts by whole cells, unless the boundary is free. A shift represents
+// the new surface off the axis of a turned disc.
 LatticeIsometry draw_placement(const Grid& grid, Boundary boundary, std::uint64_t seed);
 
 class SpecimenPair {
@@ -37,14 +39,14 @@ class SpecimenPair {
     std::optional<Measured> measured{};
   };
 
-  // The upper body is turned over. Throws as check(Scene) and make_plan do. O(n), no solve.
+  // Turns the upper body over. Throws as check(Scene) and make_plan. O(n), no solve.
   explicit SpecimenPair(const Scene& scene);
 
-  // The state under this load; plastic deformation stays after release. Nothing yields again under loads that
-  // the bodies carried in this pose (planned_yield.hpp). Warns once of a step at the rim of a periodic
-  // half-space, a dwell without creep, and a turn off the lattice that maps the yielded volume badly (it is
-  // scaled). With a requested accuracy, the first press under load chooses cells and tolerance and moves the
-  // bodies there for good (accuracy_choice.hpp); later presses are checked against the request.
+  // Plastic deformation stays after release; loads carried in this pose cause no further yield
+  // (planned_yield.hpp). Warns once of a step at the rim of a periodic half-space, dwells without creep, and
+  // a turn off the lattice with badly mapped yielded volume (scaled). With a requested accuracy, the first
+  // press under load chooses cells and tolerance and moves the bodies there for good (accuracy_choice.hpp);
+  // later presses are checked.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
   // Frees all states pressed here; values read before stay valid (State::close).
   void close();
@@ -54,8 +56,7 @@ class SpecimenPair {
 
   void release();
   bool under_load() const { return under_load_; }
-  // Partial slip under the present load; changes nothing. Throws as shear() does, and Error{bad_state}
-  // without load.
+  // Under the present load; changes nothing. Throws as shear(), and Error{bad_state} without load.
   PartialSlip shear(const ShearRequest& request, Monitor& monitor = Monitor::silent());
   // Null without load or tangential effect.
   const State* pressed() const { return under_load_ && pressed_ ? &*pressed_ : nullptr; }
@@ -63,17 +64,19 @@ class SpecimenPair {
   // By draw_placement(seed), from any pose.
   void place(std::uint64_t seed);
   // About the centre of the nodes, counter-clockwise seen from above the lower specimen; turns add up. Within
-  // 1e-9 rad of multiples of 90 deg, nodes meet nodes; a periodic boundary requires this. Throws
-  // Error{bad_value} otherwise, and for a quarter turn of a tile that is not square.
+  // 1e-9 rad of multiples of 90 deg, nodes meet nodes; periodic boundaries require this. Throws
+  // Error{bad_value} otherwise, and for a quarter turn of an oblong tile.
   void rotate(double angle);
-  // m, whole cells (to 1e-9 of a cell), periodic boundary only.
+  // m, whole cells (to 1e-9), periodic only.
   void shift(double x, double y);
+  // Returns the state of a press.
+  std::optional<State> perform(const Protocol::Step& step, Monitor& monitor);
 
-  // Throws predictable errors: an impossible turn or shift, a mean pressure above the capacity of the nodes.
+  // Throws predictable errors: impossible turns or shifts, mean pressures above the capacity of the nodes.
   // Updates the pose `lying`.
   void check_ahead(const Protocol::Step& step, Pose& lying) const;
 
-  // A copy begins with its original's events.
+  // A copy starts with its original's events.
   const std::vector<Done>& history() const { return history_; }
   // Dates the events from `first` on.
   void date(std::size_t first, std::optional<double> time);
@@ -87,9 +90,9 @@ class SpecimenPair {
   const Pose& pose() const { return geometry_->pose(); }
   const LatticeIsometry& placement() const { return pose().lattice(); }
   const BodyMemory& memory() const { return geometry_->memory(); }
-  // Work and cost of a press, for the given cells before an accuracy is chosen.
+  // Work and cost; for the given cells before an accuracy is chosen.
   const Plan& plan() const { return plan_; }
-  // The same for this very press, tried on fewer cells (expected_transforms.hpp). Throws as press() does.
+  // For this press, from one trial (accuracy/companion_grids.hpp). Throws as press().
   Plan plan_of(const PressRequest& request) const;
   // Prepared once per placement.
   std::shared_ptr<const Solver> solver();
@@ -102,7 +105,8 @@ class SpecimenPair {
   void unload();
   void warn(const PressRequest& request, Monitor& monitor);
   State choose_and_press(const PressRequest& request, Monitor& monitor);
-  // By the effects of the scene, with their cost.
+  State finished(State state, const PressRequest& request, Monitor& monitor);
+  // By the scene's effects, with their cost.
   StateCost leave_on_bodies(const State& state, Monitor& monitor);
   void warn_of_an_overhang(Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);
@@ -122,6 +126,35 @@ class SpecimenPair {
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;
   bool warned_of_plan_ = false;
+};
+
+// One event per call. A failed event leaves the pair unchanged and is tried again.
+class ProtocolRun {
+ public:
+  // Throws the first predictable error (SpecimenPair::check_ahead).
+  ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair);
+
+  const Protocol& protocol() const { return protocol_; }
+  SpecimenPair& pair() const { return *pair_; }
+  bool finished() const { return next_ >= protocol_.count(); }
+  // From 0.
+  std::size_t next() const { return next_; }
+
+  // Returns the state of a press. Progress counts presses only. Throws as the pair, and Error{interrupted |
+  // time_limit | ...} on a stop before an event. Precondition: not finished().
+  std::optional<State> step(Monitor& monitor = Monitor::silent());
+
+ private:
+  std::string title(std::size_t k) const;
+  // Errors get the title of event k.
+  template <class Work>
+  void with_title(std::size_t k, const Work& work) const;
+
+  Protocol protocol_;
+  std::shared_ptr<SpecimenPair> pair_;
+  std::size_t next_ = 0;
+  std::size_t presses_ = 0, pressed_ = 0;
+  std::chrono::steady_clock::time_point begun_;
 };
 
 }  // namespace asperity

@@ -8,10 +8,10 @@
 #include <map>
 #include <span>
 
-#include "engine/contact/state_limits.hpp"
+#include "engine/contact/state.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -29,10 +29,9 @@ void check_trials(const TiltTrialOptions& options) {
   require(options.scatter >= 0 && options.scatter < 1, "scatter", options.scatter, "",
           "it is a relative standard deviation: give a number from 0 to below 1");
   if (options.probe_pressures.empty() ||
-      !std::all_of(options.probe_pressures.begin(), options.probe_pressures.end(),
-                   [](double p) { return p > 0 && std::isfinite(p); }))
-    throw Error(ErrorCode::bad_value, "`probe_pressure` holds a pressure that is not finite and above zero",
-                "give one or more, such as { \"1 MPa\", \"3 MPa\" }");
+      !std::ranges::all_of(options.probe_pressures, [](double p) { return p > 0 && std::isfinite(p); }))
+    refuse("`probe_pressure` holds a pressure that is not finite or not above zero",
+           "give one or more, such as { \"1 MPa\", \"3 MPa\" }");
   require(options.repeats >= 1 && options.repeats <= 100000, "repeats", options.repeats, "",
           "give a whole number from 1 to 100000");
 }
@@ -52,7 +51,7 @@ TiltProbe probe_of(const State& state, const JunctionLaw& law, const TiltTrialOp
       state_limits(state)};
 }
 
-// At a pressure that the grid resolves.
+// At a pressure the grid resolves.
 TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
                 const TiltTrialOptions& options, Monitor& monitor) {
   const std::int64_t nodes = contact.geometry().facing();
@@ -70,8 +69,8 @@ std::vector<TiltProbe> probe_all(const Solver& contact, const JunctionLaw& law,
   return probes;
 }
 
-// Friction over load of a half-space contact under a resolved weight: solved under the weight, at steps of a
-// sixth below, and on request; linear between.
+// Friction over load of a half-space under a resolved weight: solved there, at steps of a sixth below, and on
+// request; linear between.
 class UnderTheWeight {
  public:
   // Pressures on the tile.
@@ -117,9 +116,7 @@ double mean_of(std::span<const TiltProbe> probes, double TiltProbe::*quantity) {
 }
 
 double least_pressure(std::span<const TiltProbe> probes) {
-  double least = probes.front().pressure;
-  for (const TiltProbe& probe : probes) least = std::min(least, probe.pressure);
-  return least;
+  return std::ranges::min_element(probes, {}, &TiltProbe::pressure)->pressure;
 }
 
 double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial,
@@ -136,7 +133,7 @@ double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial
 
 constexpr double noticeable_departure = 0.025;  // of area per load: two probes differ by 5 %
 
-// One spot whose area is not proportional to load. Many spots differ as much by chance.
+// One spot not proportional to load; many spots differ as much by chance.
 bool grows_alone(std::span<const TiltProbe> probes) {
   return std::ranges::all_of(probes, &TiltProbe::lone_spot) &&
          (probes.size() == 1 ||
@@ -148,15 +145,12 @@ void add_sentence(std::string& note, const std::string& sentence) {
   note += sentence;
 }
 
-double tangent(double angle) {
-  return angle >= 0.5 * std::numbers::pi ? std::numeric_limits<double>::infinity() : elementary::tan(angle);
-}
+double tangent(double angle) { return angle >= 0.5 * std::numbers::pi ? infinity : elementary::tan(angle); }
 
 double standard_deviation(const std::vector<double>& values) {
-  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); })) return 0;
+  if (std::ranges::count(values, values.front()) == std::ssize(values)) return 0;
   const auto n = static_cast<double>(values.size());
-  if (std::isinf(*std::max_element(values.begin(), values.end())))
-    return std::numeric_limits<double>::infinity();
+  if (std::isinf(std::ranges::max(values))) return infinity;
   double mean = 0, squares = 0;
   for (const double v : values) mean += v / n;
   for (const double v : values) squares += (v - mean) * (v - mean);
@@ -165,8 +159,7 @@ double standard_deviation(const std::vector<double>& values) {
 
 std::string note_on(const TiltResult& result, const TiltTrialOptions& options, bool flat) {
   std::string note;
-  const auto slips =
-      std::count_if(result.trials.begin(), result.trials.end(), [](const SlipAngle& t) { return t.slipped; });
+  const auto slips = std::ranges::count_if(result.trials, &SlipAngle::slipped);
   const std::string limit = format_short(options.stage.limit * 180 / std::numbers::pi) + " deg";
   if (slips == 0)
     note = "does not slip up to " + limit + ": mu is a lower bound";
@@ -179,10 +172,8 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
                            ? "the counter-body is flat: trials differ only by `scatter`"
                            : "the counter-body is flat and `scatter` is 0: all trials are the same");
   if (!result.probes.empty()) {
-    const auto raised =
-        std::max_element(result.probes.begin(), result.probes.end(),
-                         [](const TiltProbe& a, const TiltProbe& b) { return a.pressure < b.pressure; });
-    const double asked = *std::max_element(options.probe_pressures.begin(), options.probe_pressures.end());
+    const auto raised = std::ranges::max_element(result.probes, {}, &TiltProbe::pressure);
+    const double asked = std::ranges::max(options.probe_pressures);
     if (raised->pressure > asked)
       add_sentence(note, "the probe pressure was raised to " +
                              format_quantity(raised->pressure, dimension::pressure) + " until " +
@@ -199,24 +190,24 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
                             : " on a lone spot, whose area per load differs by " + apart +
                                   ", so the contact was solved under it") +
                        "; tau0 is an effective, calibrated number, so only ratios of mu are predictions");
-      if (std::any_of(result.at_weight.begin(), result.at_weight.end(),
-                      [](const TiltProbe& p) { return p.yields; }))
+      if (std::ranges::any_of(result.at_weight, &TiltProbe::yields))
         add_sentence(note,
                      "spots yield under the weight, which bounds area per load by one over the hardness");
       return note;
     }
-    if (std::any_of(result.probes.begin(), result.probes.end(), [](const TiltProbe& p) { return p.yields; }))
+    if (std::ranges::any_of(result.probes, &TiltProbe::yields))
       add_sentence(note,
                    "spots yield under the probe pressure, which bounds area per load by one over the "
                    "hardness; without " +
                        effects_that(Effect::Acts::bounds_pressure) + " the probe is elastic");
     if (const double pull = mean_of(result.probes, &TiltProbe::attraction); pull > 0)
       add_sentence(note, "the bodies attract each other by " + format_short(pull, 3) +
-                             " of the load at the probe pressures, which is taken to hold down to the "
+                             " of the load at the probe pressures, and is assumed to be the same at the "
                              "weight; bodies that stick without a load hold more");
-    add_sentence(note,
-                 "real area per load is taken from the probe pressures down to the weight; tau0 is an "
-                 "effective, calibrated number, so only ratios of mu are predictions");
+    add_sentence(
+        note,
+        "real area per load is assumed to be the same at the weight as at the probe pressures; tau0 is an "
+        "effective, calibrated number, so only ratios of mu are predictions");
     if (departs > noticeable_departure)
       add_sentence(note, "area per load differs by " + apart + ", and is as uncertain: take finer cells");
   }
@@ -241,7 +232,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
 
   TiltResult result;
   Task task(monitor, "tilt stage", options.repeats);
-  const bool half_space = bench.scene().elasticity.model().moves_every_node;
+  const bool half_space = !bench.scene().elasticity.model().is_local;
   std::vector<TiltProbe> probes;
   std::optional<UnderTheWeight> weight;
   const double tile = bench.lower().grid().area();
@@ -251,7 +242,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     const auto k = static_cast<std::uint64_t>(trial);
     if (!flat) bench.place(tilt_placement(options, trial));
     const std::shared_ptr<const Solver> solver = bench.solver();
-    // A draw in the far tail must not make friction negative.
+    // Far tails must not make friction negative.
     const double factor = std::max(0.0, 1 + options.scatter * scatter.normal(k));
     if (half_space && (probes.empty() || !flat)) {
       probes = probe_all(*solver, law, options, monitor);
@@ -265,7 +256,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     if (!flat) weight.reset();
     if (half_space && weight_pressure > resolved && !weight)
       weight.emplace(*solver, law, options, resolved, weight_pressure, monitor);
-    std::int64_t contacts = 0;  // under the greatest load of the trial
+    std::int64_t contacts = 0;  // under the greatest load
     const auto friction = [&](double normal_force) {
       if (half_space) {
         const double pressure = std::min(normal_force * tile_share / tile, weight_pressure);
@@ -278,8 +269,8 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     };
     SlipAngle slip = slip_angle(friction, options.stage);
     if (weight) {
-      // Repeats with a solve at the load of slip until the slip angle agrees. Area counts nodes: if a node
-      // detaches between two loads, both may be solved.
+      // Solves at the load of slip until the slip angle agrees. If a node detaches between two loads, both
+      // may be solved.
       constexpr int most_rounds = 12;
       double before = weight_pressure;
       for (int round = 0; round < most_rounds; ++round) {
@@ -298,7 +289,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
 
   std::vector<double> coefficients;
   result.slipped = true;
-  // Relative to the first trial: equal trials have exactly their own mean.
+  // Relative to the first: equal trials have exactly their mean.
   const SlipAngle first = result.trials.front();
   result.angle = first.angle;
   result.held = first.held;
@@ -326,17 +317,72 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
       }
   if (fewest < std::min(enough_contacts, static_cast<std::int64_t>(bench.lower().grid().nodes())))
     add_sentence(result.note, "the weight rests on " + std::to_string(fewest) +
-                                  (fewest == 1 ? " node" : " nodes") +
-                                  " only: mu is that of their areas and changes with the grid");
+                                  (fewest == 1 ? " node" : " nodes") + " only, so mu depends on the cells");
   if (options.rest)
     add_sentence(result.note, "at rest for " + format_quantity(*options.rest, dimension::time) +
                                   ", tau0 grew by a factor of " +
                                   format_short(strengthening(pair.scene().effects, options.rest)));
   if (result.trials.size() > 1)
-    add_sentence(
-        result.note,
-        "`spread` is of trials on one pair of faces: what other seeds or specimens give is not in it");
+    add_sentence(result.note, "`spread` covers trials on one pair of faces, not other seeds or specimens");
   return result;
+}
+
+namespace {
+
+SlipShare share_at(const Solver& contact, const State& state, double friction, double angle,
+                   Monitor& monitor) {
+  SlipShare share{angle, 1, 1, {}};
+  if (!(friction > 0)) return share;
+  // The slip angle is accurate to rounding only.
+  constexpr double rounding = 1e-9;
+  const double ratio = elementary::tan(angle) / friction;
+  share.ratio = ratio < 1 - rounding ? ratio : 1;
+  const PartialSlip slip = shear(contact, state, {{}, share.ratio, friction}, monitor);
+  share.slip_fraction = slip.slip_fraction();
+  share.displacement = slip.displacement();
+  return share;
+}
+
+}  // namespace
+
+std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
+                                   const TiltTrialOptions& options, int steps, Monitor& monitor) {
+  require_tangential(pair.scene().effects);
+  require(steps >= 1 && steps <= 10000, "steps", steps, "", "give a whole number from 1 to 10000");
+  TiltTrialOptions once = options;
+  once.repeats = 1;
+  once.scatter = 0;
+  const TiltResult raised = raise(pair, law, once, monitor);
+  SpecimenPair bench = pair;
+  if (!bench.upper_is_flat()) bench.place(tilt_placement(options, 0));
+  const std::shared_ptr<const Solver> contact = bench.solver();
+
+  const double weight =
+      options.stage.mass * options.stage.gravity *
+      (bench.lower().grid().area() / options.specimen_area.value_or(bench.lower().grid().area()));
+  std::optional<State> probe;
+  double friction = 0;
+  if (!raised.probes.empty()) {
+    probe = contact->press({PressBy::pressure, raised.probes.front().pressure, {}}, monitor);
+    for (const TiltProbe& at : raised.probes) friction += at.mu / static_cast<double>(raised.probes.size());
+    // A solved weight has its own friction.
+    if (!raised.at_weight.empty() && raised.slipped) friction = elementary::tan(raised.angle);
+  }
+
+  std::vector<SlipShare> growth;
+  Task task(monitor, "growth of slip", steps);
+  for (int k = 1; k <= steps; ++k) {
+    const double angle = raised.angle * k / steps;
+    if (probe) {
+      growth.push_back(share_at(*contact, *probe, friction, angle, monitor));
+      growth.back().displacement.reset();
+    } else {
+      const State state = contact->press({PressBy::load, weight * elementary::cos(angle), {}}, monitor);
+      growth.push_back(share_at(*contact, state, law.on(state, options.rest).mu.value_or(0), angle, monitor));
+    }
+    task.advance();
+  }
+  return growth;
 }
 
 }  // namespace asperity

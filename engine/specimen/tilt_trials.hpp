@@ -23,21 +23,21 @@ namespace asperity {
 struct TiltTrialOptions {
   TiltOptions stage;
   std::optional<double> specimen_area;  // m², > 0; default: the tile
-  // Pa, each > 0: half-space solves, whose ratios are averaged; each is doubled until fifty nodes touch.
+  // Pa, > 0: half-space solves, whose ratios are averaged; each is doubled until fifty nodes touch.
   std::vector<double> probe_pressures = {1e6, 3e6};
-  double scatter = 0;  // relative standard deviation of friction between trials, >= 0
+  double scatter = 0;  // relative standard deviation of friction, >= 0
   int repeats = 5;     // 1 … 100000
   std::uint64_t seed = 1;
-  // s >= 0: rest under the weight before the raise; needs `ageing`.
+  // s >= 0: under the weight before the raise; needs `ageing`.
   std::optional<double> rest{};
 };
 
 struct TiltProbe {
-  double pressure = 0;        // Pa
-  std::int64_t contacts = 0;  // nodes
-  bool yields = false;        // some node is at the limit
-  double area_per_load = 0;   // 1/Pa, corrected area
-  double mu = 0;  // friction over load, adhesion on the corrected area; negative if junctions interlock
+  double pressure = 0;                // Pa
+  std::int64_t contacts = 0;          // nodes
+  bool yields = false;                // some node is at the limit
+  double area_per_load = 0;           // 1/Pa, corrected area
+  double mu = 0;                      // with adhesion on the corrected area; negative if junctions interlock
   double attraction = 0;              // over load
   bool lone_spot = false;             // connected by edges or corners
   std::vector<std::string> limits{};  // state_limits
@@ -45,27 +45,45 @@ struct TiltProbe {
 
 struct TiltResult {
   double angle = 0;               // rad, mean of the exact slip angles
-  double held = 0;                // rad, mean of the last held step: the source paper's measure
+  double held = 0;                // rad, mean last held step: the source paper's measure
   double mu = 0;                  // tan(held); infinite at 90 deg
   double spread = 0;              // standard deviation of tan(held) (n−1); 0 for one trial
-  bool slipped = false;           // in every trial; otherwise angle, held and mu are lower bounds
+  bool slipped = false;           // every trial; otherwise angle, held and mu are lower bounds
   std::vector<SlipAngle> trials;  // in order
-  // 1/Pa, half-space only: mean over trials, of the solved weight or of the probes.
+  // 1/Pa, half-space only: trial mean for the solved weight or the probes.
   std::optional<double> area_per_load;
   std::vector<TiltProbe> probes;     // of trials that solved anew
   std::vector<TiltProbe> at_weight;  // level, one per trial; empty unless solved
-  // Greatest relative departure of mu at a probe from the trial's mean: the error of the extrapolation. None
-  // for a solved weight, a single probe and boxes.
+  // Greatest relative departure of mu at a probe from the mean: error of the extrapolation. None for a solved
+  // weight, single probes and boxes.
   std::optional<double> probe_spread;
   std::string note;  // condition of the result, one sentence
 };
 
-// Works on a copy. Negative friction becomes zero. Throws Error{bad_value} naming the option, and
-// Error{bad_state} for a rest without `ageing`.
+// Works on a copy. Negative friction becomes zero. Throws Error{bad_value} naming the option, {bad_state} for
+// a rest without `ageing`.
 TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTrialOptions& options,
                  Monitor& monitor = Monitor::silent());
 
 // Trials count from 0.
 std::uint64_t tilt_placement(const TiltTrialOptions& options, int trial);
+
+// Growth of slip on a raised stage. At the angle θ the weight W presses by W cos θ and pulls by W sin θ, tan
+// θ/μ of the sliding force; partial slip (friction/partial_slip.hpp) gives the slipping share. Coulomb's law,
+// with the mean μ of the junction law. On a half-space the share at the first probe pressure is assumed down
+// to the weight.
+struct SlipShare {
+  double angle = 0;          // rad
+  double ratio = 0;          // pull over sliding force, 0 … 1
+  double slip_fraction = 0;  // of the contact area
+  // m, between the bodies; none on a half-space.
+  std::optional<double> displacement{};
+};
+
+// At `steps` (1 … 10000) equal steps up to slip, or the limit. Ignores scatter and repeats. Works on a copy.
+// Throws as raise() and shear().
+std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
+                                   const TiltTrialOptions& options, int steps,
+                                   Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

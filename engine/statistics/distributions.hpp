@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Student's t, F and normal distributions for real degrees of freedom. t and F use the continued fraction of
-// the incomplete beta function (DiDonato & Morris 1992) with Loader's prefactor (2000), accurate for many
-// degrees. Relative errors are below 1e-12 for degrees from 0.1 to 1e11 and tails down to 1e-300; t above
-// 1e150 is infinite. Thread-safe; some microseconds per call.
+// Student's t, F and normal distributions for real degrees of freedom. t and F use Boost's incomplete beta
+// function, with relative errors below 2e-11 for degrees from 0.1 to 1e11, and exponentials of the C library:
+// for reports only, because last digits may depend on the processor. Normal quantiles have the same bits
+// everywhere, for inputs of runs. Thread-safe; microseconds per call.
 #pragma once
 
 namespace asperity {

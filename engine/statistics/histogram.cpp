@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -49,30 +49,24 @@ std::vector<double> edges_of(const std::vector<double>& sorted, const HistogramB
                              std::string& rule) {
   if (!bins.edges.empty()) {
     if (bins.edges.size() < 2 || bins.edges.size() > most_bins + 1)
-      throw Error(
-          ErrorCode::bad_value,
-          "`bins` has " + std::to_string(bins.edges.size()) + (bins.edges.size() == 1 ? " edge" : " edges"),
-          "give from 2 to " + std::to_string(most_bins + 1) + ", or a number of bins");
+      refuse("`bins` has " + counted(bins.edges.size(), "edge"),
+             "give from 2 to " + std::to_string(most_bins + 1) + ", or a number of bins");
     for (std::size_t k = 0; k < bins.edges.size(); ++k) {
-      if (!std::isfinite(bins.edges[k]))
-        throw Error(ErrorCode::bad_value, "edge " + std::to_string(k + 1) + " of `bins` is not finite");
+      if (!std::isfinite(bins.edges[k])) refuse("edge " + std::to_string(k + 1) + " of `bins` is not finite");
       if (k > 0 && !(bins.edges[k] > bins.edges[k - 1]))
-        throw Error(ErrorCode::bad_value,
-                    "edge " + std::to_string(k + 1) + " of `bins`, " + format_short(bins.edges[k]) +
-                        ", is not above the one before, " + format_short(bins.edges[k - 1]),
-                    "edges ascend");
+        refuse("edge " + std::to_string(k + 1) + " of `bins`, " + format_short(bins.edges[k]) +
+                   ", is not above the one before, " + format_short(bins.edges[k - 1]),
+               "edges ascend");
     }
     rule = "edges as given";
     return bins.edges;
   }
   if (bins.count && (*bins.count < 1 || *bins.count > most_bins))
-    throw Error(ErrorCode::bad_value, "`bins` is " + std::to_string(*bins.count),
-                "give from 1 to " + std::to_string(most_bins));
+    refuse("`bins` is " + std::to_string(*bins.count), "give from 1 to " + std::to_string(most_bins));
   if (!(sorted.back() > sorted.front()))
-    throw Error(ErrorCode::bad_value,
-                "all " + std::to_string(sorted.size()) + " values are " + format_short(sorted.front()) +
-                    ", and bins have no width between equal values",
-                "give `bins` the edges, such as {0, 1, 2}");
+    refuse("all " + std::to_string(sorted.size()) + " values are " + format_short(sorted.front()) +
+               ", and bins have no width between equal values",
+           "give `bins` the edges, such as {0, 1, 2}");
   if (!bins.count) return equal_edges(sorted.front(), sorted.back(), bins_by_rule(sorted, rule));
   rule = std::to_string(*bins.count) + (*bins.count == 1 ? " bin as given" : " bins as given");
   return equal_edges(sorted.front(), sorted.back(), *bins.count);
@@ -87,8 +81,8 @@ ValueHistogram value_histogram(std::span<const double> values, const HistogramBi
     if (std::isfinite(value)) sorted.push_back(value);
   found.left_out = values.size() - sorted.size();
   if (sorted.empty())
-    throw Error(ErrorCode::bad_value, "there is no number to count",
-                values.empty() ? "" : std::to_string(values.size()) + " cells are empty or not finite");
+    refuse("there is no number to count",
+           values.empty() ? "" : std::to_string(values.size()) + " cells are empty or not finite");
   std::ranges::sort(sorted);
   found.edges = edges_of(sorted, bins, found.rule);
   found.counts.resize(found.edges.size() - 1);

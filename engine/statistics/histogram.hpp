@@ -12,14 +12,14 @@
 namespace asperity {
 
 struct HistogramBins {
-  std::optional<int> count;     // equal bins over the range
+  std::optional<int> count;     // over the range
   std::vector<double> edges{};  // or ascending edges
 };
 
 struct ValueHistogram {
   std::vector<double> edges;
   std::vector<std::size_t> counts;
-  std::vector<double> density;       // integrates to 1 over the bins
+  std::vector<double> density;       // integral 1
   std::size_t values = 0;            // in bins
   std::size_t below = 0, above = 0;  // outside given edges
   std::size_t left_out = 0;

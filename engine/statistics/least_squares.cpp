@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/least_squares.hpp"
 
-// Own namespace: the linker must not merge this code with Eigen code compiled with other alignments.
+// Own namespace: the linker must not merge Eigen code of other alignments.
 #define Eigen asperity_least_squares_eigen
 #define EIGEN_DONT_VECTORIZE
 #define EIGEN_MAX_ALIGN_BYTES 0
@@ -10,20 +10,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace asperity {
 
-double length_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
+double scalar_product(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
+
+double length_of(const std::vector<double>& values) { return std::sqrt(scalar_product(values, values)); }
 
 SingularValues singular_values(const TableColumns& columns) {
   if (columns.empty()) return {};
   const auto n = static_cast<Eigen::Index>(columns.size()),
              points = static_cast<Eigen::Index>(columns.front().size());
-  // Zero rows, for as many directions as columns.
+  // Zero rows: as many directions as columns.
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(std::max(points, n), n);
   for (Eigen::Index k = 0; k < n; ++k)
     matrix.col(k).head(points) =
@@ -42,14 +43,13 @@ SingularValues singular_values(const TableColumns& columns) {
 
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y) {
   using Matrix = Eigen::MatrixXd;
-  // Fixed block sizes: sums have the same order on every processor.
+  // Fixed block sizes fix the order of sums.
   static const bool blocks_are_fixed = (Eigen::setCpuCacheSizes(1 << 15, 1 << 18, 1 << 21), true);
   (void)blocks_are_fixed;
   const auto rows = static_cast<Eigen::Index>(y.size()), count = static_cast<Eigen::Index>(columns.size());
   Matrix a(rows, count);
   for (Eigen::Index k = 0; k < count; ++k)
-    for (Eigen::Index i = 0; i < rows; ++i)
-      a(i, k) = columns[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+    a.col(k) = Eigen::Map<const Eigen::VectorXd>(columns[static_cast<std::size_t>(k)].data(), rows);
   const Eigen::HouseholderQR<Matrix> factors(a);
   const Matrix q = factors.householderQ() * Matrix::Identity(rows, count);
   const Matrix r = factors.matrixQR().topRows(count).triangularView<Eigen::Upper>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Singular values and linear least squares, with Eigen hidden in the source. Sums have one order: the same
-// bits on every processor.
+// Singular values and linear least squares, with Eigen hidden in the source and the same bits on every
+// processor.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@ namespace asperity {
 // Columns of equal length.
 using TableColumns = std::vector<std::vector<double>>;
 
-// A = U Σ Vᵀ by Jacobi rotations after a pivoted factorisation: small singular values are accurate.
+// A = U Σ Vᵀ by Jacobi rotations after a pivoted factorisation: accurate also for small values.
 struct SingularValues {
   TableColumns u;              // orthonormal
   std::vector<double> values;  // descending, ≥ 0
-  TableColumns v;              // v[k][j]: component j of direction k
+  TableColumns v;              // component j of direction k
 };
 
 // Finite entries.
@@ -24,16 +24,18 @@ SingularValues singular_values(const TableColumns& columns);
 // Fit of y by Householder's QR.
 struct LinearLeastSquares {
   std::vector<double> coefficients, residuals;
-  std::vector<double> leverage;  // of each y on its own fit, 0 to 1
-  TableColumns influence;        // influence[i][k]: d coefficient k / d y[i]
-  // Smallest relative length of a column orthogonal to the previous columns. Near 0, the other results are
+  std::vector<double> leverage;  // 0 to 1
+  TableColumns influence;        // d coefficient k / d y[i]
+  // Smallest relative length of a column orthogonal to the previous columns. Near 0, other results are
   // unusable.
   double independence = 1;
 };
 
-// Columns as long as y, no more columns than rows, finite entries. O(n columns²).
+// Finite columns as long as y, no more columns than rows. O(n columns²).
 LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y);
 
+// In order: one sum.
+double scalar_product(const std::vector<double>& a, const std::vector<double>& b);
 double length_of(const std::vector<double>& values);
 
 }  // namespace asperity

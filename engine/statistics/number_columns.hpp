@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Table columns as numbers: the rows with finite numbers in all requested columns. Text is an error.
+// The table rows with finite numbers in all requested columns.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// Order of groups and lines: ascending numbers, booleans, texts.
+// Ascending numbers, booleans, texts.
 bool comes_before(const Cell& a, const Cell& b);
 
 struct NumberColumns {

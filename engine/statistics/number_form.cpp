@@ -13,31 +13,6 @@ namespace {
 
 bool is_decimal_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Thousands separators of word processors: no-break and thin spaces.
-constexpr std::array<std::string_view, 3> wide_blanks{"\u00A0", "\u202F", "\u2009"};
-
-std::string with_plain_blanks(std::string_view text) {
-  std::string plain(text);
-  for (const std::string_view blank : wide_blanks)
-    for (std::size_t k = plain.find(blank); k != std::string::npos; k = plain.find(blank))
-      plain.replace(k, blank.size(), " ");
-  return plain;
-}
-
-std::string with_plain_minus(std::string text) {
-  constexpr std::string_view minus = "\u2212";
-  if (text.starts_with(minus)) text.replace(0, minus.size(), "-");
-  return text;
-}
-
-// Apostrophe of Swiss spreadsheets.
-std::string with_plain_apostrophe(std::string text) {
-  constexpr std::string_view curved = "\u2019";
-  for (std::size_t k = text.find(curved); k != std::string::npos; k = text.find(curved))
-    text.replace(k, curved.size(), "'");
-  return text;
-}
-
 std::string_view without_sign(std::string_view text) {
   if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
   return text;
@@ -63,15 +38,31 @@ bool looks_like_number(std::string_view text) {
          text.find_first_not_of("0123456789.,eE+-") == std::string_view::npos;
 }
 
-}  // namespace
-
 std::string with_plain_signs(std::string_view text) {
-  return with_plain_minus(with_plain_apostrophe(with_plain_blanks(text)));
+  // No-break and thin spaces of word processors, apostrophes of Swiss spreadsheets.
+  static constexpr std::array<std::pair<std::string_view, char>, 4> signs{
+      {{"\u00A0", ' '}, {"\u202F", ' '}, {"\u2009", ' '}, {"\u2019", '\''}}};
+  constexpr std::string_view minus = "\u2212";
+  std::string plain(text);
+  for (const auto& [sign, ascii] : signs)
+    for (std::size_t k = plain.find(sign); k != std::string::npos; k = plain.find(sign))
+      plain.replace(k, sign.size(), 1, ascii);
+  if (plain.starts_with(minus)) plain.replace(0, minus.size(), 1, '-');
+  return plain;
 }
 
+std::string name_of(char sign) {
+  return sign == ',' ? "a comma" : sign == '.' ? "a point" : sign == ' ' ? "a blank" : "an apostrophe";
+}
+
+std::string cure(char sign) {
+  return "give thousands=" + std::string("\"") + sign + "\" if it separates thousands";
+}
+
+}  // namespace
+
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form) {
-  std::string plain = with_plain_minus(with_plain_apostrophe(std::string(text)));
-  if (form.thousands == ' ') plain = with_plain_blanks(plain);
+  std::string plain = with_plain_signs(text);
   if (form.thousands != '\0' && plain.find(form.thousands) != std::string::npos) {
     const std::string_view unsigned_text = without_sign(plain);
     const std::size_t end =
@@ -79,12 +70,8 @@ std::optional<std::string> plain_number(std::string_view text, const NumberForm&
     if (!parts_thousands(unsigned_text.substr(0, end), form.thousands)) return {};
     std::erase(plain, form.thousands);
   }
-  if (form.decimal == ',') {
-    if (plain.find('.') != std::string::npos) return {};
-    std::replace(plain.begin(), plain.end(), ',', '.');
-  } else if (plain.find(',') != std::string::npos) {
-    return {};
-  }
+  if (plain.find(form.decimal == ',' ? '.' : ',') != std::string::npos) return {};
+  std::ranges::replace(plain, ',', '.');
   return plain;
 }
 
@@ -105,22 +92,18 @@ TextCell read_number(std::string_view text, const NumberForm& form) {
 void NumberEvidence::prove(char& sign, char found, std::string_view text, const std::string& place) {
   if (sign == '\0') sign = found;
   if (sign == found || !contradiction_.place.empty()) return;
-  contradiction_ = {place, shown(text) + " has a " + (found == ',' ? "comma" : "point") + " for its " +
-                               (&sign == &decimal_ ? "decimal sign" : "thousands") +
-                               ", where the others have a " +
-                               (sign == ','   ? "comma"
-                                : sign == '.' ? "point"
-                                              : "blank")};
+  contradiction_ = {place, shown(text) + " has " + name_of(found) + " as its " +
+                               (&sign == &decimal_ ? "decimal sign" : "thousands separator") +
+                               ", and the others have " + name_of(sign)};
 }
 
 void NumberEvidence::add(std::string_view cell, const std::string& place) {
   std::string joined = with_plain_signs(cell);
   const std::string_view number = without_sign(joined);
   const std::string_view before = number.substr(0, std::min(number.find_first_of(".,eE"), number.size()));
-  for (const auto& [sign, unclear] :
-       {std::pair{' ', &unclear_blank_}, std::pair{'\'', &unclear_apostrophe_}}) {
+  for (const char sign : {' ', '\''}) {
     if (!parts_thousands(before, sign)) continue;
-    if (thousands_ != sign && unclear->place.empty()) *unclear = {place, shown(joined)};
+    unclear_.try_emplace(sign, Doubt{place, shown(joined)});
     std::erase(joined, sign);
     break;
   }
@@ -132,61 +115,43 @@ void NumberEvidence::add(std::string_view cell, const std::string& place) {
   if (commas > 0 && points > 0) {
     const bool comma_last = digits.rfind(',') > digits.rfind('.');
     const char decimal = comma_last ? ',' : '.', thousands = comma_last ? '.' : ',';
-    if ((comma_last ? commas : points) > 1) return;  // unreadable; the reader reports it
+    if ((comma_last ? commas : points) > 1) return;  // the reader reports it
     prove(decimal_, decimal, text, place);
     prove(thousands_, thousands, text, place);
     return;
   }
   const char sign = commas > 0 ? ',' : '.';
-  if (commas + points > 1) {
-    if (parts_thousands(digits, sign)) prove(thousands_, sign, text, place);
-    return;
-  }
-  const std::size_t at = digits.find(sign);
-  const bool may_part =
-      parts_thousands(digits.substr(0, std::min(digits.find_first_of("eE"), digits.size())), sign) &&
-      digits.front() != '0' && digits.find_first_of("eE") == std::string_view::npos && at > 0;
-  if (!may_part) return prove(decimal_, sign, text, place);
-  Doubt& unclear = sign == ',' ? unclear_comma_ : unclear_point_;
-  if (unclear.place.empty()) unclear = {place, shown(text)};
+  const bool parts = parts_thousands(digits, sign);
+  if (commas + points == 1 && (!parts || digits.front() == '0')) return prove(decimal_, sign, text, place);
+  if (commas + points == 1)
+    unclear_.try_emplace(sign, Doubt{place, shown(text)});
+  else if (parts)
+    prove(thousands_, sign, text, place);
 }
 
 NumberForm NumberEvidence::form() const {
-  NumberForm form;
-  if (decimal_ != '\0')
-    form.decimal = decimal_;
-  else if (thousands_ == '.')
-    form.decimal = ',';
-  form.thousands = thousands_;
-  return form;
+  return {.decimal = decimal_ != '\0' ? decimal_ : thousands_ == '.' ? ',' : '.', .thousands = thousands_};
 }
 
 std::optional<NumberEvidence::Doubt> NumberEvidence::doubt() const {
   if (!contradiction_.place.empty())
     return Doubt{contradiction_.place, contradiction_.finding + "; write all numbers in one way"};
   if (decimal_ != '\0' && decimal_ == thousands_)
-    return Doubt{"the numbers", std::string("a ") + (decimal_ == ',' ? "comma" : "point") +
-                                    " would be both the decimal sign and that of thousands"};
-  if (!unclear_blank_.place.empty() && thousands_ != ' ')
-    return Doubt{unclear_blank_.place,
-                 unclear_blank_.finding +
-                     " has a blank between its digits; thousands=\" \" says that it parts thousands"};
-  if (!unclear_apostrophe_.place.empty() && thousands_ != '\'')
-    return Doubt{unclear_apostrophe_.place,
-                 unclear_apostrophe_.finding +
-                     " has an apostrophe between its digits; thousands=\"'\" says that it parts thousands"};
-  if (!unclear_comma_.place.empty() && decimal_ != ',' && thousands_ != ',')
-    return Doubt{
-        unclear_comma_.place,
-        unclear_comma_.finding + (decimal_ == '.' ? " has a comma where the decimal sign is a point; "
-                                                    "thousands=\",\" says that it parts thousands"
-                                                  : " may be a decimal number or have its thousands parted; "
-                                                    "decimal=\",\" or thousands=\",\" says which")};
-  if (!unclear_point_.place.empty() && decimal_ == ',' && thousands_ != '.')
-    return Doubt{
-        unclear_point_.place,
-        unclear_point_.finding +
-            " has a point where the decimal sign is a comma; thousands=\".\" says that it parts thousands"};
+    return Doubt{"the numbers", name_of(decimal_) + " would be both decimal sign and thousands separator"};
+  for (const auto& [sign, first] : unclear_) {
+    if (sign == decimal_ || sign == thousands_) continue;
+    if (sign == ' ' || sign == '\'')
+      return Doubt{first.place,
+                   first.finding + " has " + name_of(sign) + " between its digits; " + cure(sign)};
+    if (decimal_ != '\0')
+      return Doubt{first.place, first.finding + " has " + name_of(sign) + ", and the decimal sign is " +
+                                    name_of(decimal_) + "; " + cure(sign)};
+    if (sign == ',')
+      return Doubt{
+          first.place,
+          first.finding +
+              " may have a decimal comma or separated thousands; give decimal=\",\" or thousands=\",\""};
+  }
   return {};
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decimal and thousands signs of a file. "1,250" is ambiguous; another number of the file, such as "0,5" or
-// "1.250,5", decides.
+// Decimal and thousands signs of a file. "1,250" is ambiguous; another number, such as "0,5" or "1.250,5",
+// decides.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,16 +17,12 @@ struct NumberForm {
   char thousands = '\0';  // ' ': any blank
 };
 
-// Reads a cell in this form, otherwise like read_cell. Thousands must form groups of three throughout.
+// Otherwise like read_cell. Thousands must form groups of three throughout.
 TextCell read_number(std::string_view text, const NumberForm& form);
 
-// With a decimal point and without thousands signs; nothing if not in this form.
+// With decimal point, without thousands signs; nothing if not in this form.
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form);
 
-// Replaces special blanks, apostrophes and minus signs by ASCII.
-std::string with_plain_signs(std::string_view text);
-
-// Accepts any decimal and thousands signs.
 bool looks_like_a_number(std::string_view cell);
 
 class NumberEvidence {
@@ -35,7 +32,7 @@ class NumberEvidence {
   // Ignores cells that are no numbers.
   void add(std::string_view cell, const std::string& place);
   NumberForm form() const;
-  // An ambiguous or contradictory number; nothing if the form is clear.
+  // An ambiguous or contradictory number, if any.
   struct Doubt {
     std::string place, finding;
   };
@@ -45,7 +42,8 @@ class NumberEvidence {
   void prove(char& sign, char found, std::string_view text, const std::string& place);
 
   char decimal_, thousands_;
-  Doubt unclear_comma_, unclear_point_, unclear_blank_, unclear_apostrophe_, contradiction_;
+  Doubt contradiction_;
+  std::map<char, Doubt> unclear_;  // first number with this possible thousands sign
 };
 
 }  // namespace asperity

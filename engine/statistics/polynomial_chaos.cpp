@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/least_squares.hpp"
 
@@ -49,7 +49,7 @@ void add_terms(std::vector<int>& term, std::size_t input, int left, std::vector<
   }
 }
 
-// Leave-one-out residual of run i; infinite if the run alone determines a term.
+// Infinite if run i alone determines a term.
 double left_out(const LinearLeastSquares& fit, std::size_t i) {
   const double free = 1 - fit.leverage[i];
   return free > 1e-10 ? fit.residuals[i] / free : std::numeric_limits<double>::infinity();
@@ -124,34 +124,30 @@ void check_answers(std::span<const UncertainInput> inputs, std::span<const std::
                    std::span<const double> answers, int highest) {
   check_inputs(inputs);
   if (points.size() != answers.size())
-    throw Error(ErrorCode::bad_value, std::to_string(points.size()) + " points have " +
-                                          std::to_string(answers.size()) + " answers");
+    refuse(std::to_string(points.size()) + " points have " + std::to_string(answers.size()) + " answers");
   const double least = runs_a_term * static_cast<double>(inputs.size() + 1);
   if (static_cast<double>(points.size()) < least)
-    throw Error(ErrorCode::bad_value,
-                std::to_string(points.size()) + " runs are too few for " + std::to_string(inputs.size()) +
-                    (inputs.size() == 1 ? " input" : " inputs"),
-                "give at least " + format_short(std::ceil(least)) + ", better " +
-                    std::to_string(chaos_runs(inputs.size())));
+    refuse(std::to_string(points.size()) + " runs are too few for " + counted(inputs.size(), "input"),
+           "give at least " + format_short(std::ceil(least)) + ", better " +
+               std::to_string(chaos_runs(inputs.size())));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].size() != inputs.size())
-      throw Error(ErrorCode::bad_value, "a point has " + std::to_string(points[i].size()) +
-                                            " coordinates for " + std::to_string(inputs.size()) + " inputs");
+      refuse("a point has " + std::to_string(points[i].size()) + " coordinates for " +
+             std::to_string(inputs.size()) + " inputs");
     if (has_square(answers[i])) continue;
     std::string where;
     for (std::size_t j = 0; j < inputs.size(); ++j)
       where += (j == 0 ? "" : ", ") + inputs[j].name + " = " + format_short(inputs[j].at(points[i][j]));
     if (std::isfinite(answers[i]))
-      throw Error(ErrorCode::bad_value,
-                  "the answer at " + where + " is " + format_short(answers[i]) +
-                      ", whose square leaves the range of numbers",
-                  "return it in another unit");
-    throw Error(ErrorCode::bad_value, "the answer at " + where + " is not finite",
-                "a share needs an answer over the whole range of the inputs: make the ranges narrower");
+      refuse("the answer at " + where + " is " + format_short(answers[i]) +
+                 ", whose square leaves the range of numbers",
+             "return it in another unit");
+    refuse("the answer at " + where + " is not finite",
+           "a share needs an answer over the whole range of the inputs: make the ranges narrower");
   }
   if (highest < 1 || highest > highest_degree)
-    throw Error(ErrorCode::bad_value, "the highest degree is " + std::to_string(highest),
-                "give one from 1 to " + std::to_string(highest_degree));
+    refuse("the highest degree is " + std::to_string(highest),
+           "give one from 1 to " + std::to_string(highest_degree));
 }
 
 using PolynomialTable = std::vector<std::vector<double>>;  // per input, of each degree
@@ -165,7 +161,6 @@ PolynomialTable table_of(std::span<const UncertainInput> inputs, std::span<const
   return table;
 }
 
-// Adds the terms of one degree and their columns.
 void add_degree(int degree, const std::vector<PolynomialTable>& tables, std::vector<std::vector<int>>& terms,
                 TableColumns& columns) {
   std::vector<int> term(tables.front().size());
@@ -205,7 +200,7 @@ std::string PolynomialChaos::text() const {
                      std::to_string(runs) + " runs, leave-one-out error " +
                      format_short(100 * leave_one_out, 2) + " %";
   if (trust() == ChaosTrust::rough) said += ": the shares of inputs are rough";
-  if (trust() == ChaosTrust::refused) said += ": no shares of inputs can be had from it";
+  if (trust() == ChaosTrust::refused) said += ": it gives no shares of inputs";
   return said;
 }
 
@@ -258,9 +253,7 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     found.degrees = terms;
     if (error < 1e-20) break;
   }
-  if (!best)
-    throw Error(ErrorCode::bad_value, "the runs do not tell the inputs apart",
-                "ask at points that differ in every input by itself");
+  if (!best) refuse("the runs cannot separate the inputs", "give points that differ in each input alone");
   found.terms = found.degrees.size();
   found.coefficients = best->coefficients;
   fill_shares(found, *best);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polynomial chaos y = Σ c_α Π_j P_αj(ξ_j) by least squares up to a total degree (Xiu & Karniadakis 2002). P
-// are orthonormal Legendre polynomials for uniform and Hermite polynomials for other inputs. Variance shares
+// Polynomial chaos y = Σ c_α Π_j P_αj(ξ_j) by least squares up to a total degree (Xiu & Karniadakis 2002),
+// with orthonormal Legendre polynomials for uniform and Hermite polynomials for other inputs. Variance shares
 // are sums of squares (Sudret 2008): first order for an input alone (sum ≤ 1), total with its interactions
 // (sum ≥ 1). Correlated inputs invalidate both. The leave-one-out error, relative to the variance of the
 // answers, predicts the error of the shares, including jumps, noise and an insufficient degree.
@@ -17,8 +17,8 @@ namespace asperity {
 
 struct VarianceShare {
   std::string name;
-  double first = 0, total = 0;  // of the polynomial variance
-  // Standard errors: jackknife over runs and, in squares, half the leave-one-out error.
+  double first = 0, total = 0;  // of polynomial variance
+  // Standard: jackknife over runs and, in squares, half the leave-one-out error.
   double first_error = 0, total_error = 0;
 };
 
@@ -29,7 +29,7 @@ struct PolynomialChaos {
   int degree = 0;
   std::size_t runs = 0, terms = 0;
   double mean = 0, variance = 0;  // of the polynomial
-  double leave_one_out = 0;       // relative; 0 for equal answers
+  double leave_one_out = 0;       // 0 for equal answers
   std::vector<VarianceShare> shares;
   std::vector<UncertainInput> inputs;
   std::vector<std::vector<int>> degrees;  // by term and input
@@ -55,7 +55,7 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
                                  std::span<const std::vector<double>> points, std::span<const double> answers,
                                  int highest = 12);
 
-// Throws Error{not_converged} if the trust is refused.
+// Throws Error{not_converged} for refused trust.
 void require_trust(const PolynomialChaos& chaos);
 
 // Whether the square is 0 or has full precision.

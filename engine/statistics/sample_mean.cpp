@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/statistics/number_columns.hpp"
@@ -16,7 +16,7 @@ namespace asperity {
 namespace {
 
 struct Moments {
-  double centre = 0, second = 0, third = 0;  // `second`, `third`: central power sums
+  double centre = 0, second = 0, third = 0;  // central power sums
 };
 
 // No square may overflow.
@@ -55,7 +55,7 @@ void add_student_interval(SampleMean& of) {
   if (of.skewness && std::abs(*of.skewness) > 1 && cv > 0.5)
     of.warnings.push_back("the values are skewed (skewness " + format_short(*of.skewness, 2) +
                           ", coefficient of variation " + format_short(cv, 2) +
-                          "): Student's interval holds the mean less often than it says; interval=\"log\" "
+                          "): Student's interval has less than its nominal coverage; interval=\"log\" "
                           "assumes that the logarithms are normal");
 }
 
@@ -63,9 +63,8 @@ void add_log_interval(SampleMean& of, std::span<const double> values) {
   std::vector<double> logs;
   for (const double value : values) {
     if (!(value > 0))
-      throw Error(ErrorCode::bad_value,
-                  "a log interval needs values above 0, and one is " + format_short(value),
-                  "leave `interval` out for Student's t");
+      refuse("a log interval needs values above 0, and one is " + format_short(value),
+             "leave `interval` out for Student's t");
     logs.push_back(elementary::log(value));
   }
   const auto n = static_cast<double>(logs.size());
@@ -98,10 +97,15 @@ std::string group_text(const std::vector<std::string>& by, const std::vector<Cel
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
 SampleMean sample_mean(std::span<const double> values, MeanInterval interval, double confidence) {
   if (!(confidence > 0 && confidence < 1))
-    throw Error(ErrorCode::bad_value, "`confidence` is " + format_short(confidence),
-                "give one above 0 and below 1, such as 0.95");
+    refuse("`confidence` is " + format_short(confidence), "give one above 0 and below 1, such as 0.95");
   std::vector<double> finite;
   for (const double value : values)
     if (std::isfinite(value)) finite.push_back(value);
@@ -110,16 +114,16 @@ SampleMean sample_mean(std::span<const double> values, MeanInterval interval, do
   of.count = finite.size();
   of.left_out = values.size() - finite.size();
   if (finite.empty())
-    throw Error(ErrorCode::bad_value, "there is no number to take the mean of",
-                values.empty() ? "" : std::to_string(values.size()) + " cells are empty or not finite");
+    refuse("there is no number to take the mean of",
+           values.empty() ? "" : std::to_string(values.size()) + " cells are empty or not finite");
   const auto n = static_cast<double>(of.count);
   const double scale = largest_of(finite);
   const Moments found = moments_of(finite, scale);
   of.mean = found.centre * scale;
   if (of.count < 5)
-    of.warnings.push_back("the mean of " + std::to_string(of.count) +
-                          (of.count == 1 ? " value has no interval"
-                                         : " values: fewer than five say little of how they scatter"));
+    of.warnings.push_back(
+        "the mean of " + std::to_string(of.count) +
+        (of.count == 1 ? " value has no interval" : " values: the scatter of fewer than five is uncertain"));
   if (of.count < 2) {
     of.method = "none: one value";
     return of;

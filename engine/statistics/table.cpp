@@ -9,7 +9,9 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/table_head.hpp"
 
 namespace asperity {
 
@@ -42,21 +44,25 @@ bool same_cell(const Cell& a, const Cell& b) {
 }
 
 TableColumn split_column_unit(std::string_view name) {
-  const std::size_t open = name.rfind(" [");
-  if (name.ends_with(']') && open != std::string_view::npos && open > 0 && open + 3 < name.size())
-    return {std::string(name.substr(0, open)), std::string(name.substr(open + 2, name.size() - open - 3))};
-  return {std::string(name), {}};
+  if (!name.ends_with(']') && !name.ends_with(')') && name.find(" / ") == std::string_view::npos)
+    return {std::string(name), {}};
+  const TableHead head = table_head(name);
+  if (head.unit == "-" || head.unit == "1") return {head.name, {}};
+  try {
+    parse_unit(head.unit);
+  } catch (const Error&) {
+    return {std::string(name), {}};  // "signal [counts]"
+  }
+  return {head.name, head.unit};
+}
+
+Cell cell_in_si(const Cell& cell, const std::string& unit_in_name) {
+  return is_number(cell) && !unit_in_name.empty() ? from_unit(*number_in(cell), unit_in_name) : cell;
 }
 
 namespace {
 
-TableColumn column_of(const Entry& entry) {
-  TableColumn column = split_column_unit(entry.column);
-  if (!entry.unit.empty()) column.unit = entry.unit;
-  return column;
-}
-
-// Security: whether a spreadsheet would execute the text. Plain numbers are safe.
+// Security: a spreadsheet would execute the text. Plain numbers are safe.
 bool is_formula(std::string_view text) {
   if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return false;
   const std::string_view digits = text.front() == '+' ? text.substr(1) : text;
@@ -65,7 +71,6 @@ bool is_formula(std::string_view text) {
   return wrong != std::errc() || end != digits.data() + digits.size();
 }
 
-// An apostrophe before formulas makes spreadsheets read text.
 std::string csv_text(std::string_view given) {
   const bool formula = is_formula(given);
   const std::string guarded = "'" + std::string(given);
@@ -81,25 +86,30 @@ std::string csv_text(std::string_view given) {
 }
 
 // 100000 instead of "1e+05".
-std::string csv_number(double number) {
+std::string csv_number(double si, const std::string& unit) {
   constexpr double most = 1e15;
-  std::string text = format_exact(number);
+  std::string text = text_in_unit(si, unit);
+  const double number = in_unit(si, unit);
   if (std::abs(number) >= most || number != std::floor(number)) return text;
   if (text.find('e') == std::string::npos) return text;
   return std::to_string(static_cast<std::int64_t>(number));
 }
 
-std::string csv_cell(const Cell& cell) {
-  if (const double* number = std::get_if<double>(&cell)) return csv_number(*number);
+std::string csv_cell(const Cell& cell, const std::string& unit) {
+  if (is_number(cell) && !unit.empty()) return csv_number(*number_in(cell), unit);
+  if (const double* number = std::get_if<double>(&cell)) return csv_number(*number, unit);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   if (const std::string* text = std::get_if<std::string>(&cell)) return csv_text(*text);
   return is_empty(cell) ? std::string() : short_text(cell);
 }
 
-[[noreturn]] void refuse_unit(std::string_view column, std::string_view had, std::string_view given) {
+void check_unit(const TableColumn& column, std::string_view unit) {
+  const Dimension given = parse_unit(unit).dimension;
+  if (column.unit.empty() || parse_unit(column.unit).dimension == given) return;
   throw Error(ErrorCode::bad_unit,
-              "column " + quoted(column) + " is in " + std::string(had) + ", not in " + std::string(given),
-              "a column has one unit; convert the value, or give it a column of its own");
+              "column " + quoted(column.name) + " is " + describe(parse_unit(column.unit).dimension) +
+                  " in " + column.unit + ", not " + describe(given),
+              "give the other quantity a column of its own");
 }
 
 }  // namespace
@@ -126,14 +136,17 @@ std::vector<std::string> Table::column_names() const {
 }
 
 std::optional<std::size_t> Table::find_column(std::string_view name) const {
-  const TableColumn wanted = split_column_unit(name);
-  for (std::size_t k = 0; k < columns_.size(); ++k)
-    if (columns_[k].name == wanted.name && (wanted.unit.empty() || columns_[k].unit == wanted.unit)) return k;
-  return {};
+  const std::string wanted = split_column_unit(name).name;
+  const auto found = std::ranges::find(columns_, wanted, &TableColumn::name);
+  if (found == columns_.end()) return {};
+  return static_cast<std::size_t>(found - columns_.begin());
 }
 
 std::size_t Table::column(std::string_view name, std::string_view key) const {
-  if (const auto found = find_column(name)) return *found;
+  if (const auto found = find_column(name)) {
+    display_unit_of(name, *found);  // refuses another dimension
+    return *found;
+  }
   const std::vector<std::string> names = column_names();
   const std::string near = did_you_mean(name, names);
   std::string hint;
@@ -152,24 +165,36 @@ const Cell& Table::cell(std::size_t row, std::size_t column) const {
   return column < cells.size() ? cells[column] : nothing;
 }
 
-void Table::check(std::span<const Entry> row) const {
+std::string Table::display_unit_of(std::string_view name, std::size_t column) const {
+  const std::string unit = split_column_unit(name).unit;
+  if (unit.empty()) return columns_[column].unit;
+  check_unit(columns_[column], unit);
+  return unit;
+}
+
+std::vector<Entry> Table::resolved(std::span<const Entry> row) const {
   if (row.empty())
     throw Error(ErrorCode::bad_value, "a notebook row has no columns", "give at least one, as in {mu = 0.4}");
+  std::vector<Entry> all;
   std::vector<std::string> seen;
   for (const Entry& entry : row) {
-    const TableColumn column = column_of(entry);
-    if (column.name.empty())
+    TableColumn given = split_column_unit(entry.column);
+    if (given.name.empty())
       throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
-    seen.push_back(column.name);
-    const auto known = find_column(column.name);
-    if (known && !column.unit.empty() && !columns_[*known].unit.empty() &&
-        columns_[*known].unit != column.unit)
-      refuse_unit(column.name, columns_[*known].unit, column.unit);
+    seen.push_back(given.name);
+    Cell value = cell_in_si(entry.value, given.unit);
+    std::string unit = given.unit.empty() ? entry.unit : given.unit;
+    if (const auto known = find_column(given.name)) {
+      if (!unit.empty()) check_unit(columns_[*known], unit);
+      if (!columns_[*known].unit.empty()) unit = columns_[*known].unit;
+    }
+    all.push_back({std::move(given.name), std::move(value), std::move(unit)});
   }
   std::ranges::sort(seen);
   if (const auto twice = std::ranges::adjacent_find(seen); twice != seen.end())
     throw Error(ErrorCode::bad_value, "a notebook row has column " + quoted(*twice) + " twice",
                 "give each column one value");
+  return all;
 }
 
 std::size_t Table::place(std::string_view name) {
@@ -179,20 +204,16 @@ std::size_t Table::place(std::string_view name) {
 }
 
 bool Table::append(std::span<const Entry> row) {
-  check(row);
+  std::vector<Entry> entries = resolved(row);
   bool changed = false;
   std::vector<Cell> cells;
-  for (const Entry& entry : row) {
-    TableColumn given = column_of(entry);
+  for (Entry& entry : entries) {
     const std::size_t before = columns_.size();
-    const std::size_t k = place(given.name);
-    changed |= columns_.size() != before;
-    if (columns_[k].unit.empty() && !given.unit.empty()) {
-      columns_[k].unit = std::move(given.unit);
-      changed = true;
-    }
+    const std::size_t k = place(entry.column);
+    changed |= columns_.size() != before || columns_[k].unit != entry.unit;
+    columns_[k].unit = std::move(entry.unit);
     if (cells.size() <= k) cells.resize(k + 1);
-    cells[k] = entry.value;
+    cells[k] = std::move(entry.value);
   }
   rows_.push_back(std::move(cells));
   return changed;
@@ -211,7 +232,7 @@ bool Table::declare_unit(std::string_view column, std::string_view unit) {
     throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
   const std::size_t before = columns_.size();
   const std::size_t k = place(column);
-  if (!columns_[k].unit.empty() && columns_[k].unit != unit) refuse_unit(column, columns_[k].unit, unit);
+  check_unit(columns_[k], unit);
   if (columns_[k].unit == unit) return columns_.size() != before;
   columns_[k].unit = unit;
   return true;
@@ -220,12 +241,12 @@ bool Table::declare_unit(std::string_view column, std::string_view unit) {
 std::string Table::digest() const {
   Digester digester;
   digester.add("table").add(static_cast<std::int64_t>(columns_.size()));
-  for (const TableColumn& column : columns_) digester.add(column.name).add(column.unit);
+  for (const TableColumn& column : columns_)
+    digester.add(column.name).add(si_unit(parse_unit(column.unit).dimension));
   digester.add(static_cast<std::int64_t>(rows_.size()));
   for (std::size_t row = 0; row < rows_.size(); ++row)
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const Cell& one = cell(row, k);
-      // Whole numbers count as numbers.
       digester.add(static_cast<std::int64_t>(is_number(one) ? Cell(0.0).index() : one.index()));
       if (const auto number = number_in(one)) digester.add(*number);
       if (const auto* text = std::get_if<std::string>(&one)) digester.add(*text);
@@ -247,7 +268,7 @@ std::string Table::csv_row(std::size_t row) const {
   std::string line;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     if (k > 0) line += ',';
-    line += csv_cell(cell(row, k));
+    line += csv_cell(cell(row, k), columns_[k].unit);
   }
   return line + "\n";
 }

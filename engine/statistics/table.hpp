@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Table with free columns in order of first appearance; missing cells are empty. CSV as in RFC 4180 with line
-// feeds: numbers read back exactly, empty text is `""`, units are in brackets in the header, `Ra [m]`. Whole
-// numbers below 1e15 have no point or exponent. Not thread-safe; Notebook is.
+// Table with free columns in order of first appearance; missing cells are empty. Numbers are in SI; a
+// column's unit serves display only: files, charts, messages. CSV as in RFC 4180 with line feeds: numbers in
+// display units that read back exactly, empty text is `""`, units in brackets in the header, `Ra [um]`. Whole
+// numbers below 1e15 have no point or exponent. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -25,10 +26,10 @@ bool is_number(const Cell& cell);
 std::optional<double> number_in(const Cell& cell);
 // For messages: "0.4", "true", "worn", "nothing".
 std::string short_text(const Cell& cell);
-// Numbers within a relative 1e-12 (or both nan), others exactly.
+// Numbers within a relative 1e-12 (nan equals nan), others exactly.
 bool same_cell(const Cell& a, const Cell& b);
 
-// Column "load [N]" is `load` with the unit N.
+// In kN under "load [kN]". Under a plain name a number is in SI, and `unit` is its display unit.
 struct Entry {
   std::string column;
   Cell value;
@@ -37,16 +38,19 @@ struct Entry {
 
 struct TableColumn {
   std::string name;
-  std::string unit;
+  std::string unit;          // for display
+  std::string mean_of = {};  // the averaged column
 };
 
-// "load [N]" gives `load` and N.
+// "load [N]", "load[N]", "load (N)" and "load / N" give `load` and N. Unknown units stay in the name.
 TableColumn split_column_unit(std::string_view name);
+// A script's number: in the unit of the column's name, or in SI.
+Cell cell_in_si(const Cell& cell, const std::string& unit_in_name);
 
 class Table {
  public:
   Table() = default;
-  // Throws as check(), and Error{bad_value} for a row longer than the columns.
+  // Throws as resolved(), and Error{bad_value} for a row longer than the columns.
   Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows);
 
   // In errors; "the notebook" by default.
@@ -56,23 +60,27 @@ class Table {
   const std::vector<TableColumn>& columns() const { return columns_; }
   std::vector<std::string> column_names() const;
   std::size_t rows() const { return rows_.size(); }
-  // By name, with or without unit; O(columns).
+  // Ignores a unit in `name`. O(columns).
   std::optional<std::size_t> find_column(std::string_view name) const;
-  // Throws Error{unknown_name} with `key`, the column and the nearest name.
+  // Throws Error{unknown_name} with `key`, column and nearest name, and Error{bad_unit} for a unit of another
+  // dimension in `name`.
   std::size_t column(std::string_view name, std::string_view key) const;
+  // The unit in `name`, or the column's. Throws Error{bad_unit} for another dimension.
+  std::string display_unit_of(std::string_view name, std::size_t column) const;
   const Cell& cell(std::size_t row, std::size_t column) const;
 
-  // Throws Error{bad_value} for an empty row, an empty or repeated column name, Error{bad_unit} for a
-  // different unit.
-  void check(std::span<const Entry> row) const;
-  // Ignores the table name.
+  // Names without units, numbers in SI, display units of the columns. Throws Error{bad_value} for an empty
+  // row, an empty or repeated column name, Error{bad_unit} for another dimension.
+  std::vector<Entry> resolved(std::span<const Entry> row) const;
+  // Ignores the table's name and display units.
   std::string digest() const;
 
-  // Returns whether the header changed. Throws as check().
+  // True for a new header. Throws as resolved().
   bool append(std::span<const Entry> row);
-  // Returns whether the column is new. Throws Error{bad_value} for an empty name.
+  // True for a new column. Throws Error{bad_value} for an empty name.
   bool declare_column(std::string_view column);
-  // Adds a missing column. Throws Error{bad_unit} for a different unit. Returns whether the header changed.
+  // Sets the display unit; adds a missing column. True for a new header. Throws Error{bad_unit} for another
+  // dimension.
   bool declare_unit(std::string_view column, std::string_view unit);
 
   std::string csv_header() const;
@@ -84,7 +92,7 @@ class Table {
 
   std::string name_ = "the notebook";
   std::vector<TableColumn> columns_;
-  std::vector<std::vector<Cell>> rows_;  // end with the last written cell
+  std::vector<std::vector<Cell>> rows_;  // up to the last written cell
 };
 
 }  // namespace asperity

@@ -12,12 +12,14 @@ namespace asperity {
 
 namespace {
 
-Cell counted_in(const Cell& accepted, const TableColumn& column) {
+// In the unit of the condition's name, or a quantity.
+Cell wanted_in_si(const Cell& accepted, const std::string& unit_in_name, const TableColumn& column) {
   const auto* text = std::get_if<std::string>(&accepted);
-  if (text == nullptr || column.unit.empty()) return accepted;
+  if (text == nullptr) return cell_in_si(accepted, unit_in_name);
+  if (column.unit.empty()) return accepted;
   if (trimmed(*text).find_first_of("0123456789") != trimmed(*text).find_first_not_of("+-.")) return accepted;
   try {
-    return parse_quantity_in(*text, column.unit);
+    return from_unit(parse_quantity_in(*text, column.unit), column.unit);
   } catch (const Error& error) {
     throw Error(ErrorCode::bad_unit, "`where." + column.name + "`: " + error.sentence(), error.hint());
   }
@@ -32,7 +34,8 @@ std::vector<std::size_t> TableFilter::rows(const Table& table) const {
     columns.push_back(table.column(condition.column, "where"));
     wanted.emplace_back();
     for (const Cell& accepted : condition.accepted)
-      wanted.back().push_back(counted_in(accepted, table.columns()[columns.back()]));
+      wanted.back().push_back(
+          wanted_in_si(accepted, split_column_unit(condition.column).unit, table.columns()[columns.back()]));
   }
   std::vector<std::size_t> matching;
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Row filter `where`: every named column must contain an accepted value (same_cell). With a unit, "3 kN" is a
-// number. An empty filter accepts all rows.
+// Row filter `where`: every named column must contain an accepted value (same_cell). Numbers are in SI, or in
+// the unit of the condition's name; with a unit, "3 kN" is a number. An empty filter accepts all rows.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ class TableFilter {
 
   bool empty() const { return conditions_.empty(); }
   const std::vector<Condition>& conditions() const { return conditions_; }
-  // Matching rows in order. Throws Error{unknown_name} for a missing column, Error{bad_unit} for another kind
-  // of quantity. O(rows × conditions × accepted values).
+  // In order. Throws Error{unknown_name} for a missing column, Error{bad_unit} for another kind of quantity.
+  // O(rows × conditions × accepted values).
   std::vector<std::size_t> rows(const Table& table) const;
   // "`N` = 1 and `D` = 2 or 2.5"; "" for an empty filter.
   std::string text() const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// User's statements about a table file. Unstated properties are inferred if only one reading is possible;
-// otherwise reading fails.
+// User's statements about a table file. Unstated properties are inferred; an ambiguous property is an error.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +13,21 @@
 
 namespace asperity {
 
-// A new day, or a clock change of an hour.
+// New day, or clock change.
 enum class StepsBack { unsaid, midnight, winter_time };
 
 struct TableForm {
   std::int64_t skip = 0;  // lines before the head
-  // New names, each with its head in the file.
+  // New names with heads in the file.
   std::vector<std::pair<std::string, std::string>> names{};
   // For a file without heads, in order.
   std::vector<std::string> heads{};
-  // By new or old name; "1" for plain numbers.
+  // By either name; "1" for plain numbers.
   std::vector<std::pair<std::string, std::string>> units{};
   std::vector<std::string> texts{};
   DateOrder dates = DateOrder::unsaid;
   ClockForm clock = ClockForm::unsaid;
-  bool stamps_since_1970 = false;  // instead of since the first stamp
+  bool stamps_since_1970 = false;  // else since the first stamp
   StepsBack steps_back = StepsBack::unsaid;
   char decimal = '\0';    // '.' or ','
   char thousands = '\0';  // '.', ',', ' ' or '\''

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -78,28 +80,53 @@ TableHead table_head(std::string_view title) {
   const auto head = [](std::string_view name, std::string_view unit) {
     return TableHead{std::string(trimmed(name)), std::string(trimmed(unit))};
   };
-  if (title.ends_with(']'))
-    if (const std::size_t open = title.rfind('['); open != std::string_view::npos && open > 0) {
-      const std::string_view inside = title.substr(open + 1, title.size() - open - 2);
-      return with_remark(title.substr(0, open), inside).value_or(head(title.substr(0, open), inside));
-    }
-  if (title.ends_with(')'))
-    if (const std::size_t open = title.rfind('('); open != std::string_view::npos && open > 0) {
-      const std::string_view inside = trimmed(title.substr(open + 1, title.size() - open - 2));
-      if (is_unit(inside) || inside == "-" || inside == "1") return head(title.substr(0, open), inside);
-      return with_remark(title.substr(0, open), inside).value_or(whole);
-    }
-  if (const std::size_t stroke = title.find(" / "); stroke != std::string_view::npos && stroke > 0)
-    if (is_unit(trimmed(title.substr(stroke + 3))))
-      return head(title.substr(0, stroke), title.substr(stroke + 3));
-  if (const std::size_t comma = title.rfind(','); comma != std::string_view::npos && comma > 0)
-    if (is_unit(trimmed(title.substr(comma + 1))))
-      return head(title.substr(0, comma), title.substr(comma + 1));
+  for (const std::string_view brackets : {"[]", "()"}) {
+    const std::size_t open = title.rfind(brackets[0]);
+    if (!title.ends_with(brackets[1]) || open == std::string_view::npos || open == 0) continue;
+    const std::string_view name = title.substr(0, open);
+    const std::string_view inside = trimmed(title.substr(open + 1, title.size() - open - 2));
+    if (const auto remark = with_remark(name, inside)) return *remark;
+    const bool unit = brackets[0] == '[' || is_unit(inside) || inside == "-" || inside == "1";
+    return unit ? head(name, inside) : whole;
+  }
+  for (const auto& [at, width] : {std::pair{title.find(" / "), 3}, std::pair{title.rfind(','), 1}})
+    if (at != std::string_view::npos && at > 0 && is_unit(trimmed(title.substr(at + width))))
+      return head(title.substr(0, at), title.substr(at + width));
   if (const std::size_t blank = title.rfind(' '); blank != std::string_view::npos) {
     const std::string_view last = title.substr(blank + 1);
     if (!may_be_a_word(last) && is_unit(last)) return head(title.substr(0, blank), last);
   }
   return whole;
+}
+
+HeadMatch find_head(const std::vector<HeadedColumn>& columns, std::string_view head, bool any_case) {
+  const auto plain = [any_case](std::string_view text) {
+    return any_case ? lower_case(text) : std::string(text);
+  };
+  const std::string wanted = plain(trimmed(head));
+  for (const auto part : {&HeadedColumn::title, &HeadedColumn::name}) {
+    HeadMatch match;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (plain(columns[k].*part) == wanted && match.count++ == 0) match.first = k;
+    if (match.count > 0) return match;
+  }
+  return {};
+}
+
+std::vector<std::string> head_names(const std::vector<HeadedColumn>& columns) {
+  std::vector<std::string> names;
+  for (const HeadedColumn& column : columns) {
+    names.push_back(plain_text(column.title));
+    if (column.name != column.title) names.push_back(plain_text(column.name));
+  }
+  return names;
+}
+
+std::string head_complaint(const std::vector<HeadedColumn>& columns, const HeadMatch& match,
+                           std::string_view head, const std::string& called) {
+  return (match.count == 0 ? std::string("no column is") : std::to_string(match.count) + " columns are") +
+         " headed \"" + plain_text(std::string(head)) + "\", which `columns` calls " + quoted(called) +
+         (match.count == 0 ? did_you_mean(head, head_names(columns)) : "; give the head with its unit");
 }
 
 }  // namespace asperity

@@ -13,10 +13,17 @@ namespace asperity {
 
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
+std::string marks_of(Separator separator) {
+  return separator == Separator::blank ? " \t" : std::string(1, static_cast<char>(separator));
+}
 
-char mark_of(Separator separator) {
-  return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
+std::size_t find_unquoted(std::string_view line, char wanted) {
+  bool inside = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"') inside = !inside;
+    if (line[k] == wanted && !inside) return k;
+  }
+  return std::string_view::npos;
 }
 
 // Failed spreadsheet cells are no comments.
@@ -26,130 +33,112 @@ bool is_failed_cell(std::string_view text) {
   return std::ranges::any_of(failed, [text](std::string_view word) { return text.starts_with(word); });
 }
 
-// Tracks cell starts; a quote there may contain line ends.
-class QuoteScan {
+// Splits text at marks outside quotes; a quoted cell may contain marks and line ends.
+class Splitter {
  public:
-  explicit QuoteScan(std::string_view marks) : marks_(marks) {}
-  void take(std::string_view text) {
+  explicit Splitter(std::string marks) : marks_(std::move(marks)) {}
+  bool open = false;         // last quote
+  bool words_after = false;  // behind a closed quote
+
+  Splitter& take(std::string_view text) {
     for (std::size_t k = 0; k < text.size(); ++k) {
-      const char c = text[k];
-      if (inside_) {
-        if (c != '"') continue;
-        if (k + 1 < text.size() && text[k + 1] == '"')
-          ++k;
-        else
-          inside_ = false;
-      } else if (marks_.find(c) != std::string_view::npos) {
-        begins_ = true;
-      } else if (c == '"' && begins_) {
-        inside_ = true;
-        begins_ = false;
-      } else if (!is_space(c)) {
-        begins_ = false;
+      TableCell& cell = cells_.back();
+      if (open && text[k] == '\r') {
+        // CRLF and CR CRLF are one line end, as is each single CR.
+        const std::size_t end = std::min(text.find_first_not_of('\r', k), text.size());
+        if (end == text.size() || text[end] != '\n') cell.text.append(end - k, '\n');
+        k = end - 1;
+      } else if (open && text[k] == '"') {
+        open = k + 1 < text.size() && text[k + 1] == '"';
+        if (open) cell.text += text[++k];
+      } else if (open) {
+        cell.text += text[k];
+      } else if (text[k] == '"' && trimmed(plain_).empty() && !cell.quoted) {
+        open = cell.quoted = true;
+      } else if (marks_.find(text[k]) == std::string::npos) {
+        plain_ += text[k];
+      } else if (!at_blanks() || cell.quoted || !plain_.empty()) {
+        end_cell();
+        cells_.emplace_back();
       }
     }
+    return *this;
   }
-  bool is_inside() const { return inside_; }
+
+  std::vector<TableCell> cells() {
+    end_cell();
+    if (at_blanks() && cells_.size() > 1 && cells_.back().text.empty() && !cells_.back().quoted)
+      cells_.pop_back();
+    return std::move(cells_);
+  }
 
  private:
-  std::string_view marks_;
-  bool inside_ = false, begins_ = true;
-};
-
-// `open`: the last quote is not closed; `words_after`: text after a closed quote.
-struct Quotes {
-  bool open = false, words_after = false;
-};
-std::vector<TableCell> split_at(std::string_view line, Separator separator, Quotes* quotes = nullptr) {
-  const bool blanks = separator == Separator::blank;
-  const auto parts = [&](char c) { return blanks ? is_space(c) : c == mark_of(separator); };
-  std::vector<TableCell> cells(1);
-  std::string plain;
-  bool inside = false, words_after = false;
-  const auto finish = [&] {
-    if (!cells.back().quoted)
-      cells.back().text = std::string(trimmed(plain));
-    else if (!trimmed(plain).empty())
+  bool at_blanks() const { return marks_.front() == ' '; }
+  void end_cell() {
+    if (!cells_.back().quoted)
+      cells_.back().text = std::string(trimmed(plain_));
+    else if (!trimmed(plain_).empty())
       words_after = true;
-    plain.clear();
-  };
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    TableCell& cell = cells.back();
-    if (inside) {
-      if (line[k] == '\r') {
-        // CRLF and CR CRLF are one line end, each single CR is one.
-        const std::size_t end = std::min(line.find_first_not_of('\r', k), line.size());
-        if (end == line.size() || line[end] != '\n') cell.text.append(end - k, '\n');
-        k = end - 1;
-      } else if (line[k] != '"') {
-        cell.text += line[k];
-      } else if (k + 1 < line.size() && line[k + 1] == '"') {
-        cell.text += line[++k];
-      } else {
-        inside = false;
-      }
-    } else if (line[k] == '"' && trimmed(plain).empty() && !cell.quoted) {
-      inside = cell.quoted = true;
-    } else if (parts(line[k])) {
-      if (blanks && !cell.quoted && plain.empty()) continue;
-      finish();
-      cells.emplace_back();
-    } else {
-      plain += line[k];
-    }
+    plain_.clear();
   }
-  finish();
-  if (quotes) *quotes = {inside, words_after};
-  if (blanks && cells.size() > 1 && cells.back().text.empty() && !cells.back().quoted) cells.pop_back();
-  return cells;
-}
 
-bool is_blank(const std::vector<TableCell>& cells) {
-  return std::all_of(cells.begin(), cells.end(), [](const TableCell& cell) { return cell.text.empty(); });
-}
+  std::string marks_;
+  std::vector<TableCell> cells_{1};
+  std::string plain_;  // of the last cell, outside quotes
+};
 
 std::vector<TableCell> split_at_wide_blanks(std::string_view line) {
+  std::string tabbed(line);
+  for (std::size_t k = tabbed.find("  "); k != std::string::npos; k = tabbed.find("  ", k))
+    tabbed.replace(k, 2, "\t");
   std::vector<TableCell> cells;
-  for (std::size_t k = 0; k < line.size();) {
-    while (k < line.size() && is_space(line[k])) ++k;
-    std::size_t end = k;
-    while (end < line.size() && line[end] != '\t' &&
-           !(line[end] == ' ' && (end + 1 == line.size() || is_space(line[end + 1]))))
-      ++end;
-    if (end > k) cells.push_back({std::string(line.substr(k, end - k)), false});
-    k = end;
+  for (const std::string_view cell : cells_of(tabbed, Separator::tab))
+    if (!cell.empty()) cells.push_back({std::string(cell), false});
+  return cells;
+}
+
+// Joins a unit to its name and cells within brackets: "time [s] load / kN", "Force (kN, filtered)".
+std::vector<TableCell> with_brackets_joined(const std::vector<TableCell>& parts, const char* glue) {
+  const bool words = glue == std::string_view(" ");
+  std::vector<TableCell> cells;
+  int open = 0;
+  bool stroke = false;
+  for (const TableCell& part : parts) {
+    const bool begins = words && !part.quoted && !part.text.empty() &&
+                        std::string_view("[(/").find(part.text[0]) != std::string_view::npos;
+    if (!cells.empty() && (begins || stroke || open > 0))
+      cells.back().text += glue + part.text;
+    else
+      cells.push_back(part);
+    for (const char c : part.text) open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+    stroke = words && part.text.ends_with('/');
   }
   return cells;
 }
 
-// Joins units to names: "time [s] load [kN]".
-std::vector<TableCell> with_brackets_joined(std::vector<TableCell> words) {
-  std::vector<TableCell> cells;
-  bool open = false;
-  for (TableCell& word : words) {
-    const bool begins =
-        !word.quoted && !word.text.empty() && (word.text.front() == '[' || word.text.front() == '(');
-    if (!cells.empty() && (begins || open))
-      cells.back().text += " " + word.text;
-    else
-      cells.push_back(std::move(word));
-    const std::string& text = cells.back().text;
-    open =
-        text.find_last_of("[(") != std::string::npos &&
-        (text.find_last_of("])") == std::string::npos || text.find_last_of("])") < text.find_last_of("[("));
-  }
-  return cells;
+std::vector<TableCell> heads_between_blanks(std::string_view line, std::string_view next) {
+  std::vector<TableCell> joined = with_brackets_joined(split_cells(line, Separator::blank), " ");
+  const std::size_t wanted = split_cells(next, Separator::blank).size();
+  if (joined.size() == wanted) return joined;
+  if (std::vector<TableCell> wide = split_at_wide_blanks(line); wide.size() == wanted) return wide;
+  return joined;
 }
 
 }  // namespace
 
-std::size_t find_unquoted(std::string_view line, char wanted) {
-  bool inside = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    if (line[k] == '"') inside = !inside;
-    if (line[k] == wanted && !inside) return k;
-  }
-  return std::string_view::npos;
+void FileProblems::add(const std::string& place, const std::string& finding) {
+  constexpr std::size_t enough = 12;
+  if (++count_ <= enough) sentences_.push_back(place + ": " + finding);
+}
+
+void FileProblems::fail_if_any() const {
+  if (count_ == 0) return;
+  if (count_ == 1) refuse_file(file_, sentences_.front());
+  std::string finding = "has " + std::to_string(count_) + " problems";
+  for (const std::string& text : sentences_) finding += "\n  " + text;
+  if (count_ > sentences_.size())
+    finding += "\n  and " + std::to_string(count_ - sentences_.size()) + " more";
+  refuse_file(file_, finding);
 }
 
 std::string_view TableLines::without_comment(std::string_view line) {
@@ -167,43 +156,43 @@ bool TableLines::is_comment(std::string_view line) {
 }
 
 TableLines::TableLines(const SourceFile& file, const TableForm& form)
-    : file_(file),
-      form_(form),
-      decoded_(utf8_of_utf16(file.bytes())),
-      lines_(decoded_ ? *decoded_ : file.text()) {
-  if (!decoded_ && !file_.looks_like_text())
+    : file_(file), form_(form), lines_(file.text()) {
+  if (!file_.looks_like_text())
     refuse_file(file_, "is not text: it holds zero bytes", "save it as comma-separated text (UTF-8)");
   std::string_view line;
   for (std::int64_t k = 0; k < form_.skip; ++k)
     if (!lines_.next(line))
-      refuse_file(file_, "has " + std::to_string(k) + " lines, of which " + std::to_string(form_.skip) +
-                             " are to be skipped");
+      refuse_file(file_, "has " + std::to_string(k) + " lines, and skip=" + std::to_string(form_.skip) +
+                             " leaves none");
 }
 
-std::vector<TableCell> TableLines::split(std::string_view line) const { return split_at(line, separator_); }
+std::vector<TableCell> split_cells(std::string_view line, Separator separator) {
+  return Splitter(marks_of(separator)).take(line).cells();
+}
 
-std::vector<TableCell> TableLines::heads_between_blanks(std::string_view line, std::string_view next) const {
-  std::vector<TableCell> joined = with_brackets_joined(split_at(line, Separator::blank));
-  const std::size_t wanted = split_at(next, Separator::blank).size();
-  if (joined.size() == wanted) return joined;
-  if (std::vector<TableCell> wide = split_at_wide_blanks(line); wide.size() == wanted) return wide;
-  return joined;
+std::optional<Separator> marks_in(std::string_view line) {
+  for (const Separator separator : {Separator::semicolon, Separator::tab, Separator::comma})
+    if (find_unquoted(line, static_cast<char>(separator)) != std::string_view::npos) return separator;
+  return {};
+}
+
+std::vector<TableCell> head_cells(std::string_view line) {
+  if (const auto separator = marks_in(line)) return split_cells(line, *separator);
+  return with_brackets_joined(split_cells(line, Separator::blank), " ");
 }
 
 bool TableLines::next_record(LineReader& lines, std::string_view& record, std::size_t& number) const {
-  if (!lines.next(record)) return false;
-  number = lines.number();
-  if (record.find('"') == std::string_view::npos || is_comment(record)) return true;
-  QuoteScan scan(!marks_known_                        ? ",;\t"
-                 : separator_ == Separator::blank     ? " \t"
-                 : separator_ == Separator::tab       ? "\t"
-                 : separator_ == Separator::semicolon ? ";"
-                                                      : ",");
+  do {
+    if (!lines.next(record)) return false;
+    number = lines.number();
+  } while (is_comment(record));
+  if (record.find('"') == std::string_view::npos) return true;
+  Splitter scan(marks_known_ ? marks_of(separator_) : ",;\t");
   scan.take(without_comment(record));
   LineReader ahead = lines;
-  for (std::string_view more; scan.is_inside() && ahead.next(more);) {
+  for (std::string_view more; scan.open && ahead.next(more);) {
     scan.take(more);
-    if (scan.is_inside()) continue;
+    if (scan.open) continue;
     record = {record.data(), static_cast<std::size_t>(more.data() + more.size() - record.data())};
     lines = ahead;
   }
@@ -212,18 +201,16 @@ bool TableLines::next_record(LineReader& lines, std::string_view& record, std::s
 
 Separator TableLines::separator_by(std::string_view heads, std::string_view next,
                                    std::string_view second) const {
-  const auto holds = [](std::string_view text, char mark) {
-    return find_unquoted(text, mark) != std::string_view::npos;
-  };
-  if (holds(heads, ';')) return Separator::semicolon;
-  if (holds(heads, '\t')) return Separator::tab;
-  const bool commas = holds(heads, ',') && (!heads_are_given() || separator_of(heads) == Separator::comma);
+  const std::optional<Separator> marks = marks_in(heads);
+  if (marks && *marks != Separator::comma) return *marks;
+  const bool commas = marks && (!heads_are_given() || separator_of(heads) == Separator::comma);
   const bool words = trimmed(heads).find_first_of(" \t") != std::string_view::npos;
-  if (commas || !words || split_at(heads, Separator::comma).size() != 1 ||
-      (!heads_are_given() && holds(next, ',') && separator_of(next) != Separator::blank))
+  if (commas || !words || split_cells(heads, Separator::comma).size() != 1 ||
+      (!heads_are_given() && find_unquoted(next, ',') != std::string_view::npos &&
+       separator_of(next) != Separator::blank))
     return Separator::comma;
-  const std::vector<TableCell> below = split_at(next, Separator::blank);
-  const std::vector<TableCell> below_units = split_at(second, Separator::blank);
+  const std::vector<TableCell> below = split_cells(next, Separator::blank);
+  const std::vector<TableCell> below_units = split_cells(second, Separator::blank);
   const auto has_numbers = [](const std::vector<TableCell>& cells) {
     return cells.size() > 1 && std::ranges::any_of(cells, [](const TableCell& cell) {
              return read_cell(cell.text, Separator::blank).kind == CellKind::number;
@@ -238,24 +225,6 @@ Separator TableLines::separator_by(std::string_view heads, std::string_view next
   return several ? Separator::blank : Separator::comma;
 }
 
-namespace {
-
-// "Force (kN, filtered)": heads joined where a bracket is open.
-std::vector<TableCell> joined_in_brackets(const std::vector<TableCell>& heads) {
-  std::vector<TableCell> joined;
-  int open = 0;
-  for (const TableCell& head : heads) {
-    if (open > 0)
-      joined.back().text += ", " + head.text;
-    else
-      joined.push_back(head);
-    for (const char c : head.text) open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
-  }
-  return joined;
-}
-
-}  // namespace
-
 bool TableLines::read_heads() {
   std::string_view line;
   LineReader before = lines_;
@@ -264,19 +233,18 @@ bool TableLines::read_heads() {
   do {
     before = lines_;
     if (!next_record(lines_, line, line_)) return false;
-    if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // spreadsheet header
-  } while (is_comment(line));
+  } while (lower_case(trimmed(line)).starts_with("sep="));  // spreadsheet header
   line = without_comment(line);
   std::string_view next, second;
   if (heads_are_given()) {
     next = line;
     lines_ = before;
-    line_ = lines_.number();
+    --line_;
   } else {
     std::size_t number = 0;
     LineReader ahead = lines_;
     for (std::string_view* below : {&next, &second}) {
-      while (next_record(ahead, *below, number) && is_comment(*below)) *below = {};
+      if (!next_record(ahead, *below, number)) *below = {};
       *below = without_comment(*below);
     }
   }
@@ -285,19 +253,19 @@ bool TableLines::read_heads() {
   head_line_ = line;
   if (heads_are_given()) {
     for (const std::string& head : form_.heads) heads_.push_back({head, false});
-    below_ = split(next);
+    below_ = split_cells(next, separator_);
     return true;
   }
-  heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split(line);
+  heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split_cells(line, separator_);
   for (TableCell& head : heads_) {
     head.text = utf8_or_cp1252(head.text);
     std::ranges::replace(head.text, '\n', ' ');  // a head over two lines
   }
   while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
-  below_ = split(next);
-  second_ = split(second);
+  below_ = split_cells(next, separator_);
+  second_ = split_cells(second, separator_);
   if (separator_ == Separator::comma && heads_.size() > below_.size())
-    if (std::vector<TableCell> joined = joined_in_brackets(heads_); joined.size() == below_.size())
+    if (std::vector<TableCell> joined = with_brackets_joined(heads_, ", "); joined.size() == below_.size())
       heads_ = std::move(joined);
   return true;
 }
@@ -312,8 +280,7 @@ bool TableLines::units_stand_below() const {
       known = true;
     } else {
       if (looks_like_a_number(cell) || quantity_in_cell(cell) || cell == "true" || cell == "false" ||
-          read_time_stamp(cell).kind != TimeStamp::Kind::none || k >= second_.size() ||
-          !looks_like_a_number(second_[k].text))
+          is_time_stamp(cell) || k >= second_.size() || !looks_like_a_number(second_[k].text))
         return false;
       unknown = true;
     }
@@ -321,41 +288,70 @@ bool TableLines::units_stand_below() const {
   return known || (unknown && in_brackets);
 }
 
-bool TableLines::ends_with_a_line_end() const {
-  const std::string_view text = decoded_ ? std::string_view(*decoded_) : file_.text();
-  return text.empty() || text.back() == '\n' || text.back() == '\r';
-}
-
 void TableLines::skip_below() {
   std::string_view line;
-  while (next_record(lines_, line, line_) && is_comment(line)) {
-  }
+  next_record(lines_, line, line_);
 }
 
 bool TableLines::next_row(std::vector<TableCell>& cells) {
   for (std::string_view line; next_record(lines_, line, line_);) {
-    if (is_comment(line)) continue;
-    // "sample #3": a # starts a comment unless the row is complete only with it.
-    Quotes quotes;
-    cells = split_at(without_comment(line), separator_, &quotes);
-    if (cells.size() != heads_.size()) cells = split_at(line, separator_, &quotes);
-    if (is_blank(cells) && !quotes.open) continue;
+    // "sample #3": no comment if the row needs the rest.
+    Splitter splitter(marks_of(separator_));
+    cells = splitter.take(without_comment(line)).cells();
+    if (cells.size() != heads_.size()) cells = (splitter = Splitter(marks_of(separator_))).take(line).cells();
+    const bool empty = std::ranges::all_of(cells, [](const TableCell& cell) { return cell.text.empty(); });
+    if (empty && !splitter.open) continue;
     while (cells.size() > heads_.size() && cells.back().text.empty()) cells.pop_back();
     const bool whole = cells.size() == heads_.size();
-    if (quotes.open && (whole || !at_end_of_table()))
-      refuse_file(file_, "has a quote in " + here() + " that is closed nowhere",
-                  "close it at the end of its cell, or take it out");
-    if (lines_.number() > line_ && (whole ? quotes.words_after : !at_end_of_table()))
+    if (splitter.open && (whole || !at_end_of_table()))
+      refuse_file(file_, "has a quote in " + here() + " that is never closed",
+                  "close it at the end of its cell, or remove it");
+    if (lines_.number() > line_ && (whole ? splitter.words_after : !at_end_of_table()))
       refuse_file(file_,
                   "has a quote in " + here() + " that is closed in line " + std::to_string(lines_.number()) +
-                      " only, where " +
+                      ", where " +
                       (whole ? "no cell ends"
                              : "the row has " + std::to_string(cells.size()) + " cells under " +
                                    std::to_string(heads_.size()) + (heads_.size() == 1 ? " head" : " heads")),
-                  "close the quote at the end of its cell, or take it out");
+                  "close the quote at the end of its cell, or remove it");
     return true;
   }
   return false;
+}
+
+void TableLines::read_rows(Monitor& monitor, FileProblems& problems,
+                           const std::function<bool(std::vector<TableCell>&)>& take) {
+  Task task(monitor, "reading", static_cast<std::int64_t>(file_.bytes().size()));
+  const std::size_t wanted = heads_.size();
+  std::size_t before = 0, rows = 0;
+  for (std::vector<TableCell> cells; next_row(cells);) {
+    const std::size_t now = std::min(lines_.position(), file_.bytes().size());
+    task.advance(static_cast<std::int64_t>(now - before));
+    before = now;
+    if (cells.size() == wanted) {
+      ++rows;
+      if (!take(cells)) return;
+      continue;
+    }
+    const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
+      return read_cell(cell.text, Separator::blank).kind == CellKind::number;
+    });
+    // The table has wider rows, or rows above further numbers.
+    bool above = rows == 0 || (wanted == 1 && cells.size() > 1);
+    const bool at_end = words && !above && at_end_of_table();
+    above = above || (at_end && numbers_follow());
+    if (at_end && !above)
+      return monitor.warn(file_name(file_.path()) + ": the lines below the table, from " + here() +
+                          " on, are left out");
+    problems.add(
+        here(),
+        "there " +
+            std::string(cells.size() == 1 ? "is 1 cell" : "are " + std::to_string(cells.size()) + " cells") +
+            " under " + std::to_string(wanted) + (wanted == 1 ? " head" : " heads") +
+            (above ? "; give the number of lines above the heads as skip="
+                   : "; put # before a line that is no row"));
+    if (at_end) return;
+  }
 }
 
 bool TableLines::next_line(std::string_view& line) {
@@ -370,7 +366,7 @@ bool TableLines::at_end_of_table() const {
   LineReader ahead = lines_;
   std::size_t number = 0;
   for (std::string_view line; next_record(ahead, line, number);)
-    if (!is_comment(line) && split(without_comment(line)).size() == heads_.size()) {
+    if (split_cells(without_comment(line), separator_).size() == heads_.size()) {
       whole_row_ = number;
       return false;
     }

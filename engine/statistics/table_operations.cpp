@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -23,20 +24,17 @@ std::vector<Cell> cells_in(const Table& table, std::size_t row) {
 
 struct JoinColumn {
   std::size_t here, there;
-  double factor = 1;
 };
 
 JoinColumn join_column(const Table& table, const Table& other, const std::string& name) {
   JoinColumn column{table.column(name, "by"), other.column(name, "by")};
   const std::string &here = table.columns()[column.here].unit, &there = other.columns()[column.there].unit;
-  if (here == there) return column;
   const Quantity one = parse_unit(here), another = parse_unit(there);
   if (one.dimension != another.dimension)
     throw Error(ErrorCode::bad_unit,
                 "column " + quoted(name) + " is " + describe(one.dimension) + " in " + table.name() +
                     " and " + describe(another.dimension) + " in " + other.name(),
                 "rows are joined by equal values: give both columns the unit");
-  column.factor = another.value / one.value;
   return column;
 }
 
@@ -60,10 +58,7 @@ class PartnerIndex {
       : table_(table), columns_(columns), order_(other.rows()) {
     for (std::size_t row = 0; row < other.rows(); ++row) {
       std::vector<Cell> key;
-      for (const JoinColumn& column : columns) {
-        const Cell& cell = other.cell(row, column.there);
-        key.push_back(column.factor != 1 && is_number(cell) ? Cell(*number_in(cell) * column.factor) : cell);
-      }
+      for (const JoinColumn& column : columns) key.push_back(other.cell(row, column.there));
       keys_.push_back(std::move(key));
     }
     std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -107,7 +102,7 @@ std::string key_text(const Table& table, const std::vector<JoinColumn>& columns,
   for (const JoinColumn& column : columns) {
     const TableColumn& named = table.columns()[column.here];
     text += (text.empty() ? "" : " and ") + quoted(named.name) + " = " +
-            short_text(table.cell(row, column.here)) + (named.unit.empty() ? "" : " " + named.unit);
+            text_with_unit(table.cell(row, column.here), named.unit);
   }
   return text;
 }
@@ -125,9 +120,8 @@ std::vector<TableColumn> joined_columns(const Table& table, const Table& other, 
     columns.push_back(std::move(column));
   }
   if (!both.empty() && join.suffix.empty())
-    throw Error(
-        ErrorCode::bad_value, "both tables have " + joined(both, " and ") + ", by which they are not joined",
-        "tell the other's apart by a suffix of their names, as in { by=\"N\", suffix=\"_predicted\" }");
+    refuse("both tables have " + joined(both, " and ") + " besides the columns of `by`",
+           "give the other's names a suffix, as in { by=\"N\", suffix=\"_predicted\" }");
   return columns;
 }
 
@@ -142,29 +136,29 @@ Table rows_of(const Table& table, std::span<const std::size_t> rows) {
   return some;
 }
 
-Table in_si(const Table& table) {
+std::string text_with_unit(const Cell& cell, const std::string& unit) {
+  if (!is_number(cell) || unit.empty()) return short_text(cell);
+  return format_short(in_unit(*number_in(cell), unit)) + " " + unit;
+}
+
+Table in_display_units(const Table& table, std::span<const std::string> named) {
   std::vector<TableColumn> columns = table.columns();
-  std::vector<std::vector<Cell>> rows(table.rows());
-  for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = cells_in(table, row);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    if (columns[k].unit.empty()) continue;
-    const std::string unit = std::exchange(columns[k].unit, si_unit(parse_unit(columns[k].unit).dimension));
-    for (std::vector<Cell>& row : rows) {
-      if (!is_number(row[k])) continue;
-      const double number = *number_in(row[k]);
-      row[k] = unit == columns[k].unit || !std::isfinite(number)
-                   ? number
-                   : parse_quantity(format_exact(number) + " " + unit).value;
-    }
+  for (const std::string& name : named)
+    if (const auto k = table.find_column(name)) columns[*k].unit = table.display_unit_of(name, *k);
+  std::vector<std::vector<Cell>> rows;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    rows.push_back(cells_in(table, row));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (Cell& cell = rows.back()[k]; is_number(cell) && !columns[k].unit.empty())
+        cell = in_unit(*number_in(cell), columns[k].unit);
   }
-  Table converted(std::move(columns), std::move(rows));
-  converted.rename(table.name());
-  return converted;
+  Table shown(std::move(columns), std::move(rows));
+  shown.rename(table.name());
+  return shown;
 }
 
 Table joined(const Table& table, const Table& other, const Join& join) {
-  if (join.by.empty())
-    throw Error(ErrorCode::bad_value, "`by` names no column", "name one that both tables have: { by=\"N\" }");
+  if (join.by.empty()) refuse("`by` names no column", "name one that both tables have: { by=\"N\" }");
   std::vector<JoinColumn> by;
   for (const std::string& name : join.by) by.push_back(join_column(table, other, name));
   std::vector<std::size_t> taken;
@@ -173,7 +167,7 @@ Table joined(const Table& table, const Table& other, const Join& join) {
   std::vector<TableColumn> columns = joined_columns(table, other, join, taken);
   const PartnerIndex index(table, other, by);
   std::vector<std::vector<Cell>> rows;
-  std::vector<std::size_t> owner(other.rows(), table.rows());  // row joined to each other row
+  std::vector<std::size_t> owner(other.rows(), table.rows());  // row of `table`
   std::size_t alone = 0, first_alone = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::vector<std::size_t> partners = index.of(row);
@@ -181,9 +175,8 @@ Table joined(const Table& table, const Table& other, const Join& join) {
     if (partners.empty() && join.unmatched == Unmatched::keep) rows.push_back(cells_in(table, row));
     for (const std::size_t partner : partners) {
       if (partners.size() > 1 && owner[partner] < table.rows())
-        throw Error(ErrorCode::bad_value,
-                    "rows with " + key_text(table, by, row) + " stand more than once in both tables",
-                    "join by one more column that tells them apart, or take means of one of the two first");
+        refuse("rows with " + key_text(table, by, row) + " occur more than once in both tables",
+               "join by one more column, or take means of one table first");
       owner[partner] = row;
       std::vector<Cell> cells = cells_in(table, row);
       for (const std::size_t k : taken) cells.push_back(other.cell(partner, k));
@@ -191,17 +184,42 @@ Table joined(const Table& table, const Table& other, const Join& join) {
     }
   }
   if (alone > 0 && join.unmatched == Unmatched::refuse)
-    throw Error(ErrorCode::bad_value,
-                (alone == 1 ? "1 row" : std::to_string(alone) + " rows") + " of " + table.name() +
-                    " found none in " + other.name() + ", the first in row " +
-                    std::to_string(first_alone + 1) + ": " + key_text(table, by, first_alone),
-                "unmatched=\"leave out\" takes the other rows, unmatched=\"keep\" leaves their cells empty");
+    refuse(counted(alone, "row") + " of " + table.name() + " without a match in " + other.name() +
+               ", the first in row " + std::to_string(first_alone + 1) + ": " +
+               key_text(table, by, first_alone),
+           "unmatched=\"leave out\" takes the other rows, unmatched=\"keep\" leaves their cells empty");
   Table both(std::move(columns), std::move(rows));
   both.rename(table.name());
   return both;
 }
 
-std::string table_text(const Table& table, std::size_t most) {
+Table columns_of(const Table& table, std::span<const std::string> names) {
+  if (names.empty()) return table;
+  std::vector<TableColumn> columns;
+  std::vector<std::vector<Cell>> rows(table.rows());
+  for (const std::string& name : names) {
+    const std::size_t k = table.column(name, "column");
+    columns.push_back({table.columns()[k].name, table.display_unit_of(name, k)});
+    for (std::size_t row = 0; row < table.rows(); ++row) rows[row].push_back(table.cell(row, k));
+  }
+  Table chosen(std::move(columns), std::move(rows));
+  chosen.rename(table.name());
+  return chosen;
+}
+
+namespace {
+
+// Without an exponent up to a million.
+std::string readable_number(double number, int digits) {
+  constexpr double most = 1e7;
+  const std::string text = format_short(number, digits);
+  if (text.find('e') == std::string::npos || std::abs(number) < 1 || std::abs(number) >= most) return text;
+  return std::to_string(static_cast<std::int64_t>(std::strtod(text.c_str(), nullptr)));
+}
+
+}  // namespace
+
+std::string table_text(const Table& table, std::size_t most, int digits) {
   const std::size_t rows = table.rows() > most ? most : table.rows();
   std::vector<std::vector<std::string>> lines(rows + 1);
   for (std::size_t k = 0; k < table.columns().size(); ++k) {
@@ -217,10 +235,11 @@ std::string table_text(const Table& table, std::size_t most) {
     lines[0].push_back(shown.name.empty() ? column.name : column.name + " [" + shown.name + "]");
     for (std::size_t row = 0; row < rows; ++row) {
       const Cell& cell = table.cell(row, k);
-      const bool scaled = shown.factor != 1 && is_number(cell);
       lines[row + 1].push_back(is_empty(cell) ? ""
-                               : scaled       ? format_short(*number_in(cell) / shown.factor)
-                                              : short_text(cell));
+                               : std::holds_alternative<double>(cell) ||
+                                       (is_number(cell) && !shown.name.empty())
+                                   ? readable_number(in_unit(*number_in(cell), shown.name), digits)
+                                   : short_text(cell));
     }
   }
   // Line ends would break columns.
@@ -228,16 +247,16 @@ std::string table_text(const Table& table, std::size_t most) {
     for (std::string& cell : line)
       std::ranges::replace_if(
           cell, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  std::string text = table.name() + ": " + std::to_string(table.rows()) +
-                     (table.rows() == 1 ? " row of " : " rows of ") + std::to_string(table.columns().size()) +
-                     (table.columns().size() == 1 ? " column" : " columns");
+  std::string text =
+      table.name() + ": " + counted(table.rows(), "row") + " of " + counted(table.columns().size(), "column");
+  std::vector<std::size_t> widths(table.columns().size());
+  for (const std::vector<std::string>& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], characters_of(line[k]));
   for (const std::vector<std::string>& line : lines) {
+    if (line.empty()) break;
     text += "\n ";
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      std::size_t width = 0;
-      for (const std::vector<std::string>& other : lines) width = std::max(width, other[k].size());
-      text += " " + std::string(width - line[k].size(), ' ') + line[k];
-    }
+    for (std::size_t k = 0; k < line.size(); ++k)
+      text += " " + std::string(widths[k] - characters_of(line[k]), ' ') + line[k];
   }
   if (rows < table.rows()) text += "\n  and " + std::to_string(table.rows() - rows) + " more";
   return plain_text(std::move(text));

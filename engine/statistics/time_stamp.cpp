@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/time_stamp.hpp"
 
-#include <array>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "engine/core/files/text_table.hpp"
 
@@ -13,18 +12,20 @@ namespace asperity {
 
 namespace {
 
-struct DateParts {
-  int year = 0, month = 0, day = 0;
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) {
+  return static_cast<unsigned char>(c) >= 0x80 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+struct Digits {
+  int value = 0;
+  std::size_t count = 0;
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-class StampReader {
+class Scanner {
  public:
-  explicit StampReader(std::string_view text) : rest_(text) {}
-
+  explicit Scanner(std::string_view text) : rest_(text) {}
   bool at_end() const { return rest_.empty(); }
-  std::string_view rest() const { return rest_; }
   char front() const { return rest_.empty() ? '\0' : rest_.front(); }
   bool take(char c) {
     if (front() != c) return false;
@@ -35,260 +36,189 @@ class StampReader {
     while (take(' ')) {
     }
   }
-  // At most `most` digits; returns value and number of digits.
-  std::optional<std::pair<int, int>> number(int most) {
-    int digits = 0, value = 0;
-    while (digits < most && is_digit(front())) {
-      value = 10 * value + (front() - '0');
-      ++digits;
-      rest_.remove_prefix(1);
-    }
-    if (digits == 0 || is_digit(front())) return {};
-    return std::pair{value, digits};
+  // All digits, at most `most`.
+  std::optional<Digits> number(std::size_t most) {
+    const std::string digits = front_of(is_digit);
+    if (digits.empty() || digits.size() > most) return {};
+    return Digits{std::stoi(digits), digits.size()};
   }
-  std::string word() {
-    std::size_t end = 0;
-    while (end < rest_.size() &&
-           (static_cast<unsigned char>(rest_[end]) >= 0x80 || (rest_[end] >= 'a' && rest_[end] <= 'z') ||
-            (rest_[end] >= 'A' && rest_[end] <= 'Z')))
-      ++end;
-    std::string taken = lower_case(rest_.substr(0, end));
-    rest_.remove_prefix(end);
-    return taken;
+  bool two_digits(int& value) {
+    if (rest_.size() < 2 || !is_digit(rest_[0]) || !is_digit(rest_[1])) return false;
+    value = 10 * (rest_[0] - '0') + (rest_[1] - '0');
+    rest_.remove_prefix(2);
+    return true;
   }
-  double fraction() {
-    std::size_t end = 0;
-    while (end < rest_.size() && is_digit(rest_[end])) ++end;
-    const std::string digits = "0." + std::string(rest_.substr(0, end));
-    rest_.remove_prefix(end);
-    double value = 0;
+  bool fraction(double& value) {
+    const std::string digits = "0." + front_of(is_digit);
     std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return value;
+    return digits.size() > 2;
   }
+  std::string word() { return lower_case(front_of(is_letter)); }
 
  private:
+  std::string front_of(bool (*belongs)(char)) {
+    std::string taken;
+    for (; !rest_.empty() && belongs(rest_.front()); rest_.remove_prefix(1)) taken += rest_.front();
+    return taken;
+  }
   std::string_view rest_;
 };
 
-// English and German, by their first letters.
+// English and German, by first letters; else 0.
 int month_named(const std::string& word) {
-  static constexpr std::array<std::pair<std::string_view, int>, 17> names{{{"jan", 1},
-                                                                           {"feb", 2},
-                                                                           {"mar", 3},
-                                                                           {"m\xC3\xA4r", 3},
-                                                                           {"mrz", 3},
-                                                                           {"apr", 4},
-                                                                           {"may", 5},
-                                                                           {"mai", 5},
-                                                                           {"jun", 6},
-                                                                           {"jul", 7},
-                                                                           {"aug", 8},
-                                                                           {"sep", 9},
-                                                                           {"oct", 10},
-                                                                           {"okt", 10},
-                                                                           {"nov", 11},
-                                                                           {"dec", 12},
-                                                                           {"dez", 12}}};
-  for (const auto& [name, month] : names)
-    if (word.starts_with(name) && word.size() <= 10) return month;
+  constexpr std::string_view english = "janfebmaraprmayjunjulaugsepoctnovdec",
+                             german = "janfebmrzaprmaijunjulaugsepoktnovdez";
+  if (word.size() < 3 || word.size() > 10) return 0;
+  if (word.starts_with("m\xC3\xA4r")) return 3;
+  for (int month = 0; month < 12; ++month)
+    for (const std::string_view names : {english, german})
+      if (word.starts_with(names.substr(3 * static_cast<std::size_t>(month), 3))) return month + 1;
   return 0;
 }
 
-bool is_leap(std::int64_t year) { return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0); }
+// Two digits: this century.
+int whole_year(const Digits& year) { return year.count <= 2 ? 2000 + year.value : year.value; }
 
-bool is_in_calendar(const DateParts& date) {
-  static constexpr std::array<int, 12> days{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  if (date.month < 1 || date.month > 12 || date.day < 1 || date.year < 1) return false;
-  const int longest =
-      date.month == 2 && is_leap(date.year) ? 29 : days[static_cast<std::size_t>(date.month - 1)];
-  return date.day <= longest;
+void set_date(TimeStamp& stamp, int year, int month, int day) {
+  using namespace std::chrono;
+  const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                            std::chrono::day(static_cast<unsigned>(day))};
+  const bool exists = year > 0 && date.ok();
+  stamp.kind = exists ? TimeStamp::Kind::known : TimeStamp::Kind::not_in_calendar;
+  if (exists) stamp.seconds = sys_seconds(sys_days(date)).time_since_epoch().count();
 }
 
-// Two digits: this century.
-int whole_year(std::pair<int, int> year) { return year.second <= 2 ? 2000 + year.first : year.first; }
-
-// Reads a leading date. False without one; stamp.kind holds other errors.
-bool read_date(StampReader& in, DateOrder order, TimeStamp& stamp) {
-  DateParts date;
-  StampReader trial = in;
-  const auto first = trial.number(4);
-  if (!first) return false;
-  const char mark = trial.front();
-  const bool by_name = mark == ' ' || mark == '-' || mark == '.';
-  if (StampReader named = trial;
-      by_name && first->second <= 2 && (named.take(mark), named.skip_blanks(), true))
+// False without a leading date; stamp.kind holds other errors.
+bool read_date(Scanner& in, DateOrder order, TimeStamp& stamp) {
+  Scanner at = in;
+  const auto first = at.number(4);
+  const char mark = at.front();
+  if (!first || std::string_view("-/. ").find(mark) == std::string_view::npos) return false;
+  at.take(mark);
+  if (Scanner named = at; mark != '/' && first->count <= 2) {
+    named.skip_blanks();
     if (const int month = month_named(named.word()); month > 0) {
       named.take('.');
       if (!named.take(mark)) named.skip_blanks();
       const auto year = named.number(4);
-      if (!year || (year->second != 2 && year->second != 4)) return false;
-      date = {whole_year(*year), month, first->first};
+      if (!year || (year->count != 2 && year->count != 4)) return false;
+      set_date(stamp, whole_year(*year), month, first->value);
       in = named;
-      stamp.kind = is_in_calendar(date) ? TimeStamp::Kind::known : TimeStamp::Kind::not_in_calendar;
-      stamp.seconds = 86400 * days_to_date(date.year, date.month, date.day);
       return true;
     }
-  if ((mark != '-' && mark != '/' && mark != '.') || !trial.take(mark)) return false;
-  const auto second = trial.number(2);
-  if (!second || !trial.take(mark)) return false;
-  const auto third = trial.number(4);
-  if (!third) return false;
-  if (first->second == 4) {
-    if (third->second > 2) return false;
-    date = {first->first, second->first, third->first};
-  } else {
-    if (first->second > 2 || (third->second != 2 && third->second != 4)) return false;
-    const int year = whole_year(*third);
-    bool day_first = true;
-    if (mark != '.') {
-      stamp.may_be_day_first = second->first <= 12;
-      stamp.may_be_month_first = first->first <= 12;
-      if (order == DateOrder::unsaid && stamp.may_be_day_first && stamp.may_be_month_first) {
-        stamp.kind = TimeStamp::Kind::unsaid_order;
-        in = trial;
-        return true;
-      }
-      day_first = order == DateOrder::unsaid ? stamp.may_be_day_first : order == DateOrder::day_first;
-    }
-    date = day_first ? DateParts{year, second->first, first->first}
-                     : DateParts{year, first->first, second->first};
   }
-  in = trial;
-  stamp.kind = is_in_calendar(date) ? TimeStamp::Kind::known : TimeStamp::Kind::not_in_calendar;
-  if (stamp.kind == TimeStamp::Kind::known)
-    stamp.seconds = 86400 * days_to_date(date.year, date.month, date.day);
+  const auto second = at.number(2);
+  if (mark == ' ' || !second || !at.take(mark)) return false;
+  const auto third = at.number(4);
+  if (!third) return false;
+  in = at;
+  if (first->count == 4) {
+    set_date(stamp, first->value, second->value, third->value);
+    return third->count <= 2;
+  }
+  if (first->count > 2 || (third->count != 2 && third->count != 4)) return false;
+  if (mark != '.') {
+    stamp.may_be_day_first = second->value <= 12;
+    stamp.may_be_month_first = first->value <= 12;
+    if (order == DateOrder::unsaid && stamp.may_be_day_first && stamp.may_be_month_first) {
+      stamp.kind = TimeStamp::Kind::unsaid_order;
+      return true;
+    }
+  }
+  const bool day_first =
+      mark == '.' || (order == DateOrder::unsaid ? stamp.may_be_day_first : order == DateOrder::day_first);
+  set_date(stamp, whole_year(*third), (day_first ? second : first)->value,
+           (day_first ? first : second)->value);
   return true;
 }
 
-// Reads the remaining time of day; false without one.
-bool read_clock(StampReader& in, ClockForm clock, TimeStamp& stamp) {
+// True for "pm" or "p.m.", false for am.
+std::optional<bool> read_half_of_day(Scanner& in) {
+  Scanner at = in;
+  std::string word = at.word();
+  if ((word == "a" || word == "p") && at.take('.')) word += at.word();
+  if (word != "am" && word != "pm") return {};
+  at.take('.');
+  at.skip_blanks();
+  in = at;
+  return word == "pm";
+}
+
+// False without a time of day.
+bool read_clock(Scanner& in, ClockForm clock, TimeStamp& stamp) {
   using Kind = TimeStamp::Kind;
   const auto first = in.number(stamp.dated ? 2 : 5);
-  if (!first || !in.take(':')) return false;
-  const auto second = in.number(2);
-  if (!second || second->second != 2) return false;
-  int hours = first->first, minutes = second->first, seconds = 0;
+  int minutes = 0, seconds = 0;
+  if (!first || !in.take(':') || !in.two_digits(minutes)) return false;
+  int hours = first->value;
   const bool three = in.take(':');
-  if (three) {
-    const auto third = in.number(2);
-    if (!third || third->second != 2) return false;
-    seconds = third->first;
-  }
-  double fraction = 0;
+  if (three && !in.two_digits(seconds)) return false;
   const bool fractional = in.take('.') || in.take(',');
-  if (fractional) {
-    if (!is_digit(in.front())) return false;
-    fraction = in.fraction();
-  }
+  if (fractional && ((!three && stamp.dated) || !in.fraction(stamp.fraction))) return false;
   in.skip_blanks();
-  bool twelve = false, after_noon = false;
-  if (StampReader trial = in; true) {
-    std::string word = trial.word();
-    if (word == "a" && trial.take('.')) word = trial.word() == "m" ? "am" : "";
-    if (word == "p" && trial.take('.')) word = trial.word() == "m" ? "pm" : "";
-    if (word == "am" || word == "pm") {
-      trial.take('.');
-      twelve = true;
-      after_noon = word == "pm";
-      in = trial;
-      in.skip_blanks();
-    }
-  }
-  if (!three && fractional && stamp.dated) return false;
-  const bool of_day = stamp.dated || twelve;
-  if (!three && !of_day) {
+  const std::optional<bool> after_noon = read_half_of_day(in);
+  const bool twelve = after_noon.has_value(), two_alone = !three && !stamp.dated && !twelve;
+  Kind kind = Kind::known;
+  if (two_alone) {
     // "10:30.5" ends with seconds.
     const ClockForm form = fractional ? ClockForm::minutes_seconds : clock;
-    if (form == ClockForm::unsaid) stamp.kind = Kind::unsaid_clock;
+    if (form == ClockForm::unsaid) kind = Kind::unsaid_clock;
     if (form == ClockForm::minutes_seconds) {
       seconds = minutes;
       minutes = hours;
       hours = 0;
     }
   }
-  if (stamp.kind == Kind::none) stamp.kind = Kind::known;
-  const bool end_of_day = hours == 24 && minutes == 0 && seconds == 0 && fraction == 0;
+  const bool end_of_day = hours == 24 && minutes == 0 && seconds == 0 && stamp.fraction == 0;
   const bool in_day = twelve ? hours >= 1 && hours <= 12 : hours < 24 || end_of_day || !stamp.dated;
-  const bool minutes_alone = !three && !of_day && hours == 0;
-  if (!in_day || (minutes > 59 && !minutes_alone) || seconds > 60)
-    if (stamp.kind == Kind::known) stamp.kind = Kind::not_in_calendar;
-  if (twelve) hours = hours % 12 + (after_noon ? 12 : 0);
+  const bool in_hour = minutes <= 59 || (two_alone && hours == 0);
+  if (kind == Kind::known && !(in_day && in_hour && seconds <= 60)) kind = Kind::not_in_calendar;
+  if (!stamp.dated || stamp.kind == Kind::known) stamp.kind = kind;
+  if (after_noon) hours = hours % 12 + (*after_noon ? 12 : 0);
   stamp.seconds += 3600LL * hours + 60LL * minutes + seconds;
-  stamp.fraction = fraction;
   return true;
 }
 
 // Final "Z", "+01:00", "-0530", "+01".
-bool read_zone(StampReader& in, TimeStamp& stamp) {
+bool read_zone(Scanner& in, TimeStamp& stamp) {
   if (in.at_end()) return true;
   stamp.zoned = true;
   if (in.take('Z') || in.take('z')) return in.at_end();
-  const bool east = in.front() == '+';
-  if (!in.take('+') && !in.take('-')) return false;
-  const std::string_view rest = in.rest();
-  StampReader digits = in;
+  const int sign = in.take('+') ? 1 : in.take('-') ? -1 : 0;
   int hours = 0, minutes = 0;
-  if (rest.size() == 4 && rest.find(':') == std::string_view::npos) {
-    const auto all = digits.number(4);
-    if (!all) return false;
-    hours = all->first / 100;
-    minutes = all->first % 100;
-  } else {
-    const auto h = digits.number(2);
-    if (!h || h->second != 2) return false;
-    hours = h->first;
-    if (digits.take(':')) {
-      const auto m = digits.number(2);
-      if (!m || m->second != 2) return false;
-      minutes = m->first;
-    }
-  }
-  if (!digits.at_end() && rest.size() != 4) return false;
-  if (hours > 14 || minutes > 59) return false;
-  stamp.seconds -= (east ? 1 : -1) * (3600LL * hours + 60LL * minutes);
-  return true;
+  if (sign == 0 || !in.two_digits(hours)) return false;
+  if ((in.take(':') || !in.at_end()) && !in.two_digits(minutes)) return false;
+  stamp.seconds -= sign * (3600LL * hours + 60LL * minutes);
+  return in.at_end() && hours <= 14 && minutes <= 59;
 }
 
 }  // namespace
 
-std::int64_t days_to_date(std::int64_t year, int month, int day) {
-  // Years from March have their leap day last; 400 years are 146097 days.
-  const std::int64_t y = month <= 2 ? year - 1 : year;
-  const std::int64_t era = (y >= 0 ? y : y - 399) / 400, in_era = y - 400 * era;
-  const std::int64_t in_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return 146097 * era + 365 * in_era + in_era / 4 - in_era / 100 + in_year - 719468;
-}
-
 TimeStamp read_time_stamp(std::string_view text, DateOrder order, ClockForm clock) {
   text = trimmed(text);
   constexpr std::size_t longest = 64;
-  TimeStamp stamp;
-  if (text.empty() || text.size() > longest || !is_digit(text.front())) return stamp;
-  StampReader in(text);
+  if (text.empty() || text.size() > longest || !is_digit(text.front())) return {};
   // ISO 8601 basic format, "20261123T100000".
-  if (text.size() >= 9 && text[8] == 'T') {
-    std::string extended;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-      if (k == 4 || k == 6) extended += '-';
-      if ((k == 11 || k == 13) && is_digit(text[k])) extended += ':';
-      extended += text[k];
-    }
-    if (text.find(':') == std::string_view::npos &&
-        text.substr(0, 8).find_first_not_of("0123456789") == std::string_view::npos)
-      return read_time_stamp(extended, order, clock);
+  if (text.size() >= 9 && text[8] == 'T' && text.find(':') == std::string_view::npos &&
+      text.substr(0, 8).find_first_not_of("0123456789") == std::string_view::npos) {
+    std::string extended(text);
+    for (const std::size_t at : {13U, 11U, 6U, 4U})
+      if (at < text.size() && is_digit(text[at])) extended.insert(at, at > 8 ? ":" : "-");
+    return read_time_stamp(extended, order, clock);
   }
+  TimeStamp stamp;
+  Scanner in(text);
   stamp.dated = read_date(in, order, stamp);
   if (stamp.dated) {
     if (in.at_end()) return stamp;
     if (!in.take('T') && !in.take(' ') && !in.take(',') && !in.take(';')) return {};
     in.take('T');
     in.skip_blanks();
-    if (in.at_end()) return {};
+  } else {
+    stamp = {};
+    in = Scanner(text);
   }
-  const TimeStamp::Kind date = stamp.kind;
-  if (!read_clock(in, clock, stamp) || !read_zone(in, stamp)) return {};
-  if (stamp.dated && date != TimeStamp::Kind::known) stamp.kind = date;
-  return stamp;
+  return read_clock(in, clock, stamp) && read_zone(in, stamp) ? stamp : TimeStamp{};
 }
 
 }  // namespace asperity

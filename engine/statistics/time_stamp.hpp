@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Dates and times of loggers: ISO 8601, "23.11.2026 10:00", "11/23/2026 10:00 AM", "23-Nov-2026",
-// "10:00:03,2". With points, the day is first; slashes and dashes are ambiguous. Gregorian calendar, no leap
+// "10:00:03,2". With points, the day is first; slashes and dashes are ambiguous. Gregorian, without leap
 // seconds; times without a zone are not converted.
 #pragma once
 
@@ -22,16 +22,16 @@ struct TimeStamp {
   };
   Kind kind = Kind::none;
   bool dated = false, zoned = false;
-  // Orders possible for these numbers.
+  // Possible for these numbers.
   bool may_be_day_first = true, may_be_month_first = true;
-  std::int64_t seconds = 0;  // since 1970-01-01 00:00 (UTC if zoned), or since midnight
+  std::int64_t seconds = 0;  // since 1970-01-01 00:00 (UTC if zoned), or midnight
   double fraction = 0;       // of a second, in [0, 1)
 };
 
 TimeStamp read_time_stamp(std::string_view text, DateOrder order = DateOrder::unsaid,
                           ClockForm clock = ClockForm::unsaid);
-
-// Since 1970-01-01.
-std::int64_t days_to_date(std::int64_t year, int month, int day);
+inline bool is_time_stamp(std::string_view text) {
+  return read_time_stamp(text).kind != TimeStamp::Kind::none;
+}
 
 }  // namespace asperity

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -24,27 +24,9 @@ void add_costs(Budget& budget, double order, double solver_seconds);
 
 namespace {
 
-void check_ascent(const std::vector<double>& list, const char* key, bool ascending) {
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (!std::isfinite(list[k]) || list[k] <= 0)
-      refuse(quoted(key) + " holds " + format_short(list[k]), "give numbers above 0");
-    if (k > 0 && (ascending ? list[k] <= list[k - 1] : list[k] >= list[k - 1]))
-      refuse(quoted(key) + " goes from " + format_short(list[k - 1]) + " to " + format_short(list[k]),
-             ascending                        ? "give each grid once, coarse ones first"
-             : std::string_view(key) == "tip" ? "give each radius once, blunt ones first"
-                                              : "give each tolerance once, loose ones first");
-  }
-}
-
 std::size_t runs_of_inputs(const BudgetRequest& request) {
   if (request.inputs.empty()) return 0;
   return request.runs > 0 ? request.runs : chaos_runs(request.inputs.size());
-}
-
-double median_seconds(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
 class BudgetRuns {
@@ -64,7 +46,7 @@ class BudgetRuns {
     for (std::size_t c = 0; c < grids_; ++c) weight_ += weight_of(c) * static_cast<double>(replicates_);
   }
 
-  // First replicate, coarsest grid, best tolerance and tip.
+  // First replicate, coarsest grid, tightest tolerance and finest tip.
   BudgetSetting base(std::string part) const {
     BudgetSetting setting = base_;
     setting.part = std::move(part);
@@ -153,10 +135,9 @@ class BudgetRuns {
     for (std::size_t c = grids_; c < cells_.size(); ++c) expected += seconds.back()[0];
     expected /= std::max(1, request_.at_a_time);
     if (expected > *request_.at_most)
-      throw Error(ErrorCode::infeasible,
-                  "the " + std::to_string(total_) + " runs will take " + format_short(expected, 2) +
-                      " s, above `at_most` of " + format_short(*request_.at_most) + " s",
-                  "allow more, or give fewer replicates, inputs or `runs`, or coarser `cells`");
+      refuse_infeasible("the " + std::to_string(total_) + " runs will take " + format_short(expected, 2) +
+                            " s, above `at_most` of " + format_short(*request_.at_most) + " s",
+                        "allow more, or give fewer replicates, inputs or `runs`, or coarser `cells`");
   }
 
   const BudgetRequest& request_;
@@ -168,7 +149,7 @@ class BudgetRuns {
   double weight_ = 0, done_ = 0;
 };
 
-// Averages repeats of specimens; drops replicates without a finite number.
+// Averages repeats of specimens; drops replicates that are not finite.
 void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
                     std::vector<std::vector<double>>& answers, Budget& budget) {
   std::map<std::size_t, std::vector<std::size_t>> repeats;
@@ -197,8 +178,8 @@ void take_specimens(const BudgetRequest& request, const BudgetRuns& runs,
   if (repeats.size() < 2) refuse("`replicate` has one specimen", "scatter takes two or more, better five");
 }
 
-// Fits a drift of this order with scatter proportional to cell width. Returns its value at width 0 relative
-// to the finest grid, and the standard error.
+// Drift of this order, fitted with scatter proportional to cell width: value at width 0 relative to the
+// finest grid, standard error.
 std::pair<double, double> drift_of(const std::vector<double>& widths, const std::vector<double>& steps,
                                    double order) {
   TableColumns columns(2);
@@ -232,7 +213,7 @@ std::vector<double> extrapolations(double change, double ratio, double low, doub
 // Discretisation error of a single specimen.
 void look_at_chance(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
                     const std::vector<double>& between, BudgetTerm& term, Budget& budget) {
-  // In standard errors: drifts of order 1 to 2 exceed this, the scatter of rough faces hardly ever.
+  // In standard errors: drifts of order 1 to 2 exceed this, scatter of rough faces hardly ever.
   constexpr double clear = 15;
   const std::vector<double> grids = budget_grids(request);
   const std::size_t last = answers.size() - 1;
@@ -294,7 +275,7 @@ void look_at_cells(const BudgetRequest& request, std::vector<std::vector<double>
           elementary::log(std::sqrt(ratio * request.cells[last - 1] / request.cells[last - 2]));
     if (!budget.order_observed)
       budget.warnings.emplace_back(
-          "the three finest grids do not approach a value from one side: chance of the cells, or too few");
+          "the three finest grids do not approach a value from one side: give more or finer `cells`");
     else if (*budget.order_observed < request.order_low - 0.5 ||
              *budget.order_observed > request.order_high + 0.5)
       budget.warnings.push_back("the order observed over three grids is " +
@@ -343,7 +324,6 @@ void look_at_solver(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const double ratio = request.tolerances[last - 1] / request.tolerances[last];
   BudgetSetting loose = runs.base("solver");
   --loose.tolerance;
-  // The steps get the standard deviation of the interval.
   const double half = (runs.run({loose}).front() - found.first) / (ratio - 1) /
                       std::sqrt(1 - 1.0 / (order_steps * order_steps));
   found.terms.push_back({"solver", over_orders(-1, 1, [&](double share) { return share * half; })});
@@ -369,11 +349,11 @@ void look_at_instrument(const BudgetRequest& request, BudgetRuns& runs, BudgetFi
   const double noise = deviation_of(noisy, degrees);
   found.terms.push_back({"noise", {}, noise, degrees});
   budget.notes.push_back("noise: n = " + std::to_string(noisy.size()) + ", moves the answer by " +
-                         format_short(shift, 3) + " in the mean, which is not corrected");
+                         format_short(shift, 3) + " in the mean, without a correction");
   if (std::abs(shift) > 3 * noise)
-    budget.warnings.push_back("noise moves the answer by " + format_short(shift, 3) +
-                              ", far more than it scatters it: filter what is measured, or ask for what does "
-                              "not hang on the shortest waves");
+    budget.warnings.push_back(
+        "noise moves the answer by " + format_short(shift, 3) +
+        ", far more than its scatter: filter the measurement, or request a quantity of longer waves");
 }
 
 void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
@@ -381,7 +361,7 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
     budget.notes.emplace_back("inputs: taken as exact");
     return;
   }
-  // Runs may double only without `runs` and `at_most`.
+  // Runs double only without `runs` and `at_most`.
   ChaosRequest of_inputs{request.inputs, request.runs, request.seed};
   if (request.at_most) of_inputs.runs = runs_of_inputs(request);
   // Student's t extrapolates far beyond the points.
@@ -402,7 +382,7 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   budget.chaos = std::move(chaos.chaos);
   const ChaosTrust trust = budget.chaos->trust();
   if (!(budget.chaos->variance > 0))
-    budget.warnings.emplace_back("the answer does not hang on the inputs: does `ask` use them?");
+    budget.warnings.emplace_back("the answer does not depend on the inputs: does `ask` use them?");
   budget.notes.push_back(
       (request.correlations.empty() ? "inputs: taken as independent" : "inputs: correlated") +
       (trust == ChaosTrust::good ? "; " + budget.chaos->text() : std::string()));
@@ -413,16 +393,11 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
 }
 
 BudgetPart& add_part(Budget& budget, std::string name, double uncertainty, double degrees) {
-  BudgetPart& part = budget.parts.emplace_back();
-  part.name = std::move(name);
-  part.uncertainty = uncertainty;
-  part.degrees = degrees;
-  return part;
+  return budget.parts.emplace_back(BudgetPart{std::move(name), uncertainty, degrees});
 }
 
-// One row per input, one for correlations, one for the rest.
+// Rows: each input, correlations, the rest.
 void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& budget) {
-  constexpr double always = std::numeric_limits<double>::infinity();
   const PolynomialChaos& chaos = *budget.chaos;
   const std::size_t count = request.inputs.size();
   double rest = chaos.variance * (1 + chaos.leave_one_out), mutual = 0;
@@ -447,7 +422,7 @@ void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& 
     rest -= part.variance();
     for (std::size_t k = 0; k < j; ++k) mutual += 2 * slopes[j] * slopes[k] * inputs.correlation(j, k);
   }
-  // Halving an input halves its covariances.
+  // Also halves its covariances.
   for (std::size_t j = 0; j < count && !request.correlations.empty(); ++j) {
     BudgetPart& part = budget.parts[budget.parts.size() - count + j];
     part.total = part.variance() * (1 - 4.0 / 3);
@@ -455,15 +430,14 @@ void add_inputs(const BudgetRequest& request, const InputDraws& inputs, Budget& 
       part.total += 4.0 / 3 * slopes[j] * slopes[k] * inputs.correlation(j, k);
   }
   if (!request.correlations.empty())
-    add_part(budget, "correlation", std::sqrt(std::abs(mutual)), always).sign = mutual < 0 ? -1 : 1;
-  if (count > 1) add_part(budget, "inputs together", std::sqrt(std::max(0.0, rest)), always);
+    add_part(budget, "correlation", std::sqrt(std::abs(mutual)), infinity).sign = mutual < 0 ? -1 : 1;
+  if (count > 1) add_part(budget, "inputs together", std::sqrt(std::max(0.0, rest)), infinity);
 }
 
 void add_parts(const BudgetRequest& request, const InputDraws& inputs, const BudgetFindings& found,
                Budget& budget) {
   for (const BudgetTerm& term : found.terms)
-    add_part(budget, term.name, term.uncertainty(),
-             term.scale > 0 ? term.degrees : std::numeric_limits<double>::infinity());
+    add_part(budget, term.name, term.uncertainty(), term.scale > 0 ? term.degrees : infinity);
   double variance = 0, of_inputs = 0;
   for (const BudgetPart& part : budget.parts) variance += part.variance();
   if (budget.chaos && budget.chaos->trust() != ChaosTrust::refused) {
@@ -477,6 +451,41 @@ void add_parts(const BudgetRequest& request, const InputDraws& inputs, const Bud
     part.share = variance > 0 ? part.variance() / variance : 0;
     part.share_error *= variance > 0 ? of_inputs / variance : 0;
   }
+}
+
+// Ascending; inputs by their polynomial unless refused.
+std::vector<double> budget_draws(const BudgetRequest& request, const InputDraws& inputs,
+                                 const BudgetFindings& found, const Budget& budget) {
+  const Stream lack(request.seed, "budget lack");
+  std::vector<Stream> places, scatters;
+  for (const BudgetTerm& term : found.terms) {
+    places.emplace_back(request.seed, "budget place " + term.name);
+    scatters.emplace_back(request.seed, "budget " + term.name);
+  }
+  const PolynomialChaos* chaos =
+      budget.chaos && budget.chaos->trust() != ChaosTrust::refused ? &*budget.chaos : nullptr;
+  const double at_values = chaos != nullptr ? chaos->at(std::vector<double>(request.inputs.size())) : 0;
+  std::vector<double> drawn;
+  for (std::uint64_t k = 0; k < request.draws; ++k) {
+    double value = found.centre;
+    for (std::size_t i = 0; i < found.terms.size(); ++i) {
+      const BudgetTerm& term = found.terms[i];
+      if (!term.list.empty())
+        value += term.list[static_cast<std::size_t>(places[i].below(k, term.list.size()))];
+      if (!(term.scale > 0)) continue;
+      const double t = student_draw(scatters[i], k, term.degrees);
+      if (term.name == "sampling" && request.interval == MeanInterval::log_normal)
+        value += elementary::exp(budget.sample->log_centre + t * budget.sample->log_error) - found.centre;
+      else
+        value += t * term.scale;
+    }
+    if (chaos != nullptr)
+      value += chaos->at(inputs.at(k)) - at_values +
+               std::sqrt(chaos->leave_one_out * chaos->variance) * lack.normal(k);
+    drawn.push_back(value);
+  }
+  std::ranges::sort(drawn);
+  return drawn;
 }
 
 void add_interval(const BudgetRequest& request, const InputDraws& inputs, const BudgetFindings& found,
@@ -511,27 +520,6 @@ std::vector<double> budget_grids(const BudgetRequest& request) {
   return grids;
 }
 
-void check_request(const BudgetRequest& request) {
-  if (!request.inputs.empty()) check_inputs(request.inputs);
-  if (request.replicates == 1) refuse("`replicate` has one value", "scatter takes two or more, better five");
-  check_ascent(request.cells, "cells", true);
-  check_ascent(request.tolerances, "tolerance", false);
-  check_ascent(request.tips, "tip", false);
-  if (request.noises == 1) refuse("`noise` has one draw", "scatter takes two or more, better five");
-  if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
-    refuse("`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
-           "give the least and the greatest order of the error of the cells, above 0 and at most 10");
-  if (!(request.confidence > 0 && request.confidence < 1))
-    refuse("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
-  if (request.half_width && !(*request.half_width > 0 && std::isfinite(*request.half_width)))
-    refuse("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
-  if (request.draws < 100) refuse("there are fewer than 100 draws", "give more");
-  if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
-      request.tolerances.size() < 2 && request.tips.size() < 2 && request.noises == 0)
-    refuse("there is nothing to vary",
-           "give `inputs`, `replicate`, `noise`, or two or more `cells`, `tolerance` or `tip`");
-}
-
 std::size_t budget_runs(const BudgetRequest& request) {
   const std::size_t between = budget_grids(request).size() - request.cells.size();
   return std::max<std::size_t>(1, request.cells.size()) * std::max<std::size_t>(1, request.replicates) +
@@ -541,7 +529,7 @@ std::size_t budget_runs(const BudgetRequest& request) {
 
 Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask) {
   check_request(request);
-  const InputDraws inputs(request);
+  const InputDraws inputs(request.inputs, request.correlations, request.seed);
   Budget budget;
   budget.confidence = request.confidence;
   budget.replicates = request.replicates;
@@ -564,7 +552,7 @@ Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask) {
   if (budget.asked && request.of_answer) *budget.asked *= std::abs(budget.value);
   budget.runs = runs.count;
   budget.seconds = runs.sum;
-  for (const auto& on_grid : runs.seconds) budget.seconds_of_cells.push_back(median_seconds(on_grid));
+  for (const auto& on_grid : runs.seconds) budget.seconds_of_cells.push_back(median(on_grid));
   const double solver_seconds =
       request.tolerances.size() > 1 ? std::max(0.0, runs.seconds[0][0] - runs.loose_seconds) : 0;
   const bool by_chance = request.replicates == 0 && !found.terms.empty() && found.terms.front().list.empty();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joint draws from all parts of a budget.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/study/budget.hpp"
+#include "engine/statistics/uncertain_input.hpp"
 
 namespace asperity {
 
@@ -24,7 +23,7 @@ inline double student_draw(const Stream& stream, std::uint64_t k, double degrees
          elementary::cos(2 * std::numbers::pi * v);
 }
 
-// Marsaglia & Tsang's method (2000): one try in 19 of 20 draws, never 16.
+// Marsaglia & Tsang's method (2000); 16 tries always suffice.
 inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double degrees) {
   const double shape = degrees / 2, d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3;
   for (std::uint64_t i = 16 * k;; ++i) {
@@ -40,15 +39,18 @@ inline double chi_squared_draw(const Stream& stream, std::uint64_t k, double deg
 // correlated inputs share one scatter estimate.
 class InputDraws {
  public:
-  InputDraws(const BudgetRequest& request) : inputs_(request.inputs) {
+  // `inputs` must outlive the draws.
+  InputDraws(const std::vector<UncertainInput>& inputs, const std::vector<InputCorrelation>& correlations,
+             std::uint64_t seed)
+      : inputs_(inputs) {
     const std::size_t n = inputs_.size();
     correlation_.assign(n, std::vector<double>(n));
     for (std::size_t j = 0; j < n; ++j) {
       correlation_[j][j] = 1;
-      scores_.emplace_back(request.seed, "budget input " + std::to_string(j));
-      scales_.emplace_back(request.seed, "budget degrees " + std::to_string(j));
+      scores_.emplace_back(seed, "budget input " + std::to_string(j));
+      scales_.emplace_back(seed, "budget degrees " + std::to_string(j));
     }
-    for (const InputCorrelation& of : request.correlations) {
+    for (const InputCorrelation& of : correlations) {
       const std::size_t one = place_of(of.one), other = place_of(of.other);
       const std::string both = quoted(of.one) + " and " + quoted(of.other);
       if (correlation_[one][other] != 0 || !(std::abs(of.value) < 1))
@@ -66,7 +68,7 @@ class InputDraws {
         else if (factor_[j][j] > 1e-12)
           factor_[j][j] = std::sqrt(factor_[j][j]);
         else
-          refuse("no inputs can have all of these", "correct those of " + quoted(inputs_[j].name));
+          refuse("these correlations contradict each other", "correct those of " + quoted(inputs_[j].name));
       }
   }
 
@@ -77,7 +79,6 @@ class InputDraws {
       double z = 0;
       for (std::size_t i = 0; i <= j; ++i)
         if (factor_[j][i] != 0) z += factor_[j][i] * scores[i];
-      // Correlated inputs share the χ² draw of their first.
       std::size_t group = 0;
       while (correlation_[j][group] == 0) ++group;
       if (const double degrees = inputs_[j].degrees; std::isfinite(degrees))
@@ -116,7 +117,7 @@ inline double deviation_of(const std::vector<double>& values, double degrees) {
   return degrees > 0 ? std::sqrt(squares / degrees) : 0;
 }
 
-// Sum of a random value of `list` and `scale` times Student's t.
+// A random value of `list` plus `scale` times Student's t.
 struct BudgetTerm {
   std::string name;
   std::vector<double> list;
@@ -127,44 +128,9 @@ struct BudgetTerm {
 };
 
 struct BudgetFindings {
-  double first = 0;   // first replicate on the coarsest grid
-  double centre = 0;  // mean of the replicates, or Cox's
+  double first = 0;   // replicate on the coarsest grid
+  double centre = 0;  // of the replicates, or Cox's
   std::vector<BudgetTerm> terms;
 };
-
-// Ascending; inputs by their polynomial unless refused.
-inline std::vector<double> budget_draws(const BudgetRequest& request, const InputDraws& inputs,
-                                        const BudgetFindings& found, const Budget& budget) {
-  const Stream lack(request.seed, "budget lack");
-  std::vector<Stream> places, scatters;
-  for (const BudgetTerm& term : found.terms) {
-    places.emplace_back(request.seed, "budget place " + term.name);
-    scatters.emplace_back(request.seed, "budget " + term.name);
-  }
-  const PolynomialChaos* chaos =
-      budget.chaos && budget.chaos->trust() != ChaosTrust::refused ? &*budget.chaos : nullptr;
-  const double at_values = chaos != nullptr ? chaos->at(std::vector<double>(request.inputs.size())) : 0;
-  std::vector<double> drawn;
-  for (std::uint64_t k = 0; k < request.draws; ++k) {
-    double value = found.centre;
-    for (std::size_t i = 0; i < found.terms.size(); ++i) {
-      const BudgetTerm& term = found.terms[i];
-      if (!term.list.empty())
-        value += term.list[static_cast<std::size_t>(places[i].below(k, term.list.size()))];
-      if (!(term.scale > 0)) continue;
-      const double t = student_draw(scatters[i], k, term.degrees);
-      if (term.name == "sampling" && request.interval == MeanInterval::log_normal)
-        value += elementary::exp(budget.sample->log_centre + t * budget.sample->log_error) - found.centre;
-      else
-        value += t * term.scale;
-    }
-    if (chaos != nullptr)
-      value += chaos->at(inputs.at(k)) - at_values +
-               std::sqrt(chaos->leave_one_out * chaos->variance) * lack.normal(k);
-    drawn.push_back(value);
-  }
-  std::ranges::sort(drawn);
-  return drawn;
-}
 
 }  // namespace asperity

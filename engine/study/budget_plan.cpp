@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of halving a part of a budget, and the cheapest way to an interval. Times scale as a power of the
-// cells, discretisation errors with their order, the error of the mean as the root of the replicates.
+// Cost of halving a part, and the cheapest way to an interval. Times scale as a power of the cells,
+// discretisation errors with their order, the error of the mean as the root of the replicates.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 #include "engine/study/budget.hpp"
@@ -18,8 +20,8 @@ namespace {
 
 constexpr std::size_t most_replicates = 100000;
 
-// Total variance and degrees of freedom (Welch–Satterthwaite), with factors on the variances of sampling and
-// cells. Correlated inputs count as one.
+// Total variance and degrees of freedom (Welch–Satterthwaite), with factors for sampling and cells.
+// Correlated inputs count as one.
 std::pair<double, double> whole_of(const Budget& budget, double sampling, double cells, double replicates) {
   const bool correlated =
       std::ranges::find(budget.parts, "correlation", &BudgetPart::name) != budget.parts.end();
@@ -38,7 +40,7 @@ std::pair<double, double> whole_of(const Budget& budget, double sampling, double
   }
   if (slow > 0) squares += of_inputs * of_inputs * slow / alone;
   const double degrees = variance * variance / squares;
-  return {variance, degrees < 1e6 ? degrees : std::numeric_limits<double>::infinity()};
+  return {variance, degrees < 1e6 ? degrees : infinity};
 }
 
 double even_cells(double cells) { return 2 * std::ceil(cells / 2 - 1e-9); }
@@ -62,7 +64,7 @@ class Planner {
     return of_one * budget_.repeats * static_cast<double>(std::max<std::size_t>(1, replicates));
   }
 
-  // Fewest replicates on these cells; 0: unreachable.
+  // Fewest on these cells; 0: unreachable.
   std::size_t replicates_for(double half, double cells) const {
     if (half_width(most_replicates, cells) > half) return 0;
     std::size_t low = 1, high = most_replicates;  // insufficient, sufficient
@@ -123,12 +125,96 @@ class Planner {
   double order_, ratio_ = 2, scale_ = 1, power_ = 2;  // `power_`: of the seconds
 };
 
+void check_ascent(const std::vector<double>& list, const char* key, bool ascending) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (!std::isfinite(list[k]) || list[k] <= 0)
+      refuse(quoted(key) + " holds " + format_short(list[k]), "give numbers above 0");
+    if (k > 0 && (ascending ? list[k] <= list[k - 1] : list[k] >= list[k - 1]))
+      refuse(quoted(key) + " goes from " + format_short(list[k - 1]) + " to " + format_short(list[k]),
+             ascending                        ? "give each grid once, coarse ones first"
+             : std::string_view(key) == "tip" ? "give each radius once, blunt ones first"
+                                              : "give each tolerance once, loose ones first");
+  }
+}
+
+// Rounding errors around 0 print as 0.
+std::string tidy(double value, double uncertainty, int digits) {
+  return format_short(std::abs(value) < 1e-12 * uncertainty ? 0 : value, digits);
+}
+
+std::string degrees_text(double degrees) {
+  return std::isfinite(degrees) ? format_short(degrees, 3) : std::string("∞");
+}
+
+// Table of inputs after the GUM.
+void add_input_sheet(const Budget& budget, std::string& text) {
+  std::vector<TextLine> lines = {{"input", "value", "u", "degrees", "sensitivity", "contribution", "shape"}};
+  for (const BudgetPart& part : budget.parts)
+    if (const auto& input = part.input)
+      lines.push_back({input->name, format_quantity(input->value, input->dimension, 5),
+                       format_quantity(input->uncertainty, input->dimension, 3), degrees_text(input->degrees),
+                       tidy(part.sensitivity, budget.uncertainty / input->uncertainty, 4),
+                       tidy(std::abs(part.sensitivity) * input->uncertainty, budget.uncertainty, 3),
+                       input_shapes()[static_cast<std::size_t>(input->shape)]});
+  if (lines.size() > 1) text += aligned(lines).substr(1) + "\n";
+}
+
+std::string budget_share_text(double share) {
+  return format_short(std::round(1000 * share) / 10 + 0.0, 4) + " %";
+}
+
+std::string grid_text(std::size_t replicates, double cells) {
+  std::string text = replicates > 0 ? std::to_string(replicates) + " replicates" : "one run";
+  if (cells > 0) text += " on " + format_short(cells) + "²";
+  return text;
+}
+
+void add_plan_text(const Budget& budget, std::string& text) {
+  if (!budget.asked) return;
+  const std::string asked = "± " + format_short(*budget.asked, 3);
+  if (budget.plan) {
+    const double now = budget.cells.empty() ? 0 : budget.cells.back();
+    text += "  cheapest way to " + asked + ": " + grid_text(budget.plan->replicates, budget.plan->cells) +
+            " instead of " + grid_text(budget.replicates, now) + ", " +
+            format_short(budget.plan->seconds, 2) + " s\n";
+    return;
+  }
+  text += "  " + asked + " cannot be reached by replicates and cells alone";
+  for (const BudgetPart& part : budget.parts)
+    if (!part.halving_seconds || part.name == "solver") {
+      text += ": the greatest other share is that of " + part.name;
+      break;
+    }
+  text += "\n";
+}
+
 }  // namespace
+
+void check_request(const BudgetRequest& request) {
+  if (!request.inputs.empty()) check_inputs(request.inputs);
+  if (request.replicates == 1) refuse("`replicate` has one value", "scatter takes two or more, better five");
+  check_ascent(request.cells, "cells", true);
+  check_ascent(request.tolerances, "tolerance", false);
+  check_ascent(request.tips, "tip", false);
+  if (request.noises == 1) refuse("`noise` has one draw", "scatter takes two or more, better five");
+  if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
+    refuse("`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
+           "give the least and the greatest order of the error of the cells, above 0 and at most 10");
+  if (!(request.confidence > 0 && request.confidence < 1))
+    refuse("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
+  if (request.half_width && !(*request.half_width > 0 && std::isfinite(*request.half_width)))
+    refuse("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
+  if (request.draws < 100) refuse("there are fewer than 100 draws", "give more");
+  if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
+      request.tolerances.size() < 2 && request.tips.size() < 2 && request.noises == 0)
+    refuse("there is nothing to vary",
+           "give `inputs`, `replicate`, `noise`, or two or more `cells`, `tolerance` or `tip`");
+}
 
 double Budget::degrees() const { return whole_of(*this, 1, 1, static_cast<double>(replicates)).second; }
 
-// `order`: of the discretisation error; `solver_seconds`: extra time per run on the coarsest grid of the
-// tightest tolerance.
+// `order`: of the discretisation error; `solver_seconds`: extra time per run of the tightest tolerance, on
+// the coarsest grid.
 void add_costs(Budget& budget, double order, double solver_seconds) {
   const Planner planner(budget, order);
   const std::size_t n = budget.replicates;
@@ -152,11 +238,11 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
       const double first = budget.seconds_of_cells.front();
       const double growth = first > 0 ? budget.seconds_of_cells.back() / first : 1;
       part.halving = "tolerance = " + format_short(tightest / 2, 3);
-      // All runs repeat and take longer.
+      // All runs repeat, with more time.
       part.halving_seconds = planner.seconds(n, planner.finest()) +
                              runs * growth * solver_seconds * elementary::log(2) / elementary::log(ratio);
     } else if (part.name == "tip") {
-      // The error scales as about radius^(3/2).
+      // Error about proportional to radius^(3/2).
       part.halving =
           "a tip of " + format_quantity(budget.tips.back() / elementary::exp2(2.0 / 3), dimension::length, 2);
     } else if (part.name == "noise") {
@@ -169,6 +255,39 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
     }
   }
   if (budget.asked) budget.plan = planner.cheapest(*budget.asked);
+}
+
+std::string Budget::text() const {
+  std::string text = "budget: " + tidy(value, uncertainty, 5) + ", from " + tidy(low, uncertainty, 5) +
+                     " to " + tidy(high, uncertainty, 5) + " (" + format_short(100 * confidence, 4) +
+                     " %), standard uncertainty " + format_short(uncertainty, 3);
+  if (uncertainty > 0)
+    text += ", coverage factor " + format_short(half_width() / uncertainty, 3) + ", " +
+            degrees_text(degrees()) + " degrees of freedom";
+  text += "; " + counted(runs, "run") + ", " + format_short(seconds, 2) + " s\n";
+  std::vector<TextLine> lines = {{"part", "u", "degrees", "share", "to halve it"}};
+  const bool rough = chaos && chaos->trust() == ChaosTrust::rough;
+  for (const BudgetPart& part : parts) {
+    const bool of_input = !part.halving_seconds && part.name != "tip" && part.name != "noise";
+    std::string halving = part.halving;
+    if (part.halving_seconds) halving += ", " + format_short(*part.halving_seconds, 2) + " s";
+    lines.push_back({part.name, tidy(part.uncertainty, uncertainty, 3), degrees_text(part.degrees),
+                     (rough && of_input ? "~" : "") + budget_share_text(part.share),
+                     halving + "; then ± " + format_short(part.half_width_after, 3)});
+  }
+  text += aligned(lines).substr(1) + "\n";
+  add_input_sheet(*this, text);
+  if (sample) {
+    text += "  sampling: n = " + std::to_string(sample->count);
+    if (repeats > 1) text += " specimens of " + format_short(repeats, 3) + " runs each";
+    if (sample->skewness) text += ", skewness " + format_short(*sample->skewness, 2);
+    text += "; " + sample->method + "\n";
+  }
+  if (order_observed) text += "  order of the cells, observed: " + format_short(*order_observed, 3) + "\n";
+  for (const std::string& note : notes) text += "  " + note + "\n";
+  for (const std::string& warning : warnings) text += "  warning: " + warning + "\n";
+  add_plan_text(*this, text);
+  return text;
 }
 
 }  // namespace asperity

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reliability of difference derivatives. Models that count nodes or iterate to a tolerance have steps: narrow
-// differences are 0 or far too large. The disagreement between two widths bounds the effect of noise and
-// curvature on singular values (Weyl). Only directions above this bound are determined.
+// Reliability of difference derivatives. Narrow differences of models with steps (counted nodes, iterations)
+// are 0 or far too large. The disagreement between two widths bounds the effect of noise and curvature on
+// singular values (Weyl). Only directions above this bound are determined.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -16,10 +17,10 @@ namespace {
 
 constexpr double wider = 4;                   // than the previous differences
 constexpr double widest_share = 0.25;         // of a parameter
-constexpr double first_sparing_share = 0.02;  // the same, for expensive models
-constexpr double beyond_errors = 2;           // bound of singular values, in disagreements
-constexpr double beyond_noise = 1.2;          // the same, if disagreement falls with width
-constexpr double falls_by = 0.5;              // the fall due to noise
+constexpr double first_sparing_share = 0.02;  // the same, sparing
+constexpr double beyond_errors = 2;           // singular values, in disagreements
+constexpr double beyond_noise = 1.2;          // the same, if wider agrees better
+constexpr double falls_by = 0.5;              // due to noise
 
 bool ends_there(const Error& error) {
   return error.code() == ErrorCode::bad_value || error.code() == ErrorCode::infeasible ||
@@ -44,34 +45,28 @@ void CalibrationProblem::refuse_still(const CalibrationMinimum& at) {
         if (!ends_there(error)) throw;
       }
     if (wide || still == parameters())
-      throw Error(ErrorCode::not_converged,
-                  "no row changes when " + quoted(parameters_[p].name) + " makes a step at its start " +
-                      format_short(at.place.q[p]) + (wide ? ", only when the step is wide" : ""),
-                  "write a model that does not answer in steps, begin elsewhere, or give the parameter a "
-                  "larger `step` in lab.calibrate, such as 0.2");
+      throw Error(
+          ErrorCode::not_converged,
+          "no row changes with a " + std::string(wide ? "small " : "") + "step of " +
+              quoted(parameters_[p].name) + " from its start " + format_short(at.place.q[p]),
+          "write a model without steps, begin elsewhere, or give lab.calibrate a larger `step`, such as 0.2");
   }
 }
 
 std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinimum& at) {
   const std::vector<bool> none(parameters(), false);
-  const auto observed_column = [&](const std::vector<double>& of_rows) {
-    std::vector<double> weighted(of_rows.size());
-    for (std::size_t k = 0; k < weighted.size(); ++k) weighted[k] = at.place.roots[k] * of_rows[k];
-    return observed(weighted);
-  };
   const auto disagreement = [&](const TableColumns& narrow, const TableColumns& wide) {
     double sum = 0;
     for (std::size_t p = 0; p < parameters(); ++p) {
-      const std::vector<double> of_narrow = observed_column(narrow[p]), of_wide = observed_column(wide[p]);
-      const double length = length_of(of_wide);
-      std::vector<double> apart(of_wide.size());
-      for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = of_wide[i] - of_narrow[i];
+      std::vector<double> apart = observed(at.place, wide[p]);
+      const double length = length_of(apart);
+      std::ranges::transform(apart, observed(at.place, narrow[p]), apart.begin(), std::minus());
       const double error = length_of(apart);
       if (error > 0) sum += length > 0 ? error * error / (length * length) : 1;
     }
     return std::sqrt(sum);
   };
-  // One share for all: equivalent parameters then have identical columns.
+  // One share for all: columns of equivalent parameters are then identical.
   double share = widest_share;
   for (const CalibrationParameter& of : parameters_)
     share = std::min(share, sparing_ ? std::max(of.step, first_sparing_share) : of.step);

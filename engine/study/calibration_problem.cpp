@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -20,10 +21,16 @@ namespace {
 constexpr int most_calibration_steps = 200;
 constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent plane, relative
 constexpr double near_enough_for_central = 1e-4;  // the same, for central differences
-constexpr double noise_of_model = 0.03;           // the same, accepted for noisy models
-constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
-constexpr double unseen = 1e-5;                   // singular value relative to the largest
-constexpr double smallest_share = 1e-3;           // of the largest fitted value, for relative weights
+constexpr double noise_of_model = 0.03;           // the same, noisy models
+constexpr double calibration_rounding = 1e-13;    // relative to the data
+constexpr double unseen = 1e-5;                   // relative to the largest
+constexpr double smallest_share = 1e-3;           // of the largest fit
+
+std::vector<double> products(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> all(a.size());
+  std::ranges::transform(a, b, all.begin(), std::multiplies());
+  return all;
+}
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -42,17 +49,14 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
       monitor_(monitor),
       begun_(std::chrono::steady_clock::now()),
       reported_(begun_) {
-  std::vector<double> weighted;
   for (std::size_t k = 0; k < rows.y.size(); ++k) {
     own_.push_back(rows.u.empty() ? 1 : 1 / rows.u[k]);
-    weighted.push_back(own_[k] * rows.y[k]);
     groups_.push_back({{k}, 1});
   }
-  size_ = length_of(weighted);
+  size_ = length_of(products(own_, rows.y));
 }
 
-// Counts at least the work after the present part, so that an underestimated part slows but does not stop
-// progress.
+// Counts at least the work after the present part, against stalled progress.
 void CalibrationProblem::report(std::int64_t calls) {
   const auto now = std::chrono::steady_clock::now();
   if (seconds_between(reported_, now) < 0.1) return;
@@ -65,7 +69,7 @@ void CalibrationProblem::report(std::int64_t calls) {
                              seconds_between(begun_, now));
 }
 
-// Values in order, up to a row without a value.
+// In order, up to a row without a value.
 std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<double>>& sets) {
   std::vector<CalibrationQuery> queries;
   for (const std::vector<double>& q : sets)
@@ -147,6 +151,17 @@ std::vector<double> CalibrationProblem::observed(const std::vector<double>& of_r
   return values;
 }
 
+std::vector<double> CalibrationProblem::observed(const CalibrationPlace& at,
+                                                 const std::vector<double>& of_rows) const {
+  return observed(products(at.roots, of_rows));
+}
+
+std::vector<double> CalibrationProblem::weighted_residuals(const CalibrationPlace& at) const {
+  std::vector<double> residuals(rows_.y.size());
+  std::ranges::transform(rows_.y, at.fitted, residuals.begin(), std::minus());
+  return products(at.roots, residuals);
+}
+
 void CalibrationProblem::weigh(CalibrationPlace& at, const std::vector<double>* roots) const {
   if (roots != nullptr) {
     at.roots = *roots;
@@ -160,11 +175,8 @@ void CalibrationProblem::weigh(CalibrationPlace& at, const std::vector<double>* 
         at.roots[k] /= std::max(std::abs(at.fitted[k]), smallest_share * largest);
     }
   }
-  std::vector<double> of_rows(rows_.y.size());
-  for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * (rows_.y[k] - at.fitted[k]);
-  at.residual = observed(of_rows);
-  at.sum = 0;
-  for (const double r : at.residual) at.sum += r * r;
+  at.residual = observed(weighted_residuals(at));
+  at.sum = scalar_product(at.residual, at.residual);
 }
 
 std::optional<CalibrationPlace> CalibrationProblem::place(const std::vector<double>& q,
@@ -188,10 +200,9 @@ void CalibrationProblem::refuse_place(const std::string& where) const {
 
 void CalibrationProblem::throw_no_lower(const std::vector<double>& q) const {
   throw Error(ErrorCode::not_converged,
-              "the calibration goes no lower from " + parameters_text(q) +
-                  ", which is no least sum of squares: the derivatives of the model do not hold there",
-              "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
-              "or begin elsewhere");
+              "the calibration stops at " + parameters_text(q) +
+                  ", which is no minimum: the derivatives of the model are wrong there",
+              "give a larger `step` of a parameter if the model has noise, or begin elsewhere");
 }
 
 std::string CalibrationProblem::parameters_text(const std::vector<double>& q) const {
@@ -216,7 +227,7 @@ double CalibrationProblem::inside(double value, std::size_t p) const {
   return value;
 }
 
-// df/dq_p by rows; nothing if the model has no value nearby.
+// By rows; nothing if the model has no value nearby.
 std::optional<std::vector<double>> CalibrationProblem::slopes(const CalibrationPlace& at, std::size_t p,
                                                               double step, bool central) {
   const double room_above = parameters_[p].upper ? *parameters_[p].upper - at.q[p] : step * 4,
@@ -273,9 +284,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
   TableColumns columns;
   for (std::size_t p = 0; p < parameters(); ++p) {
     if (held[p]) continue;
-    std::vector<double> of_rows(rows_.y.size());
-    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
-    std::vector<double> column = observed(of_rows);
+    std::vector<double> column = observed(at, rows_jacobian[p]);
     const double length = length_of(column);
     if (length > 0)
       for (double& value : column) value /= length;
@@ -287,8 +296,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
   found.svd = singular_values(columns);
   double sum = 0;
   for (std::size_t k = 0; k < found.svd.values.size(); ++k) {
-    double product = 0;
-    for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
+    const double product = scalar_product(found.svd.u[k], at.residual);
     found.along.push_back(product);
     // The largest always counts.
     const double least = (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0];
@@ -305,11 +313,7 @@ std::vector<bool> CalibrationProblem::pushed(const CalibrationPlace& at, const T
   std::vector<bool> all = held;
   for (std::size_t p = 0; p < parameters(); ++p) {
     if (held[p] || (!at_lower(at.q[p], p) && !at_upper(at.q[p], p))) continue;
-    std::vector<double> of_rows(rows_.y.size());
-    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
-    const std::vector<double> column = observed(of_rows);
-    double wanted = 0;
-    for (std::size_t i = 0; i < column.size(); ++i) wanted += column[i] * at.residual[i];
+    const double wanted = scalar_product(observed(at, rows_jacobian[p]), at.residual);
     if ((wanted < 0 && at_lower(at.q[p], p)) || (wanted > 0 && at_upper(at.q[p], p))) all[p] = true;
   }
   return all;
@@ -416,14 +420,14 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
       continue;
     }
     if (central && offset_within(calibration_orthogonal)) {
-      // One full step more: nearby sums differ by rounding only.
+      // A last full step: nearby sums differ by rounding only.
       if (auto last = place(stepped(found.place, at, 0), nullptr)) found.place = *std::move(last);
       return found;
     }
     if (found.iterations >= most_calibration_steps)
       throw Error(
           ErrorCode::not_converged,
-          "the calibration found no least sum of squares in " + std::to_string(most_calibration_steps) +
+          "the calibration found no minimum in " + std::to_string(most_calibration_steps) +
               " steps; it ended at " + parameters_text(found.place.q),
           "begin nearer to the answer, set `lower` and `upper` in lab.calibrate, or fit fewer parameters");
     auto next = better(found.place, at, &found.place.roots, damping);
@@ -474,9 +478,7 @@ std::optional<CalibrationPlace> CalibrationProblem::minimum_beside(const Calibra
 }
 
 double CalibrationProblem::size_of(const CalibrationPlace& at) const {
-  std::vector<double> of_rows(rows_.y.size());
-  for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_.y[k];
-  return length_of(of_rows);
+  return length_of(products(at.roots, rows_.y));
 }
 
 }  // namespace asperity

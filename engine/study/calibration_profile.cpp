@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/study/calibration_profile.hpp"
+#include "engine/study/calibration_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@ namespace asperity {
 
 namespace {
 
-constexpr double straight_enough = 0.01;  // relative to the root of the cut
-constexpr double foretold_enough = 0.3;   // relative to the predicted change
-constexpr double end_within = 0.003;      // of the root of the cut
+constexpr double straight_enough = 0.01;  // of the cut's root
+constexpr double foretold_enough = 0.3;   // of the predicted change
+constexpr double end_within = 0.003;      // of the cut's root
 constexpr double sparing_within = 0.1;    // the same, for sparing fits
 constexpr int most_places = 24;           // per end
 
@@ -21,21 +21,17 @@ struct ProfilePlace {
   std::vector<double> q;
 };
 
-// First place of a side: actual and predicted changes of the observations.
+// First place of a side: changes of the observations.
 struct FirstPlace {
   double distance = 0;
   std::vector<double> foretold, lack;  // `lack`: predicted minus actual
 };
 
-// Curvature cancels between both sides; steps and noise of the model do not.
+// Curvature cancels between both sides, unlike steps and noise.
 bool derivatives_hold(const FirstPlace& below, const FirstPlace& above) {
   const auto within = [](const std::vector<double>& lack, const std::vector<double>& foretold) {
-    double apart = 0, change = 0;
-    for (std::size_t i = 0; i < lack.size(); ++i) {
-      apart += lack[i] * lack[i];
-      change += foretold[i] * foretold[i];
-    }
-    return apart <= foretold_enough * foretold_enough * change;
+    return scalar_product(lack, lack) <=
+           foretold_enough * foretold_enough * scalar_product(foretold, foretold);
   };
   if (below.distance == above.distance && above.distance > 0) {
     std::vector<double> odd = above.lack;
@@ -148,7 +144,6 @@ class ProfileSide {
     return true;
   }
 
-  // Whether the model is linear so far.
   bool straight(const CalibrationPlace& there, double distance) {
     CalibrationPlace foretold = there;
     foretold.fitted = at_.place.fitted;
@@ -156,14 +151,12 @@ class ProfileSide {
       for (std::size_t k = 0; k < foretold.fitted.size(); ++k)
         foretold.fitted[k] += at_.rows_jacobian[i][k] * (there.q[i] - at_.place.q[i]);
     problem_.weigh(foretold, &at_.place.roots);
-    double sum = 0;
     FirstPlace seen{distance, {}, {}};
     for (std::size_t k = 0; k < foretold.residual.size(); ++k) {
-      const double d = foretold.residual[k] - there.residual[k];
-      sum += d * d;
       seen.foretold.push_back(foretold.residual[k] - at_.place.residual[k]);
-      seen.lack.push_back(d);
+      seen.lack.push_back(foretold.residual[k] - there.residual[k]);
     }
+    const double sum = scalar_product(seen.lack, seen.lack);
     if (first_.distance == 0) first_ = std::move(seen);
     return sum <= straight_enough * straight_enough * cut_;
   }

@@ -14,10 +14,6 @@ namespace asperity {
 
 namespace {
 
-std::string counted_as(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 std::string padded(std::string text, std::size_t width) {
   const std::size_t length = characters_of(text);
   return length < width ? text + std::string(width - length, ' ') : text;
@@ -25,11 +21,17 @@ std::string padded(std::string text, std::size_t width) {
 
 std::string percent(double share) { return format_short(100 * share, 4) + " %"; }
 
-std::string limits(const std::optional<double>& low, const std::optional<double>& high, Dimension dimension) {
-  const auto text = [&](const std::optional<double>& value) {
-    return value ? format_quantity(*value, dimension) : std::string("open");
-  };
-  return text(low) + " to " + text(high);
+std::string parameter_text(const CalibrationReport& report, std::size_t p, const std::optional<double>& value,
+                           int digits = 4) {
+  if (!value) return "open";
+  if (report.units.empty()) return format_quantity(*value, report.dimensions[p], digits);
+  const std::string& unit = report.units[p];
+  return format_short(in_unit(*value, unit), digits) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string limits(const CalibrationReport& report, std::size_t p, const std::optional<double>& low,
+                   const std::optional<double>& high) {
+  return parameter_text(report, p, low) + " to " + parameter_text(report, p, high);
 }
 
 std::string scatter_text(const CalibrationReport& report) {
@@ -40,14 +42,14 @@ std::string scatter_text(const CalibrationReport& report) {
   if (report.scatter == CalibrationScatter::relative) return of + percent(found.residual_deviation);
   const auto column = report.rows.find_column(report.y);
   const std::string unit = column ? report.rows.columns()[*column].unit : "";
-  return of + format_short(found.residual_deviation, 4) + (unit.empty() ? "" : " " + unit);
+  return of + format_short(in_unit(found.residual_deviation, unit), 4) + (unit.empty() ? "" : " " + unit);
 }
 
 struct Sampled {
   std::vector<double> x, y;
 };
 
-// The root of the excess is nearly linear between places and changes sign at the estimate.
+// Interpolates the root of the excess: nearly linear, with a sign change at the estimate.
 Sampled sampled_profile(const std::vector<ProfilePoint>& points) {
   Sampled found;
   const auto least = std::ranges::min_element(points, {}, &ProfilePoint::excess);
@@ -105,34 +107,33 @@ std::string calibration_text(const CalibrationReport& report) {
   const Calibration& found = report.found;
   std::string text =
       (report.curve ? "fit of " + report.y + " against " + report.curve->x : "calibration of " + report.y) +
-      " over " + counted_as(report.numbers.size(), "row", "rows");
+      " over " + counted(report.numbers.size(), "row");
   if (report.left_out > 0) text += " (" + std::to_string(report.left_out) + " more without numbers)";
-  if (!found.specimens.empty()) text += " of " + counted_as(found.specimens.size(), "specimen", "specimens");
-  text += ", " + counted_as(found.degrees, "degree", "degrees") + " of freedom";
+  if (!found.specimens.empty()) text += " of " + counted(found.specimens.size(), "specimen");
+  text += ", " + counted(found.degrees, "degree") + " of freedom";
   if (const std::string scatter = scatter_text(report); !scatter.empty()) text += "; " + scatter;
   std::size_t width = 9;
   for (const CalibratedParameter& of : found.parameters) width = std::max(width, characters_of(of.name));
   const std::string share = percent(found.confidence);
   const bool profiles = std::ranges::any_of(
       found.parameters, [](const CalibratedParameter& of) { return !of.profile.empty(); });
-  text += "\n  " + padded("", width) + "  " + padded("estimate", 12) + padded("u", 12) +
+  text += "\n  " + padded("", width) + "  " + padded("estimate", 13) + padded("u", 13) +
           (profiles ? padded(share + " linearised", 28) + share + " by profile" : share + " linearised");
   for (std::size_t p = 0; p < found.parameters.size(); ++p) {
     const CalibratedParameter& of = found.parameters[p];
-    const Dimension dimension = report.dimensions[p];
     std::string line = "\n  " + padded(of.name, width) + "  ";
     if (!of.value) {
       text += line + "not identifiable";
       continue;
     }
-    line += padded(format_quantity(*of.value, dimension), 12);
-    line += padded(of.standard_error ? format_quantity(*of.standard_error, dimension, 2) : "", 12);
-    line += padded(of.low        ? limits(of.low, of.high, dimension)
+    line += padded(parameter_text(report, p, of.value), 12) + " ";
+    line += padded(of.standard_error ? parameter_text(report, p, of.standard_error, 2) : "", 12) + " ";
+    line += padded(of.low        ? limits(report, p, of.low, of.high)
                    : of.at_lower ? "at its lower bound"
                    : of.at_upper ? "at its upper bound"
                                  : "",
                    28);
-    if (!of.profile.empty()) line += limits(of.profile_low, of.profile_high, dimension);
+    if (!of.profile.empty()) line += limits(report, p, of.profile_low, of.profile_high);
     while (line.ends_with(' ')) line.pop_back();
     text += line;
   }
@@ -204,6 +205,11 @@ LineChart calibration_chart(const CalibrationReport& report, const std::optional
     fit.y_high.push_back(*found.fitted_high[k]);
   }
   chart.series = {std::move(fit), std::move(measured)};
+  for (ChartSeries& series : chart.series) {
+    for (double& value : series.x) value = in_unit(value, chart.x.unit);
+    for (auto* values : {&series.y, &series.y_low, &series.y_high})
+      for (double& value : *values) value = in_unit(value, chart.y.unit);
+  }
   return chart;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text and charts of a calibration of a table column. Charts do not call the model.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +10,7 @@
 #include "engine/plot/chart.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/statistics/table.hpp"
-#include "engine/study/calibration.hpp"
+#include "engine/study/calibrate.hpp"
 
 namespace asperity {
 
@@ -22,6 +21,7 @@ struct CalibrationReport {
   std::size_t left_out = 0;          // rows without numbers
   std::string y;
   std::vector<Dimension> dimensions;
+  std::vector<std::string> units = {};  // of a line's parameters; else by dimension
   CalibrationScatter scatter = CalibrationScatter::absolute;
   bool known_uncertainty = false;  // rows are weighted by `u`
   // For a curve through two columns.
@@ -33,8 +33,8 @@ std::string calibration_text(const CalibrationReport& report);
 // Without the number of calls.
 std::string calibration_digest(const CalibrationReport& report);
 
-// Measured y, fit and band against a column, or against the fitted values. Rows that depend on other columns
-// are points with bars. Throws Error{unknown_name} for a missing column, Error{bad_value} for text.
+// Measured y, fit and band against a column, or against fitted values. Points with bars if rows depend on
+// other columns. Throws Error{unknown_name} for a missing column, Error{bad_value} for text.
 LineChart calibration_chart(const CalibrationReport& report, const std::optional<std::string>& x);
 // (S - S_min)/s² against each parameter, with the cut. Throws Error{bad_value} without any profile.
 std::vector<LineChart> likelihood_charts(const CalibrationReport& report);

@@ -15,19 +15,19 @@ namespace asperity {
 namespace {
 
 constexpr int most_sparing_steps = 60;
-constexpr double first_step = 0.02;        // first differences, relative to the parameter
+constexpr double first_step = 0.02;        // relative, of first differences
 constexpr double widest_step = 0.1;        // later differences, relative
-constexpr double moves_by = 1;             // scatters: move of the observations
-constexpr double above_noise = 20;         // model noises: minimum move
+constexpr double moves_by = 1;             // move in scatters
+constexpr double above_noise = 20;         // least move, in noises
 constexpr double little_to_go = 0.003;     // standard errors: converged
 constexpr double end_is_near = 0.3;        // standard errors: derivatives stay valid
 constexpr double foretold_within = 0.1;    // standard errors: predict the last step
-constexpr double foretold_gains = 15;      // in units of `gain`: predicted reductions up to this need no call
+constexpr double foretold_gains = 15;      // in `gain`: smaller reductions need no call
 constexpr double full_steps_within = 1;    // standard errors: do not compare sums
 constexpr double hidden_within = 3;        // standard errors: noise may hide the minimum
-constexpr double comes_nearer_by = 0.5;    // offset ratio after a step: continue below
+constexpr double comes_nearer_by = 0.5;    // least fall of the offset
 constexpr double noise_is_seen = 0.1;      // standard errors: short steps show noise
-constexpr double noise_tells = 0.1;        // standard errors: noise up to this is not reported
+constexpr double noise_tells = 0.1;        // standard errors: less is not reported
 constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
 
 }  // namespace
@@ -52,9 +52,7 @@ std::vector<double> CalibrationProblem::sparing_steps(const CalibrationPlace& at
       steps.push_back(std::max(least, first_step * scales[p]));
       continue;
     }
-    std::vector<double> of_rows(rows_.y.size());
-    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
-    const double length = length_of(observed(of_rows)),
+    const double length = length_of(observed(at, rows_jacobian[p])),
                  wanted = std::max(moves_by * scatter,
                                    above_noise * noise_ * std::sqrt(static_cast<double>(groups_.size())));
     const double widest = std::max(least, widest_step * scales[p]);
@@ -69,7 +67,7 @@ double CalibrationProblem::sparing_unseen() const {
   return std::clamp(2 * noise_ * std::sqrt(static_cast<double>(groups_.size())) / differences_, least, most);
 }
 
-// One batch. If the model has no value, retries with smaller steps.
+// One batch; smaller steps where the model has no value.
 TableColumns CalibrationProblem::sparing_jacobian(const CalibrationPlace& at,
                                                   const std::vector<double>& steps,
                                                   const std::vector<bool>& held) {
@@ -130,7 +128,7 @@ void CalibrationProblem::correct(TableColumns& rows_jacobian, const CalibrationP
   }
 }
 
-// For a short step, the difference between actual and predicted change is model noise.
+// For a short step, actual minus predicted change is model noise.
 void CalibrationProblem::see_noise(const CalibrationMinimum& from, const CalibrationTangent& tangent,
                                    const CalibrationPlace& to, double scatter) {
   if (!(tangent.offset <= noise_is_seen * scatter)) return;
@@ -157,7 +155,6 @@ CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& fr
   return there;
 }
 
-// A failed step corrects the derivatives for the next one.
 std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& from, double& damping,
                                                           int& tries) {
   for (tries = 1; tries <= 6; ++tries) {
@@ -194,7 +191,7 @@ bool CalibrationProblem::take_first_derivatives(CalibrationMinimum& found, const
 }
 
 bool CalibrationProblem::full_step(CalibrationMinimum& found, const CalibrationTangent& at, double scatter) {
-  // So near the end the noise of the model hides which sum is lower; the offset it moves far less.
+  // Here noise hides the lower sum but hardly moves the offset.
   auto last = place(stepped(found.place, at, 0), nullptr);
   if (!last) {
     found.noisy = at.offset > noise_tells * scatter;
@@ -248,17 +245,16 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(CalibrationMinimum found,
     }
     if (found.iterations >= most_sparing_steps)
       throw Error(ErrorCode::not_converged,
-                  "the calibration found no least sum of squares in " + std::to_string(most_sparing_steps) +
+                  "the calibration found no minimum in " + std::to_string(most_sparing_steps) +
                       " steps; it ended at " + parameters_text(found.place.q),
                   "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
     if (fresh && at.offset <= foretold_within * scatter) {
-      // The step is not worth a model call.
+      // Not worth a model call.
       found.place = foretold_place(found, stepped(found.place, at, 0));
       found.noisy = noise > noise_tells * scatter;
       return found;
     }
     if (fresh && at.offset <= full_steps_within * scatter) {
-      // Near the minimum, noise hides the smaller sum but hardly changes the offset.
       if (full_step(found, at, scatter)) continue;
       return found;
     }

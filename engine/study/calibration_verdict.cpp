@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/study/calibration_verdict.hpp"
+#include "engine/study/calibration_problem.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,9 +17,9 @@ namespace asperity {
 namespace {
 
 constexpr double main_part = 0.01;     // component of an undetermined direction
-constexpr double seen_by_law = 1e-5;   // singular value relative to the largest, without noise
+constexpr double seen_by_law = 1e-5;   // relative, without noise
 constexpr double weak_part = 0.3;      // component of the weakest direction
-constexpr double weak_condition = 10;  // above, parameters may be hardly separable
+constexpr double weak_condition = 10;  // above: hardly separable
 constexpr double level_of_residuals = 0.05;
 constexpr int digits = 4;
 
@@ -39,7 +38,7 @@ double choose(int n, int k) {
 }
 
 struct RunsTest {
-  double p_value = 1;  // of so few runs of one sign
+  double p_value = 1;  // of so few runs
   int runs = 0;
   double expected = 0;
 };
@@ -82,9 +81,6 @@ struct NeighbourTest {
 NeighbourTest neighbour_test(const std::vector<double>& residual, const CalibrationTangent& tangent) {
   const std::size_t n = residual.size(), p = tangent.rank;
   if (n < p + 6) return {};
-  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  };
   const auto neighbours = [](const std::vector<double>& a) {
     std::vector<double> sum(a.size());
     for (std::size_t k = 0; k + 1 < a.size(); ++k) sum[k] += a[k + 1] / 2, sum[k + 1] += a[k] / 2;
@@ -94,15 +90,15 @@ NeighbourTest neighbour_test(const std::vector<double>& residual, const Calibrat
   double trace = 0, square = static_cast<double>(n - 1) / 2;  // of M A and its square
   for (std::size_t i = 0; i < p; ++i) {
     const std::vector<double> near = neighbours(tangent.svd.u[i]);
-    trace -= product(tangent.svd.u[i], near);
-    square -= 2 * product(near, near);
+    trace -= scalar_product(tangent.svd.u[i], near);
+    square -= 2 * scalar_product(near, near);
     for (std::size_t j = 0; j < p; ++j) {
-      const double both = product(tangent.svd.u[j], near);
+      const double both = scalar_product(tangent.svd.u[j], near);
       square += both * both;
     }
   }
   const double mean = trace / degrees, variance = 2 * (square - trace * mean) / (degrees * (degrees + 2)),
-               lag = product(residual, neighbours(residual)) / product(residual, residual);
+               lag = scalar_product(residual, neighbours(residual)) / scalar_product(residual, residual);
   if (!(variance > 0)) return {};
   const double z = (lag - mean) / std::sqrt(variance);
   return {z > 0 ? (1 - f_cdf(z * z, 1, 1e9)) / 2 : 1, lag};
@@ -167,13 +163,13 @@ class VerdictWords {
     return number(value) + " (" + number(value - reach) + " to " + number(value + reach) + ")";
   }
 
-  // Whether `q` leaves all observations unchanged, relative to each change alone.
+  // Relative to each change alone.
   bool unchanged(const std::vector<double>& q) {
     for (std::size_t p = 0; p < q.size(); ++p)
       if (f_.problem.inside(q[p], p) != q[p]) return false;
     const auto there = f_.problem.place(q, &f_.at.place.roots);
     if (!there) return false;
-    // The end of a sparing fit may be predicted only.
+    // A sparing fit may end by prediction.
     if (!computed_ && f_.problem.sparing()) computed_ = f_.problem.place(f_.at.place.q, &f_.at.place.roots);
     const CalibrationPlace& here = computed_ ? *computed_ : f_.at.place;
     double change = 0, alone = 0;
@@ -188,16 +184,16 @@ class VerdictWords {
     return std::sqrt(change) <= (f_.problem.sparing() ? 1e-2 : 1e-3) * alone;
   }
 
-  // The combination that stays constant along (`da`, `db`).
+  // Constant along (`da`, `db`).
   std::string combination(std::size_t a, std::size_t b, double da, double db) {
     const std::vector<double>& q = f_.at.place.q;
     const auto scale = [&](std::size_t p) { return f_.at.scales[p]; };
-    const double factor = -da / db;  // of b relative to a
+    const double factor = -da / db;  // of b, for a
     std::string text = name(a) + signed_term(factor, name(b));
     text += " = " + with_interval(q[a] + factor * q[b], {{a, 1.0}, {b, factor}});
     const double together =
         q[a] != 0 && q[b] != 0 ? da / q[a] * q[b] / db : 0;  // -1 for a product, 1 for a ratio
-    // Rough derivatives give the sign only; the model itself proves the statement.
+    // Rough derivatives give the sign only; the model is the proof.
     const bool rough = f_.at.hidden > 1e-2;
     const bool like_ratio = rough ? together > 0 : std::abs(together - 1) < 1e-2,
                like_product = rough ? together < 0 : std::abs(together + 1) < 1e-2;
@@ -208,7 +204,7 @@ class VerdictWords {
       there[b] *= by_b;
       return there;
     };
-    // Along a ratio, parameters fall to 0 on a straight line, which a sum cannot distinguish.
+    // Along a ratio both fall to 0 on a straight line, as along a sum.
     if (like_ratio && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
       return "the ratio " + name(a) + "/" + name(b) + " = " +
              with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of({a, b});
@@ -269,8 +265,8 @@ class VerdictWords {
     }
     if (hidden)
       sentences_.push_back(
-          "steps or noise of the model hide what more these rows may tell: let it be computed to a closer "
-          "tolerance or on more cells");
+          "steps or noise of the model hide further information: compute it with a smaller tolerance or more "
+          "cells");
   }
 
   void tell_hardly_apart() {
@@ -286,7 +282,7 @@ class VerdictWords {
     if (parts.size() < 2) return;
     doubt_ = true;
     std::string sentence =
-        "the rows hardly tell " + names(parts) + " apart, and their intervals reach beyond 0";
+        "the rows hardly separate " + names(parts) + ", and their intervals reach beyond 0";
     if (parts.size() == 2) {
       const std::size_t a = parts[0], b = parts[1];
       const double factor = -f_.covariance[a][b] / f_.covariance[b][b];
@@ -294,8 +290,8 @@ class VerdictWords {
           name(a) + signed_term(factor, name(b)) + " = " +
           with_interval(f_.at.place.q[a] + factor * f_.at.place.q[b], {{a, 1.0}, {b, factor}}) +
           units_of({a, b}));
-      sentence += " (correlation " + number(of_.correlation[a][b].value_or(0)) +
-                  "): what they know best is " + of_.combinations.back();
+      sentence += " (correlation " + number(of_.correlation[a][b].value_or(0)) + "): best known is " +
+                  of_.combinations.back();
     }
     sentences_.push_back(sentence + "; " + advice(parts));
   }
@@ -306,8 +302,8 @@ class VerdictWords {
       doubt_ = true;
       const bool lower = of_.parameters[p].at_lower;
       const CalibrationParameter& given = f_.problem.parameter(p);
-      sentences_.push_back(name(p) + " stands at its " + (lower ? "lower" : "upper") + " bound " +
-                           with_unit(lower ? *given.lower : *given.upper, p) + ": the rows ask for " +
+      sentences_.push_back(name(p) + " is at its " + (lower ? "lower" : "upper") + " bound " +
+                           with_unit(lower ? *given.lower : *given.upper, p) + ": the rows fit better with " +
                            (lower ? "less" : "more"));
     }
     for (std::size_t p = 0; p < of_.parameters.size(); ++p) tell_moved(p);
@@ -359,8 +355,7 @@ class VerdictWords {
       if (of_.specimen_scatter && f_.options.basis == CalibrationBasis::automatic)
         sentence = "specimens scatter more than their repeats (" + of_test(*of_.specimen_scatter) + "): ";
       sentences_.push_back(sentence + "intervals rest on the means of " + std::to_string(count) +
-                           " specimens, with " + std::to_string(of_.degrees) +
-                           (of_.degrees == 1 ? " degree" : " degrees") + " of freedom");
+                           " specimens, with " + counted(of_.degrees, "degree") + " of freedom");
     } else if (of_.specimen_scatter) {
       const bool seen = of_.specimen_scatter->p_value < 0.05;
       sentences_.push_back((seen ? "specimens scatter more than their repeats ("
@@ -377,9 +372,9 @@ class VerdictWords {
     }
     const std::size_t parameters = of_.parameters.size();
     if (of_.specimen_scatter && !of_.by_specimens && count < parameters + 4)
-      of_.warnings.push_back("with " + std::to_string(count) +
-                             " specimens a scatter between them as large as that of repeats can go unseen, "
-                             "and intervals are then too narrow; six or more would show it");
+      of_.warnings.push_back(std::to_string(count) +
+                             " specimens can hide a scatter between them as large as that of repeats, and "
+                             "intervals are then too narrow; measure six or more");
   }
 
   void tell_faces() {
@@ -409,12 +404,11 @@ class VerdictWords {
   void tell_warnings() {
     if (f_.at.noisy)
       of_.warnings.push_back(
-          "the fit ended where the noise of the model hides the least sum of squares: let the model be "
-          "computed to a closer tolerance, or give `step` of the parameters a larger share");
+          "the fit ended in the noise of the model: compute the model with a smaller tolerance, or give the "
+          "parameters a larger `step`");
     if (f_.begun_again > 0)
-      of_.warnings.push_back("the sum of squares has more than one least place; the fit was begun again " +
-                             std::to_string(f_.begun_again) + (f_.begun_again == 1 ? " time" : " times") +
-                             " from a lower one");
+      of_.warnings.push_back("the sum of squares has more than one minimum; the fit began again " +
+                             counted(static_cast<std::size_t>(f_.begun_again), "time") + " from a lower one");
     for (const CalibratedParameter& of : of_.parameters) {
       if (!of.low || !of.profile_low || !of.profile_high) continue;
       const double reach = (*of.high - *of.low) / 2;
@@ -428,14 +422,13 @@ class VerdictWords {
     tell_residuals();
     const bool known = !f_.problem.rows().u.empty() && !f_.options.relative_u && !of_.by_specimens;
     if (!known || of_.degrees == 0) return;
-    // S over its degrees is 1 if `u` is right.
+    // S over its degrees is 1 for a correct `u`.
     const double share = f_cdf(f_.scatter, static_cast<double>(of_.degrees), 1e9);
     if (share > 0.99 || share < 0.01)
       of_.warnings.push_back("the rows scatter " + format_short(std::sqrt(f_.scatter), 3) +
                              " times as far as `u` says; intervals rest on `u`");
   }
 
-  // Residuals should be independent of x, of neighbours and of copies.
   void tell_residuals() {
     const std::vector<double>& r = f_.at.place.residual;
     const CalibrationRows& rows = f_.problem.rows();
@@ -452,10 +445,10 @@ class VerdictWords {
     for (std::size_t i = 0; i < r.size(); ++i)
       along.push_back({f_.problem.observed_mean(rows.x.empty() ? f_.at.place.fitted : rows.x, i), r[i]});
     if (const auto [p_value, runs, expected] = runs_test(std::move(along)); p_value < level_of_residuals)
-      of_.warnings.push_back("residuals keep their sign along " +
-                             std::string(rows.x.empty() ? "the fit" : "x") + ": " + std::to_string(runs) +
-                             " runs, " + number(expected) + " expected (p = " + format_short(p_value, 2) +
-                             "); the rows bend unlike the model, or share errors, and intervals do not hold");
+      of_.warnings.push_back(
+          "residuals keep their sign along " + std::string(rows.x.empty() ? "the fit" : "x") + ": " +
+          std::to_string(runs) + " runs, " + number(expected) + " expected (p = " + format_short(p_value, 2) +
+          "); the model has another shape, or rows share errors, and intervals are unreliable");
     if (!of_.specimens.empty() && !of_.by_specimens) return;
     if (const auto [p_value, lag] = neighbour_test(r, f_.tangent); p_value < level_of_residuals)
       of_.warnings.push_back(

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
@@ -25,13 +24,12 @@ void check_points(const CalibrationRows& rows, std::size_t parameters, const Cal
            "give as many of one as of the other");
   for (std::size_t k = 0; k < rows.x.size(); ++k)
     if (!std::isfinite(rows.x[k]))
-      throw Error(ErrorCode::bad_value, "x of point " + std::to_string(k + 1) + " of the fit is not finite");
+      refuse("x of point " + std::to_string(k + 1) + " of the fit is not finite");
   const std::size_t least = parameters + (rows.u.empty() || options.relative_u ? 1 : 0);
   if (rows.x.size() < least)
     refuse(
-        std::to_string(parameters) + (parameters == 1 ? " parameter" : " parameters") +
-            " cannot be fitted with intervals to " + std::to_string(rows.x.size()) +
-            (rows.x.size() == 1 ? " point" : " points"),
+        counted(parameters, "parameter") + " cannot be fitted with intervals to " +
+            counted(rows.x.size(), "point"),
         "give at least " + std::to_string(least) + " rows with numbers in all columns and a weight above 0");
 }
 
@@ -39,7 +37,7 @@ double weight_of(const CalibrationRows& rows, std::size_t k) {
   return rows.u.empty() ? 1 : 1 / (rows.u[k] * rows.u[k]);
 }
 
-// Weighted least squares: y at the mean of x, slope, mean of x.
+// Weighted: y at the mean of x, slope, mean of x.
 std::array<double, 3> straight_line(const CalibrationRows& rows) {
   double weight = 0, x0 = 0, y0 = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < rows.x.size(); ++k) {
@@ -75,7 +73,7 @@ std::vector<CurvePoint> curve_of(const Calibration& found, const CurveModel& mod
   for (const CalibratedParameter& of : found.parameters) q.push_back(*of.value);
   std::vector<CurvePoint> curve;
   for (const double x : places_of_curve(low, high)) {
-    std::vector<double> effect;  // per standard error of a parameter
+    std::vector<double> effect;  // per standard error
     for (std::size_t p = 0; p < q.size(); ++p) {
       const double u = found.parameters[p].standard_error.value_or(0);
       std::vector<double> above = q, below = q;
@@ -93,7 +91,7 @@ std::vector<CurvePoint> curve_of(const Calibration& found, const CurveModel& mod
   return curve;
 }
 
-// Replaces the fitted parameters by T q.
+// Parameters become T q.
 void express(Calibration& found, const std::array<std::array<double, 2>, 2>& t,
              const std::array<double, 2>& values) {
   double covariance[2][2] = {};
@@ -120,16 +118,20 @@ void express(Calibration& found, const std::array<std::array<double, 2>, 2>& t,
 }  // namespace
 
 CurveFit fit_model(const CalibrationRows& rows, const CurveModel& model,
-                   std::vector<CalibrationParameter> parameters, const CalibrationOptions& options) {
+                   std::vector<CalibrationParameter> parameters, const CalibrationOptions& options,
+                   const RowModel& in_row) {
   check_points(rows, parameters.size(), options);
   for (CalibrationParameter& of : parameters) of.step = difference_step;
   CurveFit fit;
   fit.found = calibrate(
-      rows, [&](std::span<const double> q, std::size_t row) { return model(rows.x[row], q); }, parameters,
-      options);
+      rows,
+      [&](std::span<const double> q, std::size_t row) {
+        return in_row ? in_row(row, q) : model(rows.x[row], q);
+      },
+      parameters, options);
   if (!fit.found.identifiable || !std::ranges::all_of(fit.found.parameters, &CalibratedParameter::determined))
-    throw Error(ErrorCode::infeasible, "the points do not determine every parameter: " + fit.found.verdict,
-                "write the model with fewer parameters; lab.calibrate gives what is determined");
+    refuse_infeasible("the points do not determine every parameter: " + fit.found.verdict,
+                      "write the model with fewer parameters; lab.calibrate shows the determined ones");
   const double centre = straight_line(rows)[0];
   double total = 0, left = 0;
   for (std::size_t k = 0; k < rows.y.size(); ++k) {
@@ -154,9 +156,8 @@ CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options
     largest = std::max(largest, std::abs(x));
   }
   if (!(spread > 16 * std::numeric_limits<double>::epsilon() * largest))
-    throw Error(
-        ErrorCode::infeasible,
-        "the points do not tell `intercept` and `slope` apart: x is " + format_short(x0) + " in all of them",
+    refuse_infeasible(
+        "the points cannot separate `intercept` and `slope`: x is " + format_short(x0) + " in all of them",
         "measure at two or more values of x");
   CalibrationOptions straight = options;
   straight.profile = false;  // linearised is exact here
@@ -183,10 +184,10 @@ CurveFit fit_power(const CalibrationRows& rows, const CalibrationOptions& option
   const bool negative = logs[1].x.size() > logs[0].x.size();
   const CalibrationRows& used = logs[negative ? 1 : 0];
   if (used.x.size() < 2 || std::ranges::min(used.x) == std::ranges::max(used.x))
-    throw Error(ErrorCode::infeasible,
-                "the points do not determine `a` and `b` of y = a x^b: fewer than two of different x have x "
-                "above 0 and y of one sign",
-                "measure at more values of x");
+    refuse_infeasible(
+        "the points do not determine `a` and `b` of y = a x^b: fewer than two of different x have x "
+        "above 0 and y of one sign",
+        "measure at more values of x");
   const auto [height, slope, log_x0] = straight_line(used);
   const double x0 = elementary::exp(log_x0);
   CalibrationOptions linearised = options;

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fit of y = f(x, q) to measured points (calibration.hpp), for a line, a power law or any function, with a
-// pointwise interval. Lines and power laws are fitted about the middle of the points, where their parameters
-// are nearly independent. Undetermined parameters are an error. x is exact.
+// Fit of y = f(x, q) to points (calibrate.hpp), for a line, a power law or any function, with a pointwise
+// interval; x is exact. Lines and power laws are fitted about the middle of the points, where their
+// parameters are nearly independent.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/run/notebook_chart.hpp"
-#include "engine/study/calibration.hpp"
+#include "engine/study/calibrate.hpp"
 
 namespace asperity {
 
 // NaN outside its domain.
 using CurveModel = std::function<double(double x, std::span<const double> parameters)>;
+// With further columns: value in a row of points.
+using RowModel = std::function<double(std::size_t row, std::span<const double> parameters)>;
 
 struct CurveFit {
   Calibration found;
@@ -31,6 +34,7 @@ CurveFit fit_line(const CalibrationRows& rows, const CalibrationOptions& options
 // Error{infeasible} for fewer than two usable x.
 CurveFit fit_power(const CalibrationRows& rows, const CalibrationOptions& options = {});
 CurveFit fit_model(const CalibrationRows& rows, const CurveModel& model,
-                   std::vector<CalibrationParameter> parameters, const CalibrationOptions& options = {});
+                   std::vector<CalibrationParameter> parameters, const CalibrationOptions& options = {},
+                   const RowModel& in_row = nullptr);
 
 }  // namespace asperity

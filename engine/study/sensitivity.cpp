@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "engine/core/text.hpp"
-#include "engine/study/study_text.hpp"
 
 namespace asperity {
 
@@ -96,7 +95,7 @@ std::string Sensitivity::text() const {
       said += (k == 1 ? "; as much by " : ", ") + chaos.inputs[order[k]].name;
     said += "\n";
   } else {
-    said += "  the answer does not hang on these inputs\n";
+    said += "  the answer does not depend on these inputs\n";
   }
   said += "  " + chaos.text() + "\n";
   if (chaos.inputs.size() > 1)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sensitivity of a model answer to independent uncertain inputs: variance shares by polynomial chaos, with
-// runs doubled until the leave-one-out error is below 5 %. The input with the largest total share deserves
-// the next measurement.
+// runs doubled until the leave-one-out error is below 5 %.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +30,7 @@ struct ChaosOfRuns {
 
 // Answers in order; may run in parallel.
 using InputBatch = std::function<std::vector<double>(std::span<const std::vector<double>>)>;
-// Number of new runs, before the first and at each doubling.
+// New runs, initially and at each doubling.
 using RunsToCome = std::function<void(std::size_t)>;
 
 // Throws errors of polynomial_chaos and of `ask`. Never repeats a run.
@@ -41,9 +40,9 @@ ChaosOfRuns chaos_of_batches(const ChaosRequest& request, const InputBatch& ask,
 struct Sensitivity {
   PolynomialChaos chaos;
   double deviation = 0;                // standard deviation of the answer
-  std::vector<std::size_t> order;      // inputs by reduction of the deviation
-  std::size_t tied = 0;                // leading inputs of equal reduction
-  std::vector<double> deviation_when;  // about, with one uncertainty halved
+  std::vector<std::size_t> order;      // by reduction of deviation
+  std::size_t tied = 0;                // leading, of equal reduction
+  std::vector<double> deviation_when;  // about, for half the uncertainty
 
   std::string text() const;
 };

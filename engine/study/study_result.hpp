@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Result of a work-precision study: answer, error and run time of each setting. An error can be small by
-// accident, where it changes sign along a way. The held error, the largest error of a setting and every finer
-// measured setting of its way, excludes such accidents. Only held errors are compared with bounds.
+// accident, where it changes sign along a way. Only held errors are compared with bounds: the largest error
+// of a setting and every finer measured setting of its way.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,9 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/files/json.hpp"
+#include "engine/plot/chart.hpp"
+#include "engine/statistics/table.hpp"
 #include "engine/study/study_setting.hpp"
 
 namespace asperity {
@@ -33,21 +36,21 @@ struct StudyRow {
   std::size_t way = 0;
   std::size_t setting = 0;
   End end = End::left_out;
-  std::string reason;  // of a failure or omission; or a remark
+  std::string reason;  // of failure or omission; remark
 
   double value = none;
   double absolute_error = none;  // |value - truth|
-  double error = none;           // absolute_error / |truth|; absolute if the truth is 0
+  double error = none;           // relative; absolute if the truth is 0
   double held_error = none;
-  int confirmed = 0;    // number of finer settings with errors
-  bool steady = true;   // all runs gave the same bits
-  bool pareto = false;  // nothing is both faster and more accurate
+  int confirmed = 0;    // finer settings with errors
+  bool steady = true;   // the same bits always
+  bool pareto = false;  // on the Pareto front
 
-  double seconds = none;  // median of timed runs, or the first run
+  double seconds = none;  // median, or the first run
   double seconds_low = none;
   double seconds_high = none;
   double first_seconds = none;             // may include set-up of caches
-  std::optional<double> expected_seconds;  // per run, if left out
+  std::optional<double> expected_seconds;  // per run left out
   std::vector<double> runs;                // timed, in order
 };
 
@@ -68,11 +71,11 @@ struct StudyResult {
   bool is_truth(const StudyRow& row) const;
   // Errors are absolute if the truth is 0.
   bool relative() const { return !truth || *truth != 0; }
-  // Time outside the studied function over time inside.
+  // Time outside the function over time inside.
   double overhead() const;
 };
 
-// Computes errors, median times and the Pareto front. O(rows²).
+// Errors, median times and Pareto front. O(rows²).
 void conclude(StudyResult& result);
 
 // Smallest held error; null without errors.
@@ -83,7 +86,32 @@ const StudyRow* best_held(const StudyResult& result);
 // error; Error{bad_value} unless 0 < `error` < ∞.
 const StudyRow& cheapest(const StudyResult& result, double error);
 
-// Other rows within `error` whose time ranges overlap with `chosen`; without repeated answers.
+// Other rows within `error` with overlapping time ranges; without repeated answers.
 std::vector<const StudyRow*> tied_with(const StudyResult& result, const StudyRow& chosen, double error);
+
+// "1.2 %", "1234 %".
+std::string share_text(double share);
+// "1.2 %" (relative) or "1.2e-07".
+std::string error_text(double error, bool relative);
+// "12.3 ms", "4.2 s", "3 min 20 s", "2 h 5 min".
+std::string seconds_text(double seconds);
+
+// No final line end.
+std::string study_text(const StudyResult& result);
+
+// Columns: way, knobs, value, error and so on; SI.
+Table study_table(const StudyResult& result);
+
+Json to_json(const Knobs& knobs);
+Json to_json(const StudyRequest& request);
+// The result without times.
+Json answers_json(const StudyResult& result);
+
+// Error against run time, logarithmic, one line per way. Bars span fastest and slowest run; rings mark the
+// Pareto front, crosses failed settings, triangles omitted settings at their expected time, diamonds answers
+// identical to the truth.
+
+// Throws Error{bad_value} without errors.
+LineChart study_chart(const StudyResult& result, const std::string& title);
 
 }  // namespace asperity

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
@@ -37,9 +36,8 @@ bool is_name(std::string_view text) {
       "local", "nil",   "not", "or",   "repeat", "while", "then",  "return", "true", "until", "function"};
   if (text.empty() || letters.find(text[0]) == std::string_view::npos) return false;
   if (std::find(std::begin(words), std::end(words), text) != std::end(words)) return false;
-  return std::all_of(text.begin(), text.end(), [&](char c) {
-    return letters.find(c) != std::string_view::npos || (c >= '0' && c <= '9');
-  });
+  return std::ranges::all_of(
+      text, [&](char c) { return letters.find(c) != std::string_view::npos || (c >= '0' && c <= '9'); });
 }
 
 }  // namespace
@@ -85,15 +83,14 @@ const std::vector<std::string>& row_fields() {
 }
 
 StudyWay make_way(std::string name, std::vector<KnobSweep> knobs) {
-  std::sort(knobs.begin(), knobs.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::ranges::sort(knobs, [](const auto& a, const auto& b) { return a.name < b.name; });
   const KnobSweep* first = nullptr;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const KnobSweep& knob = knobs[k];
     if (k > 0 && knobs[k - 1].name == knob.name)
-      throw Error(ErrorCode::bad_value, "the way " + quoted(name) + " gives " + quoted(knob.name) + " twice");
-    if (knob.name.empty())
-      throw Error(ErrorCode::bad_value, "the way " + quoted(name) + " has a knob with an empty name");
-    if (std::find(row_fields().begin(), row_fields().end(), knob.name) != row_fields().end())
+      refuse("the way " + quoted(name) + " gives " + quoted(knob.name) + " twice");
+    if (knob.name.empty()) refuse("the way " + quoted(name) + " has a knob with an empty name");
+    if (std::ranges::find(row_fields(), knob.name) != row_fields().end())
       refuse("the way " + quoted(name) + " has a knob " + quoted(knob.name) +
                  ", and the rows of a study have a column of that name",
              "call the knob something else");
@@ -107,7 +104,7 @@ StudyWay make_way(std::string name, std::vector<KnobSweep> knobs) {
       refuse("the way " + quoted(name) + " lists " + std::to_string(first->values.size()) + " values of " +
                  quoted(first->name) + " and " + std::to_string(knob.values.size()) + " of " +
                  quoted(knob.name),
-             "lists of one way go along together: give equally many, or make two ways of it");
+             "give lists of equal length, or make two ways");
     }
   }
   StudyWay way{std::move(name), {}};
@@ -134,7 +131,7 @@ std::vector<std::size_t> coarse_to_fine(const StudyWay& way) {
       falls = finer < 0;
       break;
     }
-  if (falls) std::reverse(order.begin(), order.end());
+  if (falls) std::ranges::reverse(order);
   return order;
 }
 

@@ -24,11 +24,11 @@ using Knobs = std::vector<Knob>;  // unique names, ascending
 // Nothing for a missing name or another type.
 std::optional<double> number_of(const Knobs& knobs, std::string_view name);
 
-// Lua literals of the same value: "256", "1e-06", "math.huge", "\"box\"".
+// Lua literals: "256", "1e-06", "math.huge", "\"box\"".
 std::string lua_source(const KnobValue& value);
 std::string lua_source(const Knobs& knobs);
 
-// One value for all settings of a way, or one per setting.
+// One value per way, or one per setting.
 struct KnobSweep {
   std::string name;
   std::vector<KnobValue> values;

@@ -2,23 +2,40 @@
 #include "engine/study/work_precision.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <set>
+#include <string_view>
+#include <utility>
 
-#include "engine/core/error.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/study/study_text.hpp"
+#include "engine/study/study_result.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr double look_every = 0.1;       // seconds between records and between progress messages
-constexpr double settling_share = 0.01;  // of the run time
+constexpr std::array<std::string_view, 3> modelled = {"cells", "cells_factor", "tolerance"};
+
+double model(std::string_view name, double value) {
+  if (name == "cells") {
+    const double n = std::max(value, 2.0);
+    return n * n * elementary::log(n);
+  }
+  if (name == "cells_factor") return value * value;
+  // Plus one for set-up.
+  return 1 + std::max(0.0, -elementary::log10(std::max(value, 1e-300)));
+}
+
+bool is_modelled(std::string_view name) { return std::ranges::find(modelled, name) != modelled.end(); }
+
+constexpr double look_every = 0.1;       // seconds between progress messages
+constexpr double settling_share = 0.01;  // of run time
 constexpr const char* title = "work and precision";
 
 bool same_bits(double a, double b) {
@@ -44,6 +61,59 @@ void check(const StudyRequest& request) {
 
 }  // namespace
 
+void CostForecast::learn(std::size_t way, const Knobs& knobs, double seconds) {
+  measured_.push_back({way, knobs, std::max(seconds, 0.0)});
+}
+
+double CostForecast::relative(const Knobs& knobs) {
+  double cost = 1;
+  for (const std::string_view name : modelled)
+    if (const auto value = number_of(knobs, name)) cost *= model(name, *value);
+  return cost;
+}
+
+double CostForecast::ratio(const Knobs& knobs, const Measured& reference) const {
+  double factor = 1;
+  for (const std::string_view name : modelled) {
+    const auto wanted = number_of(knobs, name), had = number_of(reference.knobs, name);
+    if (wanted && had) factor *= model(name, *wanted) / std::max(model(name, *had), 1e-300);
+  }
+  for (const Knob& knob : knobs) {
+    if (is_modelled(knob.name)) continue;
+    const auto wanted = number_of(knobs, knob.name), had = number_of(reference.knobs, knob.name);
+    if (!wanted || !had || *wanted == *had || *wanted <= 0 || *had <= 0) continue;
+    for (const Measured& other : measured_) {
+      const auto before = number_of(other.knobs, knob.name);
+      if (other.way != reference.way || !before || *before <= 0 || *before == *had) continue;
+      if (relative(other.knobs) != relative(reference.knobs) || other.seconds <= 0) continue;
+      constexpr double steepest = 4;
+      const double power =
+          std::clamp(elementary::log(reference.seconds / other.seconds) / elementary::log(*had / *before),
+                     0.0, steepest);
+      return factor * elementary::pow(*wanted / *had, power);
+    }
+  }
+  return factor;
+}
+
+std::optional<double> CostForecast::seconds(std::optional<std::size_t> way, const Knobs& knobs) const {
+  const Measured* best = nullptr;
+  std::pair<int, double> best_rank{-1, 0};
+  for (const Measured& one : measured_) {
+    int shared = way && one.way == *way ? 1000 : 0;
+    for (const Knob& knob : knobs)
+      shared += std::ranges::any_of(one.knobs, [&](const Knob& own) { return own.name == knob.name; });
+    // Most expensive: fixed costs matter least.
+    const std::pair<int, double> rank{shared, one.seconds};
+    if (rank > best_rank) {
+      best = &one;
+      best_rank = rank;
+    }
+  }
+  if (best == nullptr) return {};
+  return best->seconds * ratio(knobs, *best);
+}
+
 double WorkPrecision::steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -68,21 +138,17 @@ void WorkPrecision::run() {
   begun_ = now_ = recorded_at_ = shown_at_ = clock_();
   wall_begun_ = PartMonitor::Clock::now();
   try {
-    go();
+    scout();
+    monitor_.inform(quote_text());
+    ask_truth();
+    first_runs();
+    rounds();
     result_.complete = true;
   } catch (const std::exception&) {
     finish();
     throw;
   }
   finish();
-}
-
-void WorkPrecision::go() {
-  scout();
-  monitor_.inform(quote_text());
-  ask_truth();
-  first_runs();
-  rounds();
 }
 
 void WorkPrecision::finish() {
@@ -190,13 +256,11 @@ std::optional<double> WorkPrecision::truth_forecast() const {
   return forecast_.seconds({}, *knobs);
 }
 
-// Rows without a first run, cheapest first.
 std::vector<StudyRow*> WorkPrecision::waiting() {
   std::vector<std::pair<double, StudyRow*>> found;
   for (std::size_t k = 0; k < result_.rows.size(); ++k)
     if (!asked_[k]) found.emplace_back(forecast(result_.rows[k]).value_or(0), &result_.rows[k]);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<StudyRow*> rows;
   for (const auto& [seconds, row] : found) rows.push_back(row);
   return rows;
@@ -207,7 +271,7 @@ void WorkPrecision::leave_out(StudyRow& row, double expected, double needed) {
   row.end = StudyRow::End::left_out;
   row.expected_seconds = expected;
   row.reason = "budget: about " + seconds_text(needed) + " needed, " +
-               seconds_text(std::max(left() - committed(), 0.0)) + " left beside the others";
+               seconds_text(std::max(left() - committed(), 0.0)) + " left";
 }
 
 WorkPrecision::Quote WorkPrecision::quote() {
@@ -226,15 +290,14 @@ WorkPrecision::Quote WorkPrecision::quote() {
 std::string WorkPrecision::quote_text() {
   const StudyRequest& request = result_.request;
   const Quote expected = quote();
-  const std::size_t asked = result_.rows.size() - expected.left_out.size();
-  std::string text = std::string(title) + ": " + std::to_string(asked) +
-                     (asked == 1 ? " setting" : " settings") + ", each timed " +
-                     std::to_string(request.repeats) + (request.repeats == 1 ? " time" : " times") +
+  std::string text = std::string(title) + ": " +
+                     counted(result_.rows.size() - expected.left_out.size(), "setting") + ", each timed " +
+                     counted(static_cast<std::size_t>(request.repeats), "time") +
                      " after a first run: about " + seconds_text(elapsed() + expected.seconds);
   if (const auto* knobs = std::get_if<Knobs>(&request.truth)) {
     const auto truth = truth_forecast();
-    text += ", of which the truth " + lua_source(*knobs) + " takes " +
-            (truth ? "about " + seconds_text(*truth) : std::string("what is not known yet"));
+    text += "; the truth " + lua_source(*knobs) + " takes " +
+            (truth ? "about " + seconds_text(*truth) : std::string("an unknown time"));
   }
   if (request.at_most) text += "; at most " + seconds_text(*request.at_most);
   if (!expected.left_out.empty()) {
@@ -253,7 +316,7 @@ void WorkPrecision::scout() {
     std::vector<StudyRow*> rows;
     for (StudyRow& row : result_.rows)
       if (row.way == way) rows.push_back(&row);
-    std::stable_sort(rows.begin(), rows.end(), [&](const StudyRow* a, const StudyRow* b) {
+    std::ranges::stable_sort(rows, [&](const StudyRow* a, const StudyRow* b) {
       return CostForecast::relative(result_.knobs_of(*a)) < CostForecast::relative(result_.knobs_of(*b));
     });
     for (StudyRow* row : rows) {
@@ -272,16 +335,15 @@ void WorkPrecision::ask_truth() {
   const auto* knobs = std::get_if<Knobs>(&result_.request.truth);
   if (knobs == nullptr) return;
   if (const double expected = truth_forecast().value_or(0); expected > left())
-    throw Error(ErrorCode::infeasible,
-                "the truth " + lua_source(*knobs) + " would take about " + seconds_text(expected) + ", and " +
-                    seconds_text(std::max(left(), 0.0)) + " are left of `at_most`",
-                "raise `at_most`, or give a cheaper or an exact truth");
+    refuse_infeasible("the truth " + lua_source(*knobs) + " would take about " + seconds_text(expected) +
+                          ", and " + seconds_text(std::max(left(), 0.0)) + " are left of `at_most`",
+                      "raise `at_most`, or give a cheaper or an exact truth");
   double seconds = truth_forecast().value_or(0);
   const StudyAnswer answer = call(*knobs, nullptr, 0, seconds);
   result_.truth_seconds = seconds;
   if (!answer.value)
-    throw Error(ErrorCode::infeasible, "the truth " + lua_source(*knobs) + " failed: " + answer.failure,
-                "give other knobs for it, or an exact value");
+    refuse_infeasible("the truth " + lua_source(*knobs) + " failed: " + answer.failure,
+                      "give other knobs for it, or an exact value");
   result_.truth = *answer.value;
 }
 

@@ -1,22 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Work-precision study: error against run time. Each setting first runs once untimed. Timed rounds follow
-// with a run per setting, so that a slow machine slows all settings alike. With a budget, costs are forecast
-// from the cheapest setting of each way (cost_forecast.hpp); no run starts whose forecast exceeds the budget.
+// with a run per setting: a slow machine slows all alike. With a budget, costs are forecast from the cheapest
+// setting of each way; no run starts whose forecast exceeds the budget.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/core/part_monitor.hpp"
-#include "engine/study/cost_forecast.hpp"
 #include "engine/study/study_result.hpp"
+#include "engine/study/study_setting.hpp"
 
 namespace asperity {
+
+// Run-time forecast of a setting. `cells` costs n² ln n (grid transforms), a factor on all cells its square,
+// `tolerance` the number of digits (linear convergence). Other knobs follow a power law once two measurements
+// differ only in them. No result depends on forecasts.
+class CostForecast {
+ public:
+  void learn(std::size_t way, const Knobs& knobs, double seconds);
+
+  // From a measurement of the same way, otherwise with the most common knobs. No way: the truth.
+  // O(measurements).
+  std::optional<double> seconds(std::optional<std::size_t> way, const Knobs& knobs) const;
+
+  // From the modelled knobs alone, dimensionless.
+  static double relative(const Knobs& knobs);
+
+ private:
+  struct Measured {
+    std::size_t way;
+    Knobs knobs;
+    double seconds;
+  };
+  double ratio(const Knobs& knobs, const Measured& reference) const;
+
+  std::vector<Measured> measured_;
+};
 
 struct StudyAnswer {
   std::optional<double> value;
@@ -35,11 +59,11 @@ class StudyWork {
  public:
   virtual ~StudyWork() = default;
   virtual void prepare(const Knobs& /*knobs*/) {}
-  // Timed. A failed setting is an answer. Throws Error for a stop and for a refused answer.
+  // A failed setting is an answer. Throws Error for a stop and for a refused answer.
   virtual StudyAnswer ask(const Knobs& knobs, Monitor& monitor) = 0;
-  // Cleans up between calls; takes about 1 % of the time.
+  // Cleans up after calls; takes about 1 % of the time.
   virtual void settle() {}
-  // Receives new calls, at most ten times a second and once at the end.
+  // New calls, at most ten times a second and at the end.
   virtual void record(std::span<const StudyRun> /*runs*/) {}
 };
 
@@ -52,7 +76,7 @@ class WorkPrecision {
   WorkPrecision(StudyRequest request, StudyWork& work, Monitor& monitor, Clock clock = steady_seconds);
 
   // Call once. Throws errors of `work`, and Error on a stop and for a truth that failed or exceeds the
-  // budget. result() stores all earlier measurements.
+  // budget. result() then has all earlier measurements.
   void run();
   const StudyResult& result() const { return result_; }
 
@@ -63,14 +87,13 @@ class WorkPrecision {
     double seconds = 0;
     std::vector<const StudyRow*> left_out;
   };
-  void go();
   void scout();
   void ask_truth();
   void first_runs();
   void rounds();
   void finish();
 
-  // `seconds`: forecast on entry, measured on return.
+  // `seconds`: forecast, then measured.
   StudyAnswer call(const Knobs& knobs, const std::string* way, int round, double& seconds);
   bool first_run(StudyRow& row);
   void leave_out(StudyRow& row, double expected, double needed);

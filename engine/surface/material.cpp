@@ -11,7 +11,7 @@
 namespace asperity {
 
 std::span<const Material> named_materials() {
-  // Representative engineering values; scripts can give better ones.
+  // Representative values.
   static const std::vector<Material> materials = {
       {"Al-2011", 70e9, 0.33, 1.1e9, 2830.0,
        "the alloy of the source paper; hardness from its Brinell number"},
@@ -39,12 +39,7 @@ const Material& named_material(std::string_view name) {
 }
 
 const Material& rigid_material() {
-  static const Material rigid = [] {
-    Material m;
-    m.name = "rigid";
-    m.rigid = true;
-    return m;
-  }();
+  static const Material rigid{.name = "rigid", .rigid = true};
   return rigid;
 }
 
@@ -54,7 +49,7 @@ void check(const Material& m) {
   if (m.hardness) require(*m.hardness > 0, "hardness", *m.hardness, "", "give a value above zero");
   if (m.poisson)
     require(*m.poisson > -1 && *m.poisson <= 0.5, "poisson", *m.poisson, "",
-            "Poisson's ratio lies above -1 and at most at 0.5");
+            "give a number above -1 and at most 0.5");
 }
 
 double plane_strain_modulus(const Material& m) {
@@ -65,7 +60,7 @@ double plane_strain_modulus(const Material& m) {
                   "the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
                       quoted(key),
                   "give it in lab.material{...}");
-  return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding, also near -1
+  return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding near -1
 }
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Material properties, all optional except the name. An effect refuses a body without a property it reads,
-// and names itself, the body and the property.
+// Material properties. An effect refuses a body without a property it reads, and names both.
 #pragma once
 
 #include <optional>
@@ -11,16 +10,15 @@ namespace asperity {
 
 struct Material {
   std::string name;
-  std::optional<double> young;     // Pa, > 0
-  std::optional<double> poisson;   // in (-1, 0.5]
-  std::optional<double> hardness;  // Pa, indentation hardness, > 0
-  std::optional<double> density;   // kg/m³, > 0
-  std::string source;
+  std::optional<double> young{};     // Pa, > 0
+  std::optional<double> poisson{};   // in (-1, 0.5]
+  std::optional<double> hardness{};  // Pa, indentation hardness, > 0
+  std::optional<double> density{};   // kg/m³, > 0
+  std::string source{};
   bool rigid = false;
 };
 
 std::span<const Material> named_materials();
-// Throws Error{unknown_name} with the nearest name.
 const Material& named_material(std::string_view name);
 // Infinitely stiff and hard.
 const Material& rigid_material();

@@ -42,7 +42,7 @@ Profile::Profile(double spacing, Array<double> heights, std::optional<double> cl
     if (!holes || !std::isnan(heights[k]))
       refuse("the height of sample " + std::to_string(k) + " is " + format_short(heights[k]),
              "every height must be a finite number of metres");
-    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern for the digest
+    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern
     ++missing;
   }
   if (missing == heights.size()) refuse("no point of the profile was measured", "give at least one height");

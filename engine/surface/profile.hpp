@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A height profile: equally spaced samples along a line, or once around a closed outline (the paper's Fig.
-// 1) with heights r(t) − R at equal angles. Immutable. heights() refuses holes; measured_heights() has NaN
-// there.
+// A height profile: equally spaced samples along a line, or once around a closed outline with heights r(t) −
+// R at equal angles. Immutable.
 #pragma once
 
 #include <cstddef>

@@ -56,7 +56,7 @@ Surface::Surface(const Grid& grid, Field heights, SurfaceTraits traits, bool hol
     if (!holes || !std::isnan(heights[k]))
       refuse("the height at node " + at_node(k, grid) + " is " + format_short(heights[k]),
              "every height must be a finite number of metres");
-    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern for the digest
+    heights[k] = std::numeric_limits<double>::quiet_NaN();  // one bit pattern
     ++missing;
   }
   if (missing == heights.size()) refuse("no point of the surface was measured", "give at least one height");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A rough surface: heights in metres on a regular grid, z pointing up out of the body. Immutable; copies
-// share the heights. A recipe samples a generated surface on other cells. A map may have holes: heights()
-// refuses them, measured_heights() has NaN there.
+// share the heights.
 #pragma once
 
 #include <functional>
@@ -16,13 +15,13 @@
 namespace asperity {
 
 struct SurfaceTraits {
-  std::optional<Material> material;
-  bool periodic = false;                // smooth across the rim by construction
-  std::optional<double> aliased_share;  // of variance past Nyquist, 0 … 1
+  std::optional<Material> material{};
+  bool periodic = false;                  // smooth across the rim by construction
+  std::optional<double> aliased_share{};  // of variance past Nyquist, 0 … 1
 };
 
 class Surface;
-// Makes the surface on other cells of the tile. Thread-safe; stores no heights. Throws Error{bad_value} for
+// Makes a generated surface on other cells. Thread-safe; stores no heights. Throws Error{bad_value} for
 // unsuitable cells.
 using SurfaceRecipe = std::function<Surface(int nx, int ny, Monitor& monitor)>;
 
@@ -30,8 +29,8 @@ class Surface {
  public:
   // Throws Error{bad_value} for the first non-finite height or a field of another size.
   Surface(const Grid& grid, Field heights, SurfaceTraits traits = {});
-  // NaN is a hole. Without NaN the result equals the constructor's, also in its digest. Throws
-  // Error{bad_value} for infinite heights or no measured point.
+  // NaN is a hole. Without NaN the result equals the constructor's. Throws Error{bad_value} for infinite
+  // heights or no measured point.
   static Surface with_holes(const Grid& grid, Field heights, SurfaceTraits traits = {});
 
   const Grid& grid() const;
@@ -44,21 +43,21 @@ class Surface {
   const SurfaceTraits& traits() const { return traits_; }
   const std::optional<Material>& material() const { return traits_.material; }
 
-  // Height of node (i, j), m, or NaN. Throws Error{bad_value} outside the grid.
+  // m, or NaN. Throws Error{bad_value} outside the grid.
   double height(double i, double j) const;
   Range height_range() const;  // measured nodes, m; computed once
   double peak_to_valley() const { return height_range().span(); }
 
   Surface with_material(Material material) const;
 
-  // Nodes shared by two grids agree to rounding or as the generator documents. The recipe affects neither
-  // digest nor equality. Operations on heights drop the recipe unless documented otherwise.
+  // Nodes shared by two grids agree to rounding or as the generator documents. The recipe does not affect the
+  // digest. Operations on heights drop it unless documented otherwise.
   Surface made_by(SurfaceRecipe recipe) const;
   const std::shared_ptr<const SurfaceRecipe>& recipe() const { return recipe_; }  // or null
-  // Runs the recipe, with this material; none without a recipe or for unsuitable cells.
+  // With this material; none without a recipe or for unsuitable cells.
   std::optional<Surface> remade(int nx, int ny, Monitor& monitor = Monitor::silent()) const;
 
-  // Covers grid, heights and holes, not material and traits. Computed once, thread-safe.
+  // Digest of grid, heights and holes. Computed once, thread-safe.
   const std::string& digest() const;
 
  private:

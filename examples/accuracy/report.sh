@@ -52,15 +52,14 @@ mkdir -p docs/pictures/accuracy
 rm -f docs/pictures/accuracy/*.svg
 cp "$runs"/*/*.svg docs/pictures/accuracy/
 {
-  # What stands in front of all, between the title and the text.
-  sed -n 1,4p "$here/page.md"
-  cat "$runs"/cells_or_seeds/section_00.md
-  sed -n '4,$p' "$here/page.md"
+  # The text, with table N of the output of cells_or_seeds for the line "(table N)".
+  awk 'FNR == NR { if (/^the notebook: /) n++; else if (/^  /) { sub(/ +$/, ""); table[n] = table[n] $0 "\n" }; next }
+    /^\(table [0-9]\)$/ { $0 = "```\n" table[$2 + 0] "```" }
+    { print }' "$runs/cells_or_seeds.output" "$here/page.md"
   printf '\nMachine: %s, %s processors; %s; %s.\n' \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" \
     "$("$program" version | head -n 1 | tr -s ' ')" "$(date -u +%Y-%m-%d)"
   for section in "$runs"/*/section_*.md; do
-    case $section in */section_00.md) continue ;; esac
     printf '%s %s\n' "$(basename -- "$section")" "$section"
   done | sort | while read -r _ section; do
     printf '\n'

@@ -3,7 +3,8 @@
 //
 //   cmake -S examples/library -B build/library && cmake --build build/library && build/library/press
 //
-// Needs an installed Asperity: Debian's way, libasperity-dev, or `cmake --install` and CMAKE_PREFIX_PATH.
+// Its twin as a script is press.lua, with the same digest. Needs an installed Asperity: Debian's way,
+// libasperity-dev, or `cmake --install` and CMAKE_PREFIX_PATH.
 #include <cstdio>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
@@ -20,5 +21,6 @@ int main() {
                      .boundary = Boundary::periodic,
                      .elasticity = HalfSpaceOptions{}});
   const State state = pair.press({.by = PressBy::pressure, .value = 1e-3 * *steel.young});
-  std::printf("%.2f %% of the tile touches, to %.0e\n", 100 * state.area_fraction(), state.residual());
+  std::printf("%.2f %% of the tile touches, to %.0e\n%s\n", 100 * state.area_fraction(), state.residual(),
+              state.digest().c_str());
 }

@@ -2,96 +2,71 @@
 -- Fig. 2: what is a fractal surface built on, and what does the fractal dimension D add to it?
 --
 --   asperity run examples/paper/fig2_surface.lua
---   asperity run examples/paper/fig2_surface.lua -- seed=7 cells=300
---   asperity run examples/paper/fig2_surface.lua -- span=3
 --
--- The paper: a Weierstrass-Mandelbrot surface (eq. 2) beside its non-fractal base.
--- Here: the surface sums waves in M = 10 directions, each gamma = 1.5 times shorter than the last. Its
--- base is the same sum with the longest waves alone (n = 0, 1, 2), and the same phases: low waves do not
--- depend on how many follow. D sets how slowly the waves weaken. At D = 2.0 nine tenths of the variance
--- is in the base; at 2.9 a fifth is, and two fifths is in waves that 150 cells cannot carry, which act
--- as noise on every cell.
--- Choices of this project: eq. (2) as printed has phases that change nothing, and is used in the form of Yan and
--- Komvopoulos, where they do; and the base of n <= 2, which the paper does not define.
+-- The base is the sum of the longest waves (n = 0, 1, 2) with the same phases; D sets how slowly
+-- the amplitudes decrease. At D = 2.0 the base has nine tenths of the variance. At D = 2.9 it has a
+-- fifth, and two fifths belong to waves too short for 150 cells, which appear as noise.
 
 local lab = require "asperity"
-local arguments = require "asperity.arguments"
-local um = lab.units.um
 
-local options = arguments({ seed = 1, cells = 150, span = 1.0, base = 2 }, ...)
+local options = require "asperity.arguments"({ seed = 1, cells = 150, span = 1.0, base = 2 }, ...)
 
+-- Waves in ten directions, each 1.5 times shorter than the one before. In eq. (2) as printed the
+-- phases change nothing, so we use the form of Yan and Komvopoulos.
 local function wm(D, n_max)
-  return lab.surface.weierstrass_mandelbrot{
-    cells = options.cells, D = D, span = options.span, L = "50 um", G = "5 um", gamma = 1.5, M = 10,
-    n_max = n_max, seed = options.seed,
-  }
+  return lab.surface.weierstrass_mandelbrot{ cells = options.cells, D = D, span = options.span,
+    L = "50 um", G = "5 um", n_max = n_max, seed = options.seed }
 end
 
--- How alike two surfaces are: the correlation of their heights.
-local function correlation(a, b)
-  local x, y, ma, mb = a:heights(), b:heights(), a:roughness().mean, b:roughness().mean
-  local sum, n = 0, 0
-  for j = 1, #x do
-    for i = 1, #x[j] do
-      sum, n = sum + (x[j][i] - ma) * (y[j][i] - mb), n + 1
-    end
-  end
-  return sum / n / (a:roughness().Rq * b:roughness().Rq)
-end
-
--- The share of the variance in the waves n = 0 .. last: wave n carries gamma^(2 (D - 3) n) of it.
+-- The share of the waves n = 0 .. last in the variance. Wave n has the weight gamma^(2 (D - 3) n).
 local function share(D, last)
   local q = 1.5 ^ (2 * (D - 3))
   return (1 - q ^ (last + 1)) / (1 - q ^ 101)
 end
 
--- 1. The base, and the surface for five D, each stretched to one amplitude so that they can be compared.
---    The colours are those of heights above the mean.
-local amplitude = 5 * um
+-- 1. The base, and the surface for five D, all scaled to one amplitude. Colours show heights above
+--    the mean.
+local amplitude = lab.quantity "5 um"
+local function scaled(surface) return surface:scaled{ amplitude = amplitude }:levelled{ degree = 0 } end
 local function draw(surface, stem, title)
-  local s = surface:scaled{ amplitude = amplitude }:levelled{ degree = 0 }
-  local range = { -amplitude / 2, amplitude / 2 }
+  local s, range = scaled(surface), { -amplitude / 2, amplitude / 2 }
   s:picture(stem .. "_map.png", { title = title, range = range })
   s:picture(stem .. "_relief.png", { title = title, range = range, view = "relief" })
 end
 draw(wm(2.3, options.base), "base", ("base of D = 2.3: waves n = 0 to %d"):format(options.base))
 
 local book = lab.notebook "surfaces"
-print(("Weierstrass-Mandelbrot surfaces, %d x %d cells over %g L, seed %d\n"):format(options.cells,
-  options.cells, options.span, options.seed))
-print "         heights as eq. (2) gives them       variance in      like its   D of profiles + 1,"
-print "  D     rms (um)  peak to valley (um)   base   beyond grid    base      by structure function"
+lab.say("Weierstrass-Mandelbrot surfaces, %d x %d cells over %g L, seed %d", options.cells, options.cells,
+  options.span, options.seed)
 for _, D in ipairs{ 2.0, 2.3, 2.5, 2.7, 2.9 } do
-  local surface, base = wm(D, 100), wm(D, options.base)
-  local r = surface:roughness()
-  local row = {
-    D = D, ["rms [m]"] = r.Rq, ["peak_to_valley [m]"] = r.amplitude,
+  local surface, base = wm(D), wm(D, options.base)
+  local r, b, both = surface:roughness(), base:roughness().Rq, (surface + base):roughness().Rq
+  book:write{ D = D, rms = r.Rq, peak_to_valley = r.amplitude,
     ["in the base"] = share(D, options.base), ["beyond the grid"] = surface.aliased_share,
-    like_base = correlation(surface, base),
-    D_measured = surface:fractal_dimension{ method = "structure" }.D + 1,
-  }
-  book:write(row)
-  print(("  %.1f   %6.2f        %6.1f           %.3f     %.4f       %.3f            %.2f"):format(
-    D, r.Rq / um, r.amplitude / um, row["in the base"], row["beyond the grid"], row.like_base,
-    row.D_measured))
+    like_base = (both ^ 2 - r.Rq ^ 2 - b ^ 2) / (2 * r.Rq * b), -- correlation
+    D_measured = surface:fractal_dimension{ method = "structure" }.D + 1 }
   draw(surface, ("surface_%.1f"):format(D), ("D = %.1f"):format(D))
 end
+print "Heights by eq. (2); shares of the variance; correlation with the base; D of profiles + 1:"
+book:show{ "D", "rms [um]", "peak_to_valley [um]", "in the base", "beyond the grid", "like_base",
+  "D_measured", digits = 4 }
 
--- 2. What D does, whatever the phases. The first wave past the grid's limit of two cells is n = 11 at
---    span 1 and 150 cells; the measured D follows the one given.
+-- 2. The effect of D, for any phases. The first wave shorter than two cells is n = 11 at span 1 and
+--    150 cells. The measured D follows the given D.
 book:expect("in the base", { decreasing_in = "D" })
 book:expect("beyond the grid", { increasing_in = "D" })
 book:expect("D_measured", { increasing_in = "D" })
 if options.cells == 150 and options.span == 1 then
-  for _, D in ipairs{ 2.0, 2.3, 2.5, 2.7, 2.9 } do
-    book:expect("beyond the grid", { where = { D = D }, near = 1 - share(D, 10), rel = 1e-9 })
-    book:expect("D_measured", { where = { D = D }, near = D, within = 0.25 })
+  for row in book:each() do
+    local where = { D = row.D }
+    book:expect("beyond the grid", { where = where, near = 1 - share(row.D, 10), rel = 1e-9 })
+    book:expect("D_measured", { where = where, near = row.D, within = 0.25 })
   end
 end
 
--- 3. Waves fall into place exactly: with the golden phases anyone can compute these heights again. They
---    were, with 420 bits. (L and G are those of the paper, in metres. With the phase kept in plain
---    doubles the last ones would be off by up to 26.)
+-- 3. Phases are exact. The golden phases are reproducible, and the heights below were computed with
+--    420 bits. (L and G are the paper's values, in metres. With phases in plain doubles, the last
+--    heights would be wrong by up to 26.)
 local exact = lab.notebook "exact"
 for _, line in ipairs{
   { 2.5, 1, 0, -0.5383048380187191 }, { 2.5, 3, 7, 0.5925490453921832 },
@@ -105,19 +80,15 @@ for _, line in ipairs{
 end
 exact:expect("error", { at_most = 1e-10, label = "heights of the golden surface" })
 
--- 4. Profiles through the middle, and how the variance moves from base to grid.
+-- 4. Profiles through the middle, and the share of the base in the variance.
 local middle = lab.notebook "profiles"
 for _, D in ipairs{ 2.0, 2.5, 2.9 } do
-  local s = wm(D, 100):scaled{ amplitude = amplitude }:levelled{ degree = 0 }
-  local p = s:profile{ row = options.cells // 2 }
+  local p = scaled(wm(D)):profile{ row = options.cells // 2 }
   local x = p:positions()
   for k, z in ipairs(p:heights()) do middle:write{ D = D, ["x [m]"] = x[k], ["height [m]"] = z } end
 end
-middle:chart{
-  x = "x", y = "height", one_line_per = "D", points = false, file = "fig2_profiles.svg",
-  title = "The same phases at three D",
-}
-book:chart{
-  x = "D", y = { "in the base", "beyond the grid" }, file = "fig2_variance.svg",
-  title = "Where the variance is", x_label = "fractal dimension D", y_label = "share of the variance",
-}
+middle:chart{ x = "x", y = "height", one_line_per = "D", points = false, file = "fig2_profiles.svg",
+  title = "The same phases at three D" }
+book:chart{ x = "D", y = { "in the base", "beyond the grid" }, file = "fig2_variance.svg",
+  title = "Where the variance is", x_label = "fractal dimension D",
+  y_label = "share of the variance" }

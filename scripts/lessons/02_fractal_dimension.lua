@@ -1,163 +1,108 @@
 -- Fractal dimension and its traps
--- Question: A profile was made with D = 1.5. What does a ruler walked
---   along it say?
+-- Question: A profile was made with D = 1.5. Does a ruler walked along
+--   it find this D?
 -- Predict: From valley to peak it is 0.5 um, from end to end 50 um.
---   Which D does the ruler find: 1.0, 1.1, 1.3 or 1.5? And what if only
---   the heights are stretched a hundredfold?
+--   Which D does the ruler find: 1.0, 1.1, 1.3 or 1.5? And after the
+--   heights alone are stretched a hundredfold?
 -- Minutes: 20
 --
--- Walk along a profile with a ruler of length s. Shorter rulers follow
--- more of the bends, so the profile gets longer: L/L0 grows as s^(1-D).
--- On a coastline that works, for east and north are the same sort of
--- length. Are the heights and the widths of a surface?
+-- A ruler of length s walks along a profile and measures a length L;
+-- L/L0 grows as s^(1-D), as on a coastline, where east and north are
+-- lengths of the same kind. The **structure function** is the mean
+-- square of the change of height over a distance s, and grows as
+-- s^(4-2D) in any unit of height. Other methods count the **boxes**
+-- along the profile, or fit a line to its spectrum (**psd**).
 --
--- The **structure function** asks something else: how much does the
--- height change, in the mean square, over a distance s? It grows as
--- s^(4-2D), whatever unit the heights are in. Other methods exist:
--- **boxes** counts the squares that the profile visits, **psd** fits a
--- line to its spectrum.
---
--- *Your prediction:* put its number into `my_guess` in the script; the
--- last lines compare it with what was found.
---
--- *Then try:* the seed, `cells = 1024`, or a face of your own in
--- `not_fractal`. Can you make one that fools the structure function
--- too?
+-- *Then try:* the knob `D`, the seed, `cells=1024`, or a face of your
+-- own in section 3. Can you make a face that deceives the structure
+-- function, too?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
 local guess = require "asperity.guess"
 local prose = require "asperity.prose"
-local um = lab.units.um
 local my_guess = nil -- the D that the ruler finds on heights of 0.5 um
-local cells, seed = 256, 1
+local D = lab.knob{ name="D", from=1.2, to=1.8, value=1.5 }
+
+-- The profiles of a surface of dimension D + 1 have dimension D.
 local function fractal(D)
-  return lab.surface.weierstrass_mandelbrot{ cells=cells, D=D,
-    L="50 um", G="5 um", seed=seed }
+  return lab.surface.weierstrass_mandelbrot{ cells=256, D=D + 1, seed=1,
+    L="50 um", G="5 um" }:scaled{ amplitude="0.5 um" }
+end
+-- Adds the D of every method to a row. The ruler is `length`.
+local function dimensions(row, s)
+  for _, method in ipairs{ "length", "structure", "box", "psd" } do
+    row[method] = s:fractal_dimension{ method=method }.D
+  end
+  return row
 end
 
--- 1. One surface of D = 2.5, whose profiles have 1.5, stretched in
--- height: what do the methods say?
-local book, found = lab.notebook "stretched", {}
--- The rulers are 1, 2, 4, 8 and 16 cells long; `structure` finds the
--- mean square of the change over each, too.
-local function slope_of_longest(structure)
-  local ruler = structure.steps[5] * 50 * um / cells
-  return math.sqrt(structure.lengths[5]) / ruler
-end
-print("heights        rms slope   over the longest   ruler    "
-  .. "believed   structure   boxes")
+-- 1. One surface with larger and larger heights. The longest ruler has
+-- 16 cells.
+local book, surface = lab.notebook "stretched", fractal(D)
 for power = -1, 4 do
-  local height = 10 ^ power
-  local s = fractal(2.5):scaled{ amplitude=0.5 * um * height }
-  local ruler = s:fractal_dimension{ method="length" }
-  local structure = s:fractal_dimension{ method="structure" }
-  local row = { height=height, slope=s:roughness().rms_slope,
-    ["slope over the longest"]=slope_of_longest(structure),
-    ["built in"]=1.5, ruler=ruler.D, structure=structure.D,
-    boxes=s:fractal_dimension{ method="box" }.D }
-  found[power] = row
-  book:write(row)
-  local line = "0.5 um x %-5g  %8.4g   %8.3g           %.4f   %-3s   "
-    .. "     %.3f       %.3f"
-  print(line:format(height, row.slope, row["slope over the longest"],
-    row.ruler, ruler.resolved and "yes" or "no", row.structure,
-    row.boxes))
+  local s = 10 ^ power * surface
+  local change = s:fractal_dimension{ method="structure" }.lengths[5]
+  book:write(dimensions({ stretch=10 ^ power, built_in=D,
+    slope=s:roughness().rms_slope,
+    over_longest=change ^ 0.5 / (16 * s.size[1] / s.cells[1]),
+    believed=s:fractal_dimension().resolved }, s))
 end
-book:chart{ x="height", y={ "built in", "structure", "boxes", "ruler" },
-  log_x=true, file="stretched.svg", x_label="heights stretched by",
-  y_label="D of the profiles", title="One fractal, three answers" }
+book:show{ "stretch", "slope", "over_longest", "length", "believed",
+  "structure", "box", digits=5 }
+book:chart{ x="stretch", y={ "built_in", "structure", "box", "length" },
+  y_label="D of the profiles", log_x=true, file="stretched.svg",
+  title="One fractal, three answers" }
 
--- 2. What is built in against what is found.
+-- 2. The built-in D and the D that the methods find.
 local scale = lab.notebook "built in"
-for _, D in ipairs{ 1.1, 1.3, 1.5, 1.7, 1.9 } do
-  local s = fractal(D + 1)
-  for _, method in ipairs{ "structure", "box", "psd" } do
-    scale:write{ ["built in"]=D,
-      found=s:fractal_dimension{ method=method }.D, method=method }
-  end
-  scale:write{ ["built in"]=D, found=D, method="(true)" }
+for _, built_in in ipairs{ 1.1, 1.3, 1.5, 1.7, 1.9 } do
+  scale:write(dimensions({ built_in=built_in }, fractal(built_in)))
 end
-scale:chart{ x="built in", y="found", one_line_per="method",
-  file="built_in.svg", title="D built in, D found" }
+scale:chart{ x="built_in", y={ "built_in", "structure", "box", "psd" },
+  y_label="D", title="D built in, D found", file="built_in.svg" }
 
--- 3. Faces that are no fractals at all get a D as well.
-local not_fractal = {
-  ["a wave"] = lab.surface.sine{ cells=256, size="50 um",
-    amplitude="1 um", wavelength="12.5 um" },
-  ["round dents"] = lab.surface.bead_blasted{ cells=256, size="500 um",
-    ra="3 um", fine=false },
-  ["pure noise"] = lab.surface.from_function{ cells=256, size="50 um",
-    height=function() return um * math.random() end },
-}
+-- 3. Three faces that are not fractal.
 local others = lab.notebook "others"
-print "\nno fractal      D by the structure function"
-for name, s in lab.sorted(not_fractal) do
-  local D = s:fractal_dimension{ method="structure" }.D
-  print(("%-14s  %.2f"):format(name, D))
-  others:write{ face=name, D=D }
-end
+others:write(dimensions({ face="a wave" }, lab.surface.sine{ cells=256,
+  size="50 um", amplitude="1 um", wavelength="12.5 um" }))
+others:write(dimensions({ face="noise" }, lab.surface.from_function{
+  cells=256, size=1, height=function() return math.random() end }))
+others:write(dimensions({ face="dents" }, lab.surface.bead_blasted{
+  cells=256, size="500 um", ra="3 um", fine=false }))
+others:show{ "face", "structure", digits=3 }
 
--- 4. What must hold, and why.
-book:expect("structure", { near=1.5, within=0.1,
-  label="the structure function does not mind the unit of height" })
-book:expect("ruler", { where={ height=1 }, at_most=1.01,
-  label="the ruler sees next to nothing of D" })
-scale:expect("found", { where={ ["built in"]=1.5, method="box" },
-  near=1.5, within=0.1, should_fail=true,
-  label="counting boxes on so few points finds 1.5" })
-book:expect("ruler", { where={ height=1e4 }, near=1.5, within=0.1,
+-- 4. Expectations, and the reason.
+book:expect("structure", { near=D, within=0.1, label="in any unit" })
+book:expect("length", { where={ stretch=1 }, at_most=1.01,
+  label="the ruler finds almost nothing of D" })
+book:expect("length", { where={ stretch=1e4 }, near=D, within=0.1,
   label="until hills are needles" })
-
--- From which slope on does the program believe the ruler? Halve the
--- interval in which that begins.
-local gentle, steep, believed = 1, 1000, nil
-while steep / gentle > 1.02 do
-  local slope = math.sqrt(gentle * steep)
-  local s = fractal(2.5):scaled{
-    amplitude=0.5 * um * slope / found[0].slope }
-  if s:fractal_dimension{ method="length" }.resolved then
-    steep, believed = slope, s
-  else
-    gentle = slope
-  end
-end
-local off = {}
-for _, row in ipairs(scale:rows()) do
-  local error = row.found - row["built in"]
-  if math.abs(error) >= math.abs(off[row.method] or 0) then
-    off[row.method] = error
-  end
-end
-local growth = (found[0].ruler - 1) / (found[-1].ruler - 1)
-print()
+scale:expect("box", { where={ built_in=1.5 }, near=1.5, within=0.1,
+  should_fail=true, label="boxes on so few points find 1.5" })
+local one = book:where{ stretch=1 }[1]
+-- The least slope from which the program believes the ruler, to 2 %.
+local steep = 5
+repeat
+  steep = 1.02 * steep
+until (steep / one.slope * surface):fractal_dimension().resolved
+guess{ said=my_guess, found=one.length, of="the ruler's D", near=0.02 }
 prose([[
-On heights of 0.5 um the ruler found %.3f, stretched a hundredfold
-%.2f.]], found[0].ruler, found[2].ruler)
-guess{ said=my_guess, found=found[0].ruler, of="the ruler's D",
-  near=0.02 }
-prose([[
-Why: a step of slope m is longer than its shadow by m^2/2. While slopes
-are small, D - 1 by the ruler goes with the slope squared: stretch the
-heights tenfold, and it grows %.0f times here. So the ruler mixes how
-rough a face is with how fractal it is. Heights and widths are not the
-same sort of length: stretched heights are "the same" fractal, and the
-structure function finds the same D, but the ruler walks along another
-profile.
+On heights of 0.5 um the ruler found %.3f, stretched a hundredfold %.2f.
 
-Every ruler must meet steep ground, and the longest meets the gentlest.
-The program believes the ruler (`resolved`) where nine tenths of D - 1
-should show: on this face from an rms slope of %.0f on, which is %.1f
-over the longest ruler. No machined face is that steep. Below it
-`resolved` is false, and `reason` says why.
+Why: a step of slope m is longer than its shadow by m^2/2, so the ruler
+mixes slope and dimension: tenfold heights multiply its D - 1 by %.0f.
+The structure function finds one D for all heights.
 
-No method is perfect: see built_in.svg. On profiles of %d points the
-worst D that boxes find is off by %+.2f, that of the spectrum by %+.2f,
-that of the structure function by %+.2f.
+The program believes the ruler (`resolved`) if nine tenths of D - 1
+should show: here from an rms slope of %.0f on, or %.1f over the longest
+ruler. No machined face is that steep.
 
-And a number always comes out: round dents are no fractal, but get their
-D. First look whether a log-log chart is a straight line over several
-decades; then believe its slope.]],
-  growth, steep,
-  slope_of_longest(believed:fractal_dimension{ method="structure" }),
-  cells, off.box, off.psd, off.structure)
+On %d points the worst errors of D are %+.2f by boxes, %+.2f by psd and
+%+.2f by the structure function. Even dents get a D: first look
+for a straight line over several decades in a log-log chart.]],
+  one.length, book:where{ stretch=100 }[1].length,
+  (one.length - 1) / (book:min "length" - 1), steep,
+  steep / one.slope * one.over_longest, surface.cells[1],
+  scale:max "box" - 1.9, scale:max "psd" - 1.9,
+  scale:min "structure" - 1.1)

@@ -1,133 +1,92 @@
 -- Tilt it
--- Question: A block lies on a plate that is tilted until the block
---   slides. Which block holds on longer: a rough one or a smooth one? A
---   light one or a heavy one?
--- Predict: The rough block slides at about 10 degrees. The same face
---   with all heights halved: at about 5, 10 or 14 degrees? And the
---   rough block under thirty times the load?
+-- Question: You tilt a plate until the block on it slides. Which block
+--   holds on longer: a rough one or a smooth one? A light one or a
+--   heavy one?
+-- Predict: The rough block slides at about 10 degrees. At which angle
+--   does it slide if all its heights are halved: about 5, 10 or 14
+--   degrees? And the rough block under thirty times the load?
 -- Minutes: 15
 --
--- Friction is made where faces really touch. A junction of area A
--- resists with tau0 A + alpha F: some strength of its own, and some
--- that grows with what presses on it. On a plate tilted by theta the
--- weight W presses with W cos theta and pulls with W sin theta, so it
--- slides where tan theta = mu = alpha + tau0 A/F.
+-- Friction acts where the faces really touch. A junction of area A
+-- resists with tau0 A + alpha F: a part proportional to the area, and
+-- a part proportional to the load F. A plate tilted by theta divides
+-- the weight W: W cos theta presses the block on, W sin theta pulls it
+-- down. The block slides at tan theta = mu = alpha + tau0 A/F.
 --
--- Nothing else enters. So the question is what roughness and load do to
--- A/F, real area over load. You know that from lesson 4.
+-- Roughness and load enter through A/F only, the real area over the
+-- load. Lesson 4 explains this area. tau0 is an input of this lesson,
+-- so trust the ratios of the angles more than their degrees.
 --
--- *Your prediction:* put its numbers into `my_guess` in the script; the
--- last lines compare them with what was found.
---
--- *Then try:* `alpha = 0`. Which part of friction is left, and what
--- does it go with?
+-- *Then try:* the knob `alpha`, from 0 on. Which part of friction is
+-- left at 0, and which property of the block does it depend on?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
 local guess = require "asperity.guess"
-local prose = require "asperity.prose"
-local MPa, deg = lab.units.MPa, lab.units.deg
 local my_guess = { halved=nil, heavy=nil } -- in degrees
 guess.names(my_guess, "halved", "heavy")
-local alpha = 0.1
-local law = lab.friction{ tau0="300 MPa", alpha=alpha }
-local aluminium, quartz = lab.material "Al-2011", lab.material "quartz"
+local law = lab.friction{ tau0="300 MPa",
+  alpha=lab.knob{ name="alpha", from=0, to=0.3, value=0.1 } }
 local rough = lab.surface.self_affine{ cells=256, size="500 um",
   hurst=0.8, rms_slope=0.2, roll_off="125 um", short_wave="16 um",
-  seed=1, material=aluminium }
-local function on_quartz(surface, yields)
-  return lab.contact{ lower=surface, upper=quartz, boundary="periodic",
-    effects={ elasticity="half_space",
-      plasticity=yields and {} or nil } }
+  material=lab.material "Al-2011" }
+-- The block on quartz, all its heights multiplied by `height`.
+local function pair(height, plasticity)
+  return lab.contact{ lower=height * rough, upper=lab.material "quartz",
+    boundary="periodic",
+    effects={ elasticity="half_space", plasticity=plasticity } }
 end
 
--- 1. The load: what do the rough block and its half-high twin do under
--- 3 to 100 MPa?
-local loads, under = lab.notebook "loads", {}
-local halved = rough:scaled{ rms=0.5 * rough:roughness().Rq }
-print "pressed by   rough slides at   half as high at"
-for _, pressure in ipairs{ 3, 10, 30, 100 } do
-  local function angle(block)
-    local st = on_quartz(block):press{ pressure=pressure * MPa }
-    return math.atan(law:on(st).mu) / deg
+-- 1. The load: the block and its half-high twin under 3 to 100 MPa.
+local loads = lab.notebook "loads"
+for _, height in ipairs{ 1, 0.5 } do
+  for _, MPa in ipairs{ 3, 10, 30, 100 } do
+    local st = pair(height):press{ pressure=MPa .. " MPa" }
+    loads:write{ height=height, ["pressure [MPa]"]=MPa,
+      ["angle [deg]"]=math.deg(math.atan(law:on(st).mu)) }
   end
-  under[pressure] = angle(rough)
-  loads:write{ block="rough", ["pressure [Pa]"]=pressure * MPa,
-    angle=under[pressure] }
-  loads:write{ block="half as high", ["pressure [Pa]"]=pressure * MPa,
-    angle=angle(halved) }
-  print(("%3d MPa      %.1f degrees      %.1f degrees"):format(pressure,
-    under[pressure], angle(halved)))
 end
+loads:show{ "height", "pressure [MPa]", "angle [deg]", digits=3 }
 
--- 2. The roughness: heights of the same face times 1, 0.7, 0.5 ..., on
--- the tilt stage.
-local book, found = lab.notebook "angles", {}
-print "\nheights   rms slope   elastic    A/F x slope   yielding"
+-- 2. The roughness: six heights on the tilt stage, with elastic tops
+-- and with tops that yield. Under 4.3 g alone less than one cell would
+-- touch. So the stage presses with 1 to 3 MPa, where A/F is the same.
+local function tilt(height, plasticity)
+  return lab.tilt_stage{ contact=pair(height, plasticity), friction=law,
+    mass="4.3 g", specimen_area="490.87 mm^2" }:raise{ repeats=1 }
+end
+local angles = lab.notebook("angles", { columns={ "height", "slope",
+  "elastic [deg]", "A/F x slope [1/GPa]", "yielding [deg]" } })
 for _, height in ipairs{ 1, 0.7, 0.5, 0.35, 0.25, 0.125 } do
-  local block = rough:scaled{ rms=height * rough:roughness().Rq }
-  local angle = {}
-  local slope = block:roughness().rms_slope
-  for _, body in ipairs{ "elastic", "yielding" } do
-    local contact = on_quartz(block, body == "yielding")
-    local stage = lab.tilt_stage{ contact=contact, friction=law,
-      mass="4.3 g", specimen_area="490.87 mm^2" }
-    local t = stage:raise{ repeats=1 }
-    angle[body] = t.angle / deg
-    local times_slope = t.area_per_load * slope * 1e9 -- in 1/GPa
-    if body == "elastic" then angle.times_slope = times_slope end
-    book:write{ body=body, height=height, slope=slope,
-      angle=angle[body], ["area over load [1/Pa]"]=t.area_per_load,
-      ["times slope"]=times_slope }
-  end
-  found[height] = angle
-  local line = "%.3f     %.3f       %4.1f deg   %.4f /GPa   %4.1f deg"
-  print(line:format(height, slope, angle.elastic, angle.times_slope,
-    angle.yielding))
+  local slope = (height * rough):roughness().rms_slope
+  local elastic = tilt(height)
+  angles:write{ height=height, slope=slope, elastic=elastic.angle,
+    yielding=tilt(height, {}).angle,
+    ["A/F x slope"]=elastic.area_per_load * slope }
 end
-book:chart{ x="slope", y="angle", one_line_per="body", log_x=true,
-  file="angles.svg", x_label="rms slope of the block",
-  y_label="slides at (degrees)", title="The smoother, the steeper" }
-loads:chart{ x="pressure", y="angle", one_line_per="block", log_x=true,
-  file="loads.svg", y_label="slides at (degrees)",
-  title="Load hardly matters" }
+angles:show{ digits=3 }
+angles:chart{ x="slope", y={ "elastic", "yielding" }, log_x=true,
+  y_label="angle", file="angles.svg",
+  title="The smoother, the steeper" }
+loads:chart{ x="pressure", y="angle", one_line_per="height", log_x=true,
+  file="loads.svg", title="Load hardly matters" }
 
--- 3. What must hold, and why.
-local yielding = math.atan(alpha + law.tau0 / aluminium.hardness) / deg
-local middle = found[0.35].times_slope
-book:expect("angle", { where={ body="elastic" }, decreasing_in="slope",
-  label="the rougher, the earlier it slides" })
-book:expect("times slope", { where={ body="elastic" }, near=middle,
-  rel=0.1, label="real area goes with one over slope" })
-loads:expect("angle", { where={ block="rough" },
-  near=under[30], rel=0.1,
-  label="thirty times the load slides at the same angle, to a tenth" })
-book:expect("angle", { near=yielding, rel=0.1,
-  where={ body="yielding", height={ 1, 0.7, 0.5 } },
-  label="tops that yield: roughness does not matter" })
-print()
-prose([[
-With half the height it slides at %.1f degrees; under the heavy load at
-%.1f (at 3 MPa %.1f).]], found[0.5].elastic, under[100], under[3])
-guess{ said=my_guess.halved, found=found[0.5].elastic,
-  of="half the height", unit="deg", near=0.1 }
-guess{ said=my_guess.heavy, found=under[100], of="the heavy load",
-  unit="deg", near=0.1 }
-prose([[
-Why: half the height is half the slope, so twice the real area for the
-same load, and twice the tau0 A/F. Smooth blocks hold on *longer*. More
-load brings more area in proportion, so it cancels. Roughness acts on
-tau0 A/F alone: with alpha = 0 nothing else is left, and tan theta goes
-with real area, so with one over slope.
-
-The second column of angles lets the tops yield at the hardness H: then
-A = F/H whatever the roughness, and rough blocks all slide at the angle
-of alpha + tau0/H, %.1f degrees. Only where the face is so smooth that
-its tops stay elastic do the two agree. So turning (lesson 5) can only
-help where tops touch the quartz elastically.
-
-One thing was put in, not found: tau0. Ratios are predictions here,
-degrees are not. And the stage solves at 1 to 3 MPa, since under 4.3 g
-alone less than one cell would touch: that the load cancels is what
-allows it.]],
-  yielding)
+-- 3. Expectations, and the reason.
+local whole = loads:where{ height=1 }
+local yields = math.atan(law.alpha + law.tau0 / rough.material.hardness)
+angles:expect("elastic", { decreasing_in="slope", label="rough first" })
+angles:expect("A/F x slope", { near=angles:max "A/F x slope", rel=0.1,
+  label="real area is proportional to one over slope" })
+whole:expect("angle", { near=whole:sum "angle" / 4, rel=0.1,
+  label="thirty times the load: the same angle, to a tenth" })
+angles:expect("yielding", { where={ height={ 1, 0.7, 0.5 } }, rel=0.1,
+  near=yields, label="tops that yield: roughness does not matter" })
+guess{ said=my_guess.halved, of="half the height", unit="deg", near=0.1,
+  found=math.deg(angles:where{ height=0.5 }[1].elastic) }
+guess{ said=my_guess.heavy, of="the heavy load", unit="deg", near=0.1,
+  found=math.deg(whole:where{ ["pressure [MPa]"]=100 }[1].angle) }
+require "asperity.prose"([[Why: half the height is half the slope. The
+same load then needs twice the real area, so tau0 A/F doubles: smooth
+blocks slide *later*. More load makes more area in proportion and
+cancels. Tops that yield at the hardness H have the area F/H at any
+slope, and mu = alpha + tau0/H: %.1f degrees.]], math.deg(yields))

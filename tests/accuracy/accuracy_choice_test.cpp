@@ -20,7 +20,6 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/specimen/specimen_pair.hpp"
-#include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
@@ -44,7 +43,7 @@ TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   EXPECT_NE(pair.plan().text().find(
                 "the first press chooses cells and tolerance for an error of 5 % of "
                 "corrected_area_fraction, from 16 x 16 cells on; 4096 x 4096 cells are the most "
-                "within 4 GiB of memory, and memory and time are theirs"),
+                "within 4 GiB of memory, the grid of the memory and time below"),
             std::string::npos)
       << pair.plan().text();
   const State state = pair.press({PressBy::pressure, 1e7, {}});
@@ -91,7 +90,7 @@ TEST(AccuracyChoice, TheCorrectedAreaIsWithinAnOutlineBetweenTheNodes) {
               std::string::npos)
         << state.chosen()->text();
     const DiscretisationEstimate estimate = discretisation_estimate(state, "corrected_area_fraction");
-    EXPECT_NEAR(estimate.margin * estimate.relative(), state.outline()->doubt, 1e-12);
+    EXPECT_NEAR(estimate.margin * estimate.relative(), state.chosen()->error, 1e-12);
     EXPECT_GE(state.chosen()->error, state.outline()->doubt);
     pair.release();
   }
@@ -162,7 +161,7 @@ TEST(AccuracyChoice, NeverRefinesBeyondWhatWasMeasured) {
                        Boundary::periodic, 0.001);
   const std::string refused = error_of([&] { SpecimenPair(scene).press({PressBy::pressure, 1e7, {}}); });
   EXPECT_NE(refused.find(" on 64 x 64 cells it comes to "), std::string::npos) << refused;
-  EXPECT_NE(refused.find(" or more, and 64 x 64 cells are the most of which the heights are known; "),
+  EXPECT_NE(refused.find(" cells a side, and 64 x 64 cells are the most with known heights; "),
             std::string::npos)
       << refused;
   scene.accuracy.on_failure = Accuracy::OnFailure::best;
@@ -182,8 +181,8 @@ TEST(AccuracyChoice, NamesTheCellsItWouldNeed) {
             std::string::npos)
       << pair.plan().text();
   const std::string refused = error_of([&] { pair.press({PressBy::load, 1e-9, {}}); });
-  EXPECT_NE(refused.find("it needs some "), std::string::npos) << refused;
-  EXPECT_NE(refused.find(" cells a side or more, and 512 x 512 cells are the most within 512 cells a side; "),
+  EXPECT_NE(refused.find("it needs about "), std::string::npos) << refused;
+  EXPECT_NE(refused.find(" cells a side, and 512 x 512 cells are the most within 512 cells a side; "),
             std::string::npos)
       << refused;
   scene.accuracy.on_failure = Accuracy::OnFailure::best;
@@ -318,7 +317,7 @@ TEST(AccuracyChoice, RefusedWhereMemoryEnds) {
     EXPECT_NE(refused.find("`error` = 1e-05 of `corrected_area_fraction` was requested, and on "),
               std::string::npos)
         << refused;
-    EXPECT_NE(refused.find(" cells a side or more, and "), std::string::npos);
+    EXPECT_NE(refused.find(" cells a side, and "), std::string::npos);
     EXPECT_NE(refused.find("on_failure=\"best\""), std::string::npos);
   }
   EXPECT_EQ(pair.plan().text(), plan);
@@ -336,7 +335,7 @@ TEST(AccuracyChoice, PeakWithoutALimitIsRefusedEarly) {
   const Surface flat = flat_surface({Grid{64, 64, 1, 1}}).with_material(test::elastic_to_yield());
   SpecimenPair pair(asking(flat, rigid_material(), Boundary::free, 0.01, {"peak_pressure"}));
   const std::string refused = error_of([&] { pair.press({PressBy::pressure, 1e6, {}}); });
-  EXPECT_NE(refused.find("256 x 256 cells it comes to no limit; it grows from grid to grid without end"),
+  EXPECT_NE(refused.find("256 x 256 cells it comes to no limit; it grows without limit on finer grids"),
             std::string::npos)
       << refused;
 }

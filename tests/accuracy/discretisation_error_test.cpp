@@ -11,7 +11,6 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
@@ -329,10 +328,9 @@ TEST(EstimateFromAFinerGrid, IsNotOfACoarserOne) {
   scene.accuracy.estimate = Accuracy::Estimate::finer;
   EXPECT_EQ(error_of([&] { check_accuracy(scene); }), "");
   scene.accuracy.asked = AskedError{0.01, {"approach"}};
-  EXPECT_EQ(
-      error_of([&] { check_accuracy(scene); }),
-      "`estimate` = \"finer\" and `error` are both given; cells chosen for an `error` are compared with "
-      "the coarser ones tried before: leave one of both out");
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }),
+            "`estimate` = \"finer\" and `error` are both given; `error` compares with the coarser grids that "
+            "it has tried: leave one of the two out");
 }
 
 TEST(DiscretisationEstimate, SaysWhatIsMissing) {
@@ -346,10 +344,9 @@ TEST(DiscretisationEstimate, SaysWhatIsMissing) {
   EXPECT_EQ(error_of([&] { discretisation_estimate(state, "aproach"); }).substr(0, 76),
             "no discretisation error of `aproach` is estimated (did you mean `approach`?)");
   Scene small = half_space(paraboloid(15), Boundary::free);
-  EXPECT_EQ(
-      error_of([&] { check_accuracy(small); }),
-      "`estimate` was asked for a tile of 15 x 15 cells; an estimate compares with half the cells: give "
-      "at least 16 along x or y, or leave `estimate` out");
+  EXPECT_EQ(error_of([&] { check_accuracy(small); }),
+            "`estimate` is given for a tile of 15 x 15 cells; it also presses on half the cells: give at "
+            "least 16 along x or y, or leave `estimate` out");
 }
 
 TEST(Scene, AskedErrorIsChecked) {
@@ -367,8 +364,9 @@ TEST(Scene, AskedErrorIsChecked) {
             std::string::npos);
   scene.accuracy.asked = AskedError{0.01, {"plastic_volume"}};
   EXPECT_EQ(error_of([&] { check_accuracy(scene); }),
-            "`of` names `plastic_volume`, which needs the effect `plasticity`; this scene does not name it; "
-            "name `plasticity`, or ask for the error of another quantity");
+            "`of` names `plastic_volume`, which needs the effect `plasticity`, and this scene names no such "
+            "effect; "
+            "name `plasticity`, or request the error of another quantity");
   scene.accuracy.asked = AskedError{0.01, {"approach", "energy"}};
   EXPECT_EQ(error_of([&] { check_accuracy(scene); }), "");
 }

@@ -52,12 +52,12 @@ TEST(FinerGrid, HasThriceTheCellsOfEverySideOfMoreThanOne) {
       error_of([] {
         finer_grid(Grid{21846, 4, 1, 1});
       }),
-      "`estimate` = \"finer\" was asked for a tile of 21846 x 4 cells; it needs 3 times the cells a side, "
+      "`estimate` = \"finer\" is given for a tile of 21846 x 4 cells; it needs 3 times the cells a side, "
       "and a tile has at most 65536: estimate=true compares with coarser ones");
   EXPECT_EQ(error_of([] {
               finer_grid(Grid{1, 1, 1, 1});
             }),
-            "`estimate` = \"finer\" was asked for a tile of 1 x 1 cells; give at least 2 along x or y");
+            "`estimate` = \"finer\" is given for a tile of 1 x 1 cells; give at least 2 along x or y");
 }
 
 TEST(FinerHeights, GeneratedBodiesAreMadeAgain) {

@@ -43,15 +43,19 @@ TEST_F(Answers, BareNumbersOfAnotherUnitAreAnswered) {
   warns("contact{ upper=s }:rotate(90 * math.pi)", "write \"282.743 deg\"");
   warns("lab.material{ young=70, poisson=0.3 }", "`young` is 70 Pa, softer than any solid");
   warns("lab.material{ hardness=1.1 }", "write \"1.1 GPa\"");
+  warns("lab.material{ hardness=1100 }", "write \"1100 MPa\"");
+  warns("lab.stylus{ tip=2 }", "write \"2 um\"");
+  warns("contact{ upper=lab.rigid }:press{ pressure=50 }", "write \"50 MPa\", or \"50 Pa\"");
+  warns("lab.friction{ tau0=500, alpha=0.2 }", "write \"500 MPa\", or \"500 Pa\"");
   refuses(
       "local law = lab.friction{ tau0=1, alpha=0.2 }\n"
       "lab.tilt_stage{ contact=lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity='box' } },\n"
       "  friction=law, mass='4 g', step=1 }:raise{ repeats=1 }",
       "above the angle of slip");
-  for (const char* right :
-       {"local x = s:rotated(math.pi / 2)", "local x = s:rotated '45 deg'",
-        "local x = s:rotated(2 * math.pi)", "lab.material{ young=70e9, poisson=0.3 }",
-        "lab.material{ young=1, poisson=0 }", "lab.material{ young='70 Pa', poisson=0.3 }"})
+  for (const char* right : {"local x = s:rotated(math.pi / 2)", "local x = s:rotated '45 deg'",
+                            "local x = s:rotated(2 * math.pi)", "lab.material{ young=70e9, poisson=0.3 }",
+                            "lab.material{ young=1, poisson=0 }", "lab.friction{ tau0=499.5, alpha=0.2 }",
+                            "lab.material{ young='70 Pa', poisson=0.3 }"})
     EXPECT_EQ(warned(right), "") << right;
 }
 
@@ -67,7 +71,7 @@ TEST_F(Answers, ValuesOfAnotherKindAreConvertedOrRefused) {
             "");
   EXPECT_TRUE(
       holds("(function() local a, b = table.unpack(book:rows())\n"
-            "return a.z == 1000 and a.p == 2e6 and a.name == 'worn' and b.z == 0.5 and b.p == 3000 "
+            "return a.z == 1e-3 and a.p == 2e6 and a.name == 'worn' and b.z == 0.5e-6 and b.p == 3000 "
             "and b.name == '2nd' end)()"));
   refuses("book:write{ ['z [um]']='1 MPa' }",
           "column `z`: \"1 MPa\": a pressure where a number in um is wanted");
@@ -89,7 +93,7 @@ TEST_F(Answers, EveryErrorNamesTheLineOfTheScript) {
   refuses("local ok, message = pcall(dofile, 'nosuch.lua') error(message, 0)", "cannot open nosuch.lua");
   refuses("\nio.lines 'nosuch'", "script.lua:2: ");
   refuses("for k, v in pairs(s) do end", "a surface is no table; help \"Surface\" lists its fields");
-  refuses("local x = '1 um' + 1", "quantities are strings where a key takes them");
+  refuses("local x = '1 um' + 1", "where a quantity is a plain SI number");
   refuses("local x = 2 * '1 um'", "the string \"1 um\" was used in arithmetic");
   EXPECT_EQ(value("'10' + 1"), "11");
   refuses("lab.material{ hardness='100 HB' }",
@@ -116,7 +120,8 @@ TEST_F(Answers, CallsThatChangeNothingSaySo) {
   warns("contact():place{ seed=2 }", "contact:place: placing a flat upper body changes nothing");
   warns("contact():rotate '90 deg'", "contact:rotate: turning a flat upper body changes nothing");
   EXPECT_EQ(warned("contact{ upper=s }:place{ seed=2 }"), "");
-  warns("s:profile{ row=0 }:filtered{ long_wave='10 mm' }", "no wave is longer than the 1 mm there are");
+  warns("s:profile{ row=0 }:filtered{ long_wave='10 mm' }",
+        "the length is 1 mm: little more than the mean is removed");
   warns("s:filtered{ short_wave='1 nm' }", "carry no wave so short");
   EXPECT_EQ(warned("s:filtered{ short_wave='80 um', long_wave='0.8 mm' }"), "");
 }
@@ -163,7 +168,7 @@ TEST_F(Answers, NamesStandAlongXAndNotUp) {
   EXPECT_EQ(run("book = lab.notebook 'grits' book:write{ grit='P80', Ra=1 } book:write{ grit='P120', Ra=2 }"),
             "");
   EXPECT_EQ(run("book:chart{ x='grit', y='Ra' }"), "");
-  refuses("book:chart{ x='Ra', y='grit' }", "`grit` holds names, such as \"P80\"; names stand along x");
+  refuses("book:chart{ x='Ra', y='grit' }", "`grit` holds names, such as \"P80\"; names can only be along x");
 }
 
 // The last height continues in the first.

@@ -150,7 +150,7 @@ TEST_F(BudgetTest, ACalibrationIsAnInputWithItsCorrelation) {
   EXPECT_TRUE(
       holds("part.p.degrees == 6 and part.correlation.share < -1 and math.abs(b.degrees - 6) < 1e-6"));
   EXPECT_TRUE(holds("math.abs(b.u - line.residual_sd / math.sqrt(8)) < 1e-3 * b.u"));
-  EXPECT_TRUE(refuses("lab.sensitivity{ ask=print, inputs={ law=line } }", "ask lab.budget"));
+  EXPECT_TRUE(refuses("lab.sensitivity{ ask=print, inputs={ law=line } }", "use lab.budget"));
   EXPECT_TRUE(refuses("lab.budget{ ask=print, inputs={ law=line, p={ value=1, u=1 } } }", "`p`"));
 }
 
@@ -185,7 +185,7 @@ TEST_F(BudgetTest, SaysWhatIsWrongAndWhere) {
   EXPECT_TRUE(refuses(
       "lab.ensemble{ over={ n={ 1 } }, run=function(case) lab.budget{ ask=function(x) return x.seed end, "
       "replicate={ seed={ 1, 2 } } } end }",
-      "a case of an ensemble cannot make a budget, which takes times: other cases run beside it; go "
+      "a case of an ensemble cannot measure the times of a budget: other cases run at the same time; go "
       "over the cases in a `for` loop, one budget after the other"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // accuracy={ estimate=true } and accuracy={ error= } in scripts.
-#include "bindings/lua/contact/discretisation_error.hpp"
+#include "bindings/lua/contact/state_class.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 
@@ -52,10 +52,9 @@ TEST_F(AccuracyOfContact, AFinerGridIsAskedForByName) {
   EXPECT_EQ(run("contact{ estimate='fine' }"),
             "script.lua:3: lab.contact: `accuracy`: `estimate` is the string \"fine\"; give true, false or "
             "\"finer\"");
-  EXPECT_EQ(
-      run("contact{ estimate='finer', error=0.01 }"),
-      "script.lua:3: lab.contact: `accuracy`: `error` and `estimate`=\"finer\" are both given; cells "
-      "chosen for an `error` are compared with the coarser ones tried before, so leave one of both out");
+  EXPECT_EQ(run("contact{ estimate='finer', error=0.01 }"),
+            "script.lua:3: lab.contact: `accuracy`: `error` and `estimate`=\"finer\" are both given; `error` "
+            "compares with the coarser grids that it has tried, so leave one of the two out");
 }
 
 TEST_F(AccuracyOfContact, NotAskedForCostsNothingAndSaysSo) {
@@ -115,7 +114,7 @@ TEST_F(AccuracyOfContact, AFunctionIsEvaluatedAgainOnFinerCells) {
 
 TEST_F(AccuracyOfContact, LimitsOfAChoiceAreKeys) {
   EXPECT_NE(run("contact{ error=1e-3, at_most={ cells=32 } }:press{ pressure='500 MPa' }")
-                .find(" cells a side or more, and 32 x 32 cells are the most within 32 cells a side; "),
+                .find(" cells a side, and 32 x 32 cells are the most within 32 cells a side; "),
             std::string::npos);
   EXPECT_EQ(
       run("contact{ at_most={ cells=32 } }"),

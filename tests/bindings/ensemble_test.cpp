@@ -168,7 +168,7 @@ TEST(Ensemble, LastKeyInOrderOfNamesVariesFastest) {
   EXPECT_EQ(bench.run(R"(
     local t = {}
     for _, row in ipairs(lab.ensemble{ over = { b = {1, 2}, a = {"x", true}, c = {0.5} },
-                                       run = function() end }) do
+                                       run = function() return {} end }) do
       t[#t + 1] = tostring(row.a) .. row.b .. row.c
     end
     return table.concat(t, " "))"),
@@ -184,14 +184,17 @@ TEST(Ensemble, ListOfCasesInPlaceOfLists) {
             "7 3 nil");
 }
 
-TEST(Ensemble, EmptyListsGiveNoRows) {
+TEST(Ensemble, EmptyListsAndEmptyReturnsAreRefused) {
   Bench bench;
-  EXPECT_EQ(
-      bench.run("return #lab.ensemble{ over = { a = {}, b = {1, 2} }, run = function() error('no') end }"),
-      "0");
-  EXPECT_EQ(bench.run("return #lab.ensemble{ cases = {}, run = function() error('no') end }"), "0");
-  EXPECT_TRUE(contains(bench.run("lab.ensemble{ over = {}, run = function() end }"),
+  EXPECT_TRUE(
+      contains(bench.run("lab.ensemble{ over = { a = {}, b = {1, 2} }, run = function() return {} end }"),
+               "a list in `over` is empty, so there is no case"));
+  EXPECT_TRUE(contains(bench.run("lab.ensemble{ cases = {}, run = function() return {} end }"),
+                       "`cases` is empty, so there is no case"));
+  EXPECT_TRUE(contains(bench.run("lab.ensemble{ over = {}, run = function() return {} end }"),
                        "`over` names nothing to vary; give at least one list"));
+  EXPECT_TRUE(contains(bench.run("lab.ensemble{ over = { a = {1} }, run = function() local r = 1 end }"),
+                       "case a = 1: `run` returned nothing (nil); return a table of named results"));
 }
 
 TEST(Ensemble, WrongKeysAreNamed) {
@@ -419,7 +422,7 @@ TEST(Ensemble, WhatSucceededBesideFailuresIsKept) {
   std::string rows, printed, kept;
   const std::string journal = journal_of(1, rows, printed, script, &kept);
   EXPECT_EQ(kept, "D,kind,seed,twice\n2,cold,1,4\n2,cold,2,4\n2,cold,3,4\n2.5,cold,1,5\n");
-  EXPECT_TRUE(contains(rows, "the other 4 ran (what they returned is in ensemble_kept.csv)\n"));
+  EXPECT_TRUE(contains(rows, "the other 4 ran (their results are in ensemble_kept.csv)\n"));
   EXPECT_TRUE(contains(journal,
                        "\"failed\":[{\"index\":5,\"case\":\"case D = 2.5, kind = \\\"cold\\\", seed = 2\","
                        "\"message\":\"script:2: boom 2\"},{\"index\":6"));
@@ -443,7 +446,7 @@ TEST(Ensemble, FailuresReportedAreAListBesideTheRows) {
       return text)"),
               "4 2.5 5.0; 5 2 script:2: boom 2; 6 3 script:2: boom 3");
     EXPECT_EQ(bench.monitor.warnings.size(), 2U);
-    EXPECT_EQ(bench.run("return #lab.ensemble{ over = { x = {1} }, run = function() end, "
+    EXPECT_EQ(bench.run("return #lab.ensemble{ over = { x = {1} }, run = function() return {} end, "
                         "on_failure = 'report' }.failed"),
               "0");
   }
@@ -471,7 +474,7 @@ TEST(Ensemble, ManyFailuresAreCounted) {
 TEST(Ensemble, ErrorValuesThatAreNoTextAreShown) {
   Bench bench;
   EXPECT_TRUE(contains(bench.run("lab.ensemble{ over = { x = {1} }, run = function() error({}) end }"),
-                       "case x = 1: (error value: table: "));
+                       "case x = 1: script:1: (error value: table: "));
   EXPECT_TRUE(
       contains(bench.run("lab.ensemble{ over = { x = {1} }, run = function() lab.surface.sphre{} end }"),
                "script:1: lab.surface has no field `sphre` (did you mean `sphere`?)"));
@@ -593,7 +596,7 @@ TEST(Ensemble, MemoryLimitEndsTheCaseOnly) {
       "lab.ensemble{ over = { x = {1} }, run = function() local t = {} for i = 1, 1e8 do t[i] = i end end }");
   memory::set_limit(0);
   EXPECT_TRUE(contains(message, "case x = 1: not enough memory"));
-  EXPECT_EQ(bench.run("return #lab.ensemble{ over = { x = {1} }, run = function() end }"), "1");
+  EXPECT_EQ(bench.run("return #lab.ensemble{ over = { x = {1} }, run = function() return {} end }"), "1");
 }
 
 TEST(Ensemble, ProgressIsThatOfTheWhole) {
@@ -640,7 +643,7 @@ TEST(Ensemble, EndlessNestingIsRefusedAndShallowNestingRuns) {
   Bench bench(2);
   EXPECT_TRUE(
       contains(bench.run("local function f() return lab.ensemble{ over = { x = {1} }, run = f }[1] end f()"),
-               "this ensemble stands inside 8 others"));
+               "this ensemble is inside 8 others"));
   EXPECT_EQ(bench.run("local rows = lab.ensemble{ over = { x = {1, 2} }, run = function(case)"
                       " local inner = lab.ensemble{ over = { y = {10, 20} }, run = function(c)"
                       " return { sum = case.x + c.y } end }"

@@ -22,9 +22,9 @@ TEST_F(Explain, SaysWhatEachControlTakes) {
   for (const char* key : {"pressure", "load", "approach", "indentation", "flatten"}) {
     ASSERT_EQ(run("key = '" + std::string(key) + "'\nplan = c:explain{ [key]=st[key] }"), "") << key;
     EXPECT_TRUE(holds("plan.transforms == c:copy():press{ [key]=st[key] }.cost.transforms")) << key;
-    EXPECT_TRUE(
-        holds("tostring(plan):find('expected of the press by `' .. key .. '`, tried on all 48 x 48', 1, "
-              "true) ~= nil"))
+    EXPECT_TRUE(holds(
+        "tostring(plan):find('expected of the press by `' .. key .. '`, from a trial on all 48 x 48', 1, "
+        "true) ~= nil"))
         << key;
   }
 }

@@ -15,7 +15,7 @@ class HoledSurface : public LuaTest {
     ASSERT_EQ(
         run("s = lab.surface.from_function{ cells={6, 5}, size={6, 5}, material=lab.material \"Al-2011\",\n"
             "  height=function(x, y) return x + 10 * y end }\n"
-            "m = s:masked{ where=function(x, y, z) return x == 2 and y == 1 end }"),
+            "m = s:masked{ mask=function(x, y, z) return x == 2 and y == 1 end }"),
         "");
   }
 };
@@ -38,14 +38,15 @@ TEST_F(HoledSurface, SaysWhatWasMeasured) {
 
 TEST_F(HoledSurface, IsMaskedInOneWay) {
   EXPECT_EQ(run("s:masked{}"),
-            "script.lua:1: surface:masked: give one of `where`, `outliers` and `mask`; 0 are given");
-  EXPECT_NE(run("s:masked{ where=function() return true end, outliers=\"mad\" }").find("2 are given"),
+            "script.lua:1: surface:masked: give one of `mask` and `outliers`; none is given");
+  EXPECT_NE(run("s:masked{ mask=function() return true end, outliers=\"mad\" }").find("both are given"),
             std::string::npos);
-  EXPECT_NE(run("s:masked{ where=function() return 1 end }")
+  EXPECT_NE(run("s:masked{ mask=function() return 1 end }")
                 .find("returned the number 1; it must return true or false"),
             std::string::npos);
-  EXPECT_NE(run("s:masked{ where=function() end }").find("it must return true or false"), std::string::npos);
-  EXPECT_NE(run("s:masked{ where=function() return true end }").find("leaves no point"), std::string::npos);
+  EXPECT_NE(run("s:masked{ mask=function() end }").find("it must return true or false"), std::string::npos);
+  EXPECT_NE(run("s:masked{ mask=function() return true end }").find("leaves no measured point"),
+            std::string::npos);
   EXPECT_NE(
       run("s:masked{ mask=lab.surface.flat{ cells=6, size=1 }.mask }").find("the mask has 6 x 6 points"),
       std::string::npos);
@@ -79,8 +80,7 @@ TEST_F(HoledSurface, OutliersAreNamedAndTold) {
   ASSERT_EQ(heard.warnings.size(), 1U);
   EXPECT_TRUE(
       heard.warnings[0].starts_with("script.lua:5: surface:masked: 1 of 4096 measured points are outliers by "
-                                    "the rule \"mad\" with factor 8 "
-                                    "and window 5, farther than "))
+                                    "the rule \"mad\", factor 8 and window 5 (more than "))
       << heard.warnings[0];
   ASSERT_EQ(run("spiky:masked{ outliers={ factor=1000 } }"), "");  // no outlier, no warning
   EXPECT_EQ(heard.warnings.size(), 1U);
@@ -110,7 +110,7 @@ TEST_F(HoledSurface, IsKnownInADryRun) {
   open();
   EXPECT_EQ(run("local s = lab.surface.flat{ cells=8, size=1 }\n"
                 "local m = s:masked{ outliers=\"mad\" }\n"
-                "local d = 2 * (m - s:masked{ where=function() return true end }) / 3\n"
+                "local d = 2 * (m - s:masked{ mask=function() return true end }) / 3\n"
                 "local x = -(d + s):filled{ by=\"interpolate\" }.measured + 1\n"
                 "print(d:roughness().measured, d.mask:value(0, 0), s:outliers{}.marked)"),
             "");
@@ -130,10 +130,9 @@ TEST_F(HoledSurface, ArithmeticIsThatOfHeights) {
 }
 
 TEST_F(HoledSurface, ArithmeticRefusesWhatHasNoMeaning) {
-  EXPECT_EQ(
-      run("return s - 5"),
-      "script.lua:1: a - b: one side is the number 5, the other a surface; both must be surfaces of equal "
-      "cells and size; the mean height goes with `levelled{ degree=0 }`");
+  EXPECT_EQ(run("return s - 5"),
+            "script.lua:1: a - b: one side is the number 5, the other a surface; give two surfaces of equal "
+            "cells and size; `levelled{ degree=0 }` removes the mean height");
   EXPECT_NE(run("return 5 + s").find("one side is the number 5"), std::string::npos);
   EXPECT_NE(run("return s + nil").find("one side is nothing"), std::string::npos);
   EXPECT_NE(run("return s * s").find("one must be a surface, the other a plain number"), std::string::npos);
@@ -157,15 +156,15 @@ TEST_F(HoledSurface, OperatorsAreTold) {
 }
 
 TEST_F(HoledSurface, ProfilesToo) {
-  ASSERT_EQ(
-      run("p = s:profile{ row=0 }\nq = p:masked{ where=function(x, z) return x > 1.5 and x < 3.5 end }"), "");
+  ASSERT_EQ(run("p = s:profile{ row=0 }\nq = p:masked{ mask=function(x, z) return x > 1.5 and x < 3.5 end }"),
+            "");
   EXPECT_TRUE(holds("q.measured == 4 and q.mask[3] == 0 and q.mask[4] == 0 and q.mask[5] == 1"));
   EXPECT_TRUE(holds("q == p:masked{ mask={ 1, 1, 0, 0, 1, 1 } }"));
   EXPECT_TRUE(holds("math.abs(q:filled{ by=\"interpolate\" }:heights()[3] - 2) < 1e-11"));
   EXPECT_TRUE(holds("q:heights()[3] ~= q:heights()[3] and q:roughness().measured == 4"));
   EXPECT_NE(run("p:masked{ mask={ 1, 1 } }").find("the mask has 2 points, and the profile 6"),
             std::string::npos);
-  EXPECT_NE(run("p:masked{ mask={ 1, true, 1, 1, 1, 1 } }").find("something else than numbers"),
+  EXPECT_NE(run("p:masked{ mask={ 1, true, 1, 1, 1, 1 } }").find("other values than numbers"),
             std::string::npos);
 }
 

@@ -2,7 +2,7 @@
 #include "tests/bindings/lua_test.hpp"
 
 #include "engine/core/error.hpp"
-#include "engine/run/result_memory.hpp"
+#include "engine/run/result_files.hpp"
 
 namespace asperity::lua::knob_test {
 namespace {
@@ -90,10 +90,9 @@ TEST_F(KnobTest, OneThatWasGivenAndNotMadeIsAnError) {
     session.knobs->check_all_made();
     FAIL() << "it was passed over";
   } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "the knob `presure` was set, and no line of the script made such a knob (did you mean `pressure`?); "
-        "its knobs are pressure (1 MPa to 200 MPa)");
+    EXPECT_STREQ(error.what(),
+                 "the knob `presure` was set, and the script makes no such knob (did you mean `pressure`?); "
+                 "its knobs are pressure (1 MPa to 200 MPa)");
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Dry runs return placeholders that check names and pass through arithmetic; the check stops where the
 // script's path depends on one.
-#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 
@@ -63,7 +63,7 @@ TEST_F(DryRun, PlaceholdersMayStandAnywhereInAnOptionsTable) {
       "lab.contact{ lower=s, upper=s:mirrored(), effects={ elasticity={ model='box', stiffness=st.stiffness "
       "} },\n"
       "  accuracy={ tolerance=st.residual } }");
-  goes_on("lab.surface.flat{ cells={ st.contacts, 4 }, size={ st.approach, '1 mm' } }");
+  goes_on("lab.surface.flat{ cells={ st.nodes_in_contact, 4 }, size={ st.approach, '1 mm' } }");
   goes_on("lab.surface.from_table{ size=1, heights={ { st.area, 2 }, { 3, st.area } } }");
   goes_on("lab.surface.from_table{ size=1, heights=s:heights() }");
   goes_on("c:sweep{ pressure={ 1e6, st.pressure } }");

@@ -49,6 +49,21 @@ TEST_F(PromptTest, ShowsTheValueOfAnExpression) {
   EXPECT_EQ(say("lab.surface.flat{ cells=4, size=1 }"), "surface 4 x 4 cells, 1 m x 1 m, peak to valley 0 m");
 }
 
+TEST_F(PromptTest, ListsItsVariables) {
+  EXPECT_EQ(say("who()").find("nothing is on the bench"), 0U);
+  say("s, n = lab.surface.flat{ cells=4, size=1 }, 3");
+  const std::string list = "n  3\ns  surface 4 x 4 cells, 1 m x 1 m, peak to valley 0 m";
+  EXPECT_EQ(say("who"), list);
+  EXPECT_EQ(say(" who() "), list);
+  EXPECT_EQ(prompt->script().find("who"), std::string::npos);
+}
+
+TEST_F(PromptTest, EndsByWord) {
+  for (const char* line : {"exit", "quit", "exit()", " quit() ;"})
+    EXPECT_EQ(prompt->take(line), Prompt::Outcome::end) << line;
+  EXPECT_EQ(prompt->take("x = 'exit'"), Prompt::Outcome::done);
+}
+
 TEST_F(PromptTest, ShowsTablesOnOneLine) {
   EXPECT_EQ(say("{}"), "{}");
   EXPECT_EQ(say("{ 1, 2.5, 'x', b = true, a = { 1 } }"), "{ 1, 2.5, \"x\", a = { 1 }, b = true }");

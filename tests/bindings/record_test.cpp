@@ -54,8 +54,8 @@ TEST_F(Result, NamesTheEffectThatWouldBringAField) {
 }
 
 TEST_F(Result, CannotBeChanged) {
-  EXPECT_EQ(run("r.Ra = 0"), "script.lua:1: a result cannot be changed; copy what you need into a table");
-  EXPECT_EQ(run("r.new = 0"), "script.lua:1: a result cannot be changed; copy what you need into a table");
+  EXPECT_EQ(run("r.Ra = 0"), "script.lua:1: a result cannot be changed; copy its fields into a table");
+  EXPECT_EQ(run("r.new = 0"), "script.lua:1: a result cannot be changed; copy its fields into a table");
   EXPECT_EQ(value("getmetatable(r)"), "result");
   EXPECT_NE(run("rawset(r, 'Ra', 1)"), "");
 }

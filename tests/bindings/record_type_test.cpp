@@ -42,8 +42,8 @@ std::vector<std::string> offered(const std::string& script, const std::vector<Li
 
 TEST_F(RecordTypes, AreNamedByAllThatGivesThem) {
   // The script names the columns of these tables.
-  const std::set<std::string> open = {"lab.ensemble", "notebook:rows", "table:rows", "study:rows",
-                                      "StudyChoice.knobs"};
+  const std::set<std::string> open = {"lab.ensemble", "notebook:rows", "notebook:each",    "table:rows",
+                                      "table:each",   "study:rows",    "StudyChoice.knobs"};
   std::set<std::string> named;
   for (const auto& [giver, type] : written_types()) {
     const bool table = type.find("table") != std::string::npos && type.find("table<") == std::string::npos;

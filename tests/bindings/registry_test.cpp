@@ -2,11 +2,12 @@
 // Engine errors become Lua errors with the script's line; failed calls release everything in both builds of
 // Lua.
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/guard.hpp"
 
 #include <memory>
 
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/surface/generators/flat.hpp"
+#include "engine/surface/generators/sphere.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::registry_test {
@@ -45,7 +46,7 @@ TEST_F(Guard, TheLineIsThatOfTheCallAlsoThroughPcallAndMetamethods) {
   EXPECT_EQ(run("local t = setmetatable({}, { __index = function(_, k)\n return lab.surface[k] end })\n"
                 "local x = t.flt"),
             "script.lua:2: lab.surface has no field `flt` (did you mean `flat`?); "
-            "lab.help \"lab.surface\" lists what it has");
+            "lab.help \"lab.surface\" lists its members");
 }
 
 TEST_F(Guard, AFailedCallFreesWhatItHeld) {
@@ -152,7 +153,7 @@ TEST_F(Guard, GarbageDoesNotCountAgainstTheMemoryLimit) {
             "");
   const std::string error =
       run("local t = {} for k = 1, 12 do t[k] = lab.surface.flat{ cells=1024, size=k } end");
-  EXPECT_NE(error.find("out of memory: asked for 8 MiB"), std::string::npos) << error;
+  EXPECT_NE(error.find("out of memory: requested 8 MiB"), std::string::npos) << error;
 }
 
 TEST_F(Method, NeedsAColonAndAValueOfItsClass) {
@@ -190,11 +191,11 @@ TEST_F(Method, NamesItsPositionalArguments) {
 TEST_F(LabModule, AnUnknownNameOfTheLaboratoryIsAnErrorWithTheNearest) {
   EXPECT_EQ(run("lab.surfase = nil"), "script.lua:1: lab cannot be changed");
   EXPECT_EQ(run("local x = lab.surfaces"),
-            "script.lua:1: lab has no field `surfaces` (did you mean `surface`?); lab.help \"lab\" lists "
-            "what it has");
+            "script.lua:1: lab has no field `surfaces` (did you mean `surface`?); lab.help \"lab\" lists its "
+            "members");
   EXPECT_EQ(run("local x = lab.surface.sin"),
             "script.lua:1: lab.surface has no field `sin` (did you mean `sine`?); "
-            "lab.help \"lab.surface\" lists what it has");
+            "lab.help \"lab.surface\" lists its members");
   EXPECT_EQ(run("local x = lab.units.Nm2").rfind("script.lua:1: lab.units has no field `Nm2`", 0), 0u);
   EXPECT_EQ(run("local x = lab[3]").rfind("script.lua:1: lab has no field the number 3", 0), 0u);
   EXPECT_EQ(run("local x = lab[{}]").rfind("script.lua:1: lab has no field a table", 0), 0u);

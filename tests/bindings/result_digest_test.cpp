@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/registry/result_digest.hpp"
+#include "bindings/lua/registry/call_record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/contact/state_error.hpp"
+#include "bindings/lua/contact/state_class.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 
@@ -27,9 +27,9 @@ TEST_F(ErrorOfState, HasABoundForEveryQuantity) {
   EXPECT_TRUE(holds("st.error.algebraic.approach > 0 and st.error.algebraic.approach < 1e-3 * st.approach"));
   EXPECT_TRUE(holds("st.error.algebraic.energy > 0 and st.error.algebraic.energy < 1e-3 * st.energy"));
   EXPECT_TRUE(holds("st.error.algebraic.load < 1e-12 * st.load"));
-  EXPECT_TRUE(holds("st.error.algebraic.contacts_low <= st.contacts"));
-  EXPECT_TRUE(holds("st.error.algebraic.contacts_high >= st.contacts"));
-  EXPECT_TRUE(holds("st.error.algebraic.area_fraction_low == st.error.algebraic.contacts_low / 256"));
+  EXPECT_TRUE(holds("st.error.algebraic.nodes_in_contact_low <= st.nodes_in_contact"));
+  EXPECT_TRUE(holds("st.error.algebraic.nodes_in_contact_high >= st.nodes_in_contact"));
+  EXPECT_TRUE(holds("st.error.algebraic.area_fraction_low == st.error.algebraic.nodes_in_contact_low / 256"));
   EXPECT_TRUE(holds("st.error.algebraic.area_high <= st.error.algebraic.area_fraction_high * 256.001e-12"));
   EXPECT_TRUE(holds("st.error.algebraic.cost.transforms >= 4"));
 }

@@ -11,6 +11,7 @@
 
 #include "bindings/lua/ensemble/transfer.hpp"
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/runtime/code_digest.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
@@ -124,8 +125,7 @@ TEST(ParcelBytes, RefuseWhatTheyCannotCarryNamingIt) {
   const std::string surface = "lab.surface.sine{ cells = 8, size = 1, amplitude = 0.1 }";
   EXPECT_EQ(refusal("return { list = { 1, " + surface + " } }")
                 .find("`run(case).list[2]` holds a surface that its generator can make again on other cells, "
-                      "which can "
-                      "be neither kept in a file nor sent to another process"),
+                      "which can neither be stored in a file nor sent to another process"),
             0U);
   EXPECT_NE(refusal("return { t = lab.stylus{ tip = '2 um', spacing = '1 um', length = '1 mm' } }")
                 .find("`run(case).t` holds a stylus"),

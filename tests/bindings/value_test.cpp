@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/value.hpp"
+#include "bindings/lua/registry/guard.hpp"
 
 #include <memory>
 
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/surface/generators/flat.hpp"
+#include "engine/surface/generators/sphere.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::value_test {

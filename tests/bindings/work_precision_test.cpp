@@ -207,7 +207,7 @@ TEST_F(WorkPrecisionTest, ACaseOfAnEnsembleTimesNothing) {
   EXPECT_TRUE(refuses(
       "lab.ensemble{ over={ n={ 1 } }, run=function() lab.work_precision{ truth=1, ask=function() "
       "return 1 end, try={ { name='a' } } } end }",
-      "a case of an ensemble cannot make a study, which takes times: other cases run beside it; go over "
+      "a case of an ensemble cannot measure the times of a study: other cases run at the same time; go over "
       "the cases in a `for` loop, one study after the other"));
 }
 

@@ -164,7 +164,7 @@ TEST(Adhesion, WarnsWhereTheZoneThatPullsIsUnderFourCells) {
   EXPECT_TRUE(plan_of(adhering(0.01, 0.05)).warnings.empty());
   const Plan coarse = plan_of(adhering(0.01, 0.01));
   ASSERT_EQ(coarse.warnings.size(), 1U);
-  EXPECT_NE(coarse.warnings.front().find("the zone where `adhesion` pulls beside a contact is about"),
+  EXPECT_NE(coarse.warnings.front().find("`adhesion` acts around a contact in a zone about"),
             std::string::npos);
   EXPECT_TRUE(plan_of(adhering(0, 0.01)).warnings.empty());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bounds on the algebraic error: valid for any feasible pressures, and tight.
-#include "engine/contact/algebraic_error.hpp"
+#include "engine/contact/solution.hpp"
 
 #include <algorithm>
 #include <cmath>

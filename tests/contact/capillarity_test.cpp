@@ -27,7 +27,7 @@ Scene rough(std::optional<CapillarityOptions> capillarity) {
   Scene scene{Surface(body.grid(), body.heights(), traits), rigid_material(), Boundary::periodic,
               HalfSpaceOptions{}, Accuracy{}};
   scene.accuracy.tolerance = 1e-5;
-  scene.effects.set(capillarity);
+  if (capillarity) scene.effects.set(*capillarity);
   return scene;
 }
 

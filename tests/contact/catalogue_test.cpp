@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/contact/elasticity/list.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::catalogue_test {
@@ -27,8 +27,7 @@ TEST(Catalogue, EveryEffectHasANameOfItsOwnAndASentence) {
   for (const ElasticModel* model : elastic_models()) {
     EXPECT_FALSE(model->sentence.empty());
     EXPECT_FALSE(model->noun.empty());
-    EXPECT_NE(model->plan, nullptr);
-    EXPECT_NE(model->solver, nullptr);
+    EXPECT_NE(model->make, nullptr);
     names.push_back(model->name);
   }
   for (const std::string_view name : names) EXPECT_EQ(std::ranges::count(names, name), 1) << name;

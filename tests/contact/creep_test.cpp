@@ -37,7 +37,7 @@ TEST(Creep, NeedsPlasticity) {
   scene.effects.set(CreepOptions{});
   EXPECT_EQ(error_of([&] { check(scene); }), "");
   scene.effects.remove<PlasticityOptions>();
-  EXPECT_NE(error_of([&] { check(scene); }).find("name `plasticity` beside it"), std::string::npos);
+  EXPECT_NE(error_of([&] { check(scene); }).find("name `plasticity` as well"), std::string::npos);
 }
 
 TEST(Creep, OptionsOutOfRangeAreNamed) {

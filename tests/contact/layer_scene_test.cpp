@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/capillarity.hpp"
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/elasticity/layer/elastic_layer.hpp"
+#include "engine/contact/solution.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/sine.hpp"
 #include "tests/contact/contacts.hpp"
@@ -114,7 +114,7 @@ TEST(LayerScene, RefusesByName) {
   }
   Scene free = scene_on_layer();
   free.boundary = Boundary::free;
-  names(refused(free), {"`boundary` is \"free\" on a layer", "periodic"});
+  names(refused(free), {"`boundary` is \"free\", and a layer", "periodic"});
   Scene soft = scene_on_layer();
   soft.upper = named_material("quartz");
   names(refused(soft), {"the upper body is of `quartz`", "lab.rigid"});

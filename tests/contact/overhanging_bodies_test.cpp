@@ -269,7 +269,7 @@ TEST(OverhangingBodies, GroundThatNothingFacesSinksWithTheRest) {
   const Turned turned(two_domes(grid, HalfSpaceOptions{}, 1e-10), 45 * degree);
   const State state = turned.press(PressBy::pressure, 5e7);
   const auto u = state.field("displacement"), p = state.field("pressure");
-  const double modulus = std::get<HalfSpaceOperator>(turned.plan.elasticity).modulus, cell = grid.hx();
+  const double modulus = turned.plan.elasticity->modulus, cell = grid.hx();
   // Far from pressed nodes: point loads, u = p h²/(π E* r).
   double by_points = 0;
   for (int j = 0; j < 24; ++j)
@@ -359,7 +359,7 @@ TEST(OverhangingBodies, BodiesThatDoNotMeetAreRefused) {
   const Surface body = surface_of(line, [](int, int j) { return j * 1e-9; }).with_material(metal(1e9));
   // 64 nodes in a line across another.
   Scene scene{body, body, Boundary::free, BoxOptions{1e12}, Accuracy{}};
-  EXPECT_NE(error_of([&] { Turned(scene, 90 * degree); }).find("no node of one body lies over the other"),
+  EXPECT_NE(error_of([&] { Turned(scene, 90 * degree); }).find("no node of one body faces the other"),
             std::string::npos);
 }
 

@@ -105,15 +105,16 @@ TEST(Plasticity, ThePlanSaysWhoTakesWhatAndByWhat) {
     return text;
   };
   const Surface one = rough.with_material(metal(1e9)), other = rough.with_material(metal(1.5e9));
-  EXPECT_EQ(
-      sentence(scene_of(one, other)),
-      "pressure up to 1 GPa; the lower body takes 93.8 % of what yields, by the ratio of their hardness");
+  EXPECT_EQ(sentence(scene_of(one, other)),
+            "pressure up to 1 GPa; the lower body takes 93.8 % of the plastic change, by the ratio of their "
+            "hardness");
   EXPECT_NE(sentence(scene_of(one, one, {{}, 5e13}))
-                .find("50 % of what yields, by the ratio of their "
+                .find("50 % of the plastic change, by the ratio of their "
                       "hardness at each node, which grows"),
             std::string::npos);
-  EXPECT_NE(sentence(scene_of(one, rigid_material())).find("the lower body takes 100 % of what yields"),
-            std::string::npos);
+  EXPECT_NE(
+      sentence(scene_of(one, rigid_material())).find("the lower body takes 100 % of the plastic change"),
+      std::string::npos);
   EXPECT_EQ(sentence(scene_of(one, rigid_material())).find("ratio"), std::string::npos);
 }
 

@@ -170,9 +170,7 @@ TEST(LatticeIsometry, TurningComposesWithWhatCameBefore) {
 
 TEST(LatticeIsometry, QuarterTurnOfAnOblongIsRefused) {
   EXPECT_EQ(error_of([] { LatticeIsometry(6, 4).turned(-1); }),
-            "a turn by 270 deg was asked of a grid of 6 x 4 cells; only a square tile can be turned by 90 "
-            "deg; this "
-            "one can be turned by 180 deg");
+            "a turn by 270 deg does not fit a grid of 6 x 4 cells; turn it by 180 deg, or use a square tile");
   const LatticeIsometry over(6, 4);
   EXPECT_EQ(over.turned(2).to_lower(over.to_upper(Node{0, 0})), (Node{5, 3}));
 }

@@ -15,11 +15,10 @@ using test::error_of;
 
 TEST(PressRequest, NegativeAndNonFiniteValuesAreRefusedByName) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(
-      error_of([] {
-        check(PressRequest{PressBy::load, -1, {}});
-      }),
-      "`load` is -1 N; a contact in which nothing attracts the bodies takes a finite value from zero up");
+  EXPECT_EQ(error_of([] {
+              check(PressRequest{PressBy::load, -1, {}});
+            }),
+            "`load` is -1 N; give a finite value from zero up: nothing attracts the bodies");
   for (const PressBy by :
        {PressBy::pressure, PressBy::load, PressBy::approach, PressBy::indentation, PressBy::flatten})
     for (const double value : {-1e-300, inf, -inf, std::numeric_limits<double>::quiet_NaN()})

@@ -39,7 +39,7 @@ TEST(StateQuantities, EachIsThereOnceAndIsFound) {
 TEST(StateQuantities, ValuesAreThoseOfTheState) {
   const State state = pressed_ball(false);
   EXPECT_EQ(find_quantity("approach")->value(state), state.approach());
-  EXPECT_EQ(find_quantity("contacts")->value(state), static_cast<double>(state.contacts()));
+  EXPECT_EQ(find_quantity("nodes_in_contact")->value(state), static_cast<double>(state.contacts()));
   EXPECT_EQ(find_quantity("energy")->value(state), state.energy());
   for (const StateQuantity& quantity : state_quantities())
     if (quantity.effect.empty()) {

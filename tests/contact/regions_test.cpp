@@ -125,5 +125,58 @@ TEST(BoundaryEdges, TheRimOfATileIsNoEdgeUnlessItWraps) {
   }
 }
 
+bool open(const Mask& mask, PathDirection along, bool wrap) {
+  return has_open_path(mask.on, mask.nx, mask.ny, along, wrap);
+}
+
+TEST(OpenPath, JoinsSidesByEdgesAndWrapsAcrossOnly) {
+  const Mask winding = mask_of({"#.###", "#...#", "###.#"});
+  EXPECT_TRUE(open(winding, PathDirection::y, false));
+  EXPECT_FALSE(open(winding, PathDirection::x, false));
+  // Corners do not join.
+  EXPECT_FALSE(open(mask_of({".#", "#."}), PathDirection::x, false));
+  // Around the tile, across the path.
+  const Mask around = mask_of({"..###", "#####", ".....", "#####"});
+  EXPECT_TRUE(open(around, PathDirection::x, false));
+  const Mask over = mask_of({"...##", "#####", "#####", "##..."});
+  EXPECT_FALSE(open(over, PathDirection::x, false));
+  EXPECT_TRUE(open(over, PathDirection::x, true));
+  EXPECT_FALSE(open(over, PathDirection::y, true));
+  EXPECT_TRUE(open(mask_of({"."}), PathDirection::y, true));
+  EXPECT_FALSE(open(mask_of({"#"}), PathDirection::y, true));
+}
+
+TEST(OpenPath, IsTheComplementOfAWall) {
+  // In the plane, a four-neighbour path along x is open exactly if no eight-neighbour wall joins the other
+  // sides.
+  std::uint64_t state = 12345;
+  for (int trial = 0; trial < 400; ++trial) {
+    Mask mask{9, 7, {}};
+    for (int k = 0; k < mask.nx * mask.ny; ++k) {
+      state = state * 6364136223846793005U + 1442695040888963407U;
+      mask.on.push_back((state >> 33) % 100 < 42 ? 1 : 0);
+    }
+    bool blocked = false;
+    std::vector<int> next;
+    std::vector<std::uint8_t> seen(mask.on.size(), 0);
+    const auto visit = [&](int i, int j) {
+      if (i < 0 || j < 0 || i >= mask.nx || j >= mask.ny) return;
+      const auto k = static_cast<std::size_t>(j * mask.nx + i);
+      if (mask.on[k] == 0 || seen[k] != 0) return;
+      seen[k] = 1;
+      next.push_back(j * mask.nx + i);
+    };
+    for (int i = 0; i < mask.nx; ++i) visit(i, 0);
+    while (!next.empty()) {
+      const int node = next.back();
+      next.pop_back();
+      blocked |= node / mask.nx == mask.ny - 1;
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) visit(node % mask.nx + di, node / mask.nx + dj);
+    }
+    EXPECT_EQ(open(mask, PathDirection::x, false), !blocked);
+  }
+}
+
 }  // namespace
 }  // namespace asperity::regions_test

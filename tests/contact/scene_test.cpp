@@ -36,7 +36,7 @@ TEST(Scene, AreasAreWithinTheRangeOfADouble) {
   for (const double size : {1e-200, 1e200})
     EXPECT_NE(error_of([&] {
                 check(test::boxes(random_surface(3, 3, 1, size, size), 1));
-              }).find("an area beyond the range of a double; check the unit of `size`"),
+              }).find("an area outside the range of a double; check the unit of `size`"),
               std::string::npos)
         << size;
 }
@@ -60,9 +60,8 @@ TEST(Scene, ToleranceAndPrecisionAreChecked) {
   EXPECT_EQ(error_of([&] { check(scene); }), "");
   scene.accuracy.precision = Accuracy::Precision::single;
   EXPECT_EQ(error_of([&] { check(scene); }),
-            "`precision` is \"single\" for box elements; their solution is a closed form in double "
-            "precision; leave "
-            "`precision` out");
+            "`precision` is \"single\" for box elements; leave `precision` out: they have a closed form in "
+            "double precision");
 }
 
 TEST(Scene, FlatMaterialIsChecked) {

@@ -85,8 +85,9 @@ TEST(Sliding, APlanListsWhatIsNamedAndPlansNothingForIt) {
 TEST(Sliding, ShearThatMovesUnlikeBodiesNormallyIsTold) {
   Scene scene = two_rough({TangentialOptions{}});
   scene.upper = rigid_material();
-  EXPECT_NE(plan_of(scene).text().find("; Dundurs' beta is 0.5: that shear and pressure mix is left out"),
-            std::string::npos);
+  EXPECT_NE(
+      plan_of(scene).text().find("; Dundurs' beta is 0.5: the coupling of shear and pressure is neglected"),
+      std::string::npos);
 }
 
 TEST(Sliding, OptionsOutOfRangeAreNamed) {
@@ -105,17 +106,17 @@ TEST(Sliding, WhatAnEffectNeedsIsNamed) {
   Scene flat = two_rough({InterlockingOptions{}});
   flat.upper = rigid_material();
   EXPECT_EQ(error_of([&] { plan_of(flat); }),
-            "the effect `interlocking` is of two rough bodies, and the upper body is a flat; give a surface "
+            "the effect `interlocking` needs two rough bodies, and the upper body is flat; give a surface "
             "as `upper`, or leave the effect out");
   Scene boxes = test::boxes(random_surface(8, 8, 1), 1);
   boxes.effects.set(TangentialOptions{});
-  EXPECT_NE(error_of([&] { plan_of(boxes); }).find("`compliance_ratio` of the effect `tangential` is not"),
+  EXPECT_NE(error_of([&] { plan_of(boxes); }).find("the effect `tangential` needs `compliance_ratio`"),
             std::string::npos);
   boxes.effects.find<TangentialOptions>()->compliance_ratio = 2;
   EXPECT_EQ(error_of([&] { plan_of(boxes); }), "");
   Scene plastic = two_rough({TangentialOptions{}});
   plastic.effects.set(PlasticityOptions{1.0, infinite});
-  EXPECT_NE(error_of([&] { check(plastic); }).find("`tangential` is the difference of two elastic contacts"),
+  EXPECT_NE(error_of([&] { check(plastic); }).find("`tangential` needs an elastic contact"),
             std::string::npos);
 }
 

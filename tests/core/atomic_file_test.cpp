@@ -3,7 +3,6 @@
 // writer.
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/files/temporary_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

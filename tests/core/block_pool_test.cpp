@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/block_pool.hpp"
+#include "engine/core/memory.hpp"
 
 #include <gtest/gtest.h>
 

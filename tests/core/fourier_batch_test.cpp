@@ -95,9 +95,7 @@ TEST(BatchFourier, ColumnsThereAndBack) {
       for (std::size_t k = 0; k < field.size(); ++k)
         field[k] = {stream.normal(2 * k), stream.normal(2 * k + 1)};
       const auto before = field;
-      batch.load(work, field.data(), stride, n, count);
-      batch.forward(work);
-      batch.store_bins(work, field.data(), stride, count);
+      batch.transform(work, field.data(), stride, count, true);
       for (int k = 0; k < n; k += 1 + n / 7) {
         std::complex<long double> sum = 0;
         for (int i = 0; i < n; ++i)
@@ -106,9 +104,7 @@ TEST(BatchFourier, ColumnsThereAndBack) {
         const std::complex<long double> bin(field[static_cast<std::size_t>(k) * stride]);
         ASSERT_LT(static_cast<double>(std::abs(bin - sum)), 2e-15 * n) << n << ", bin " << k;
       }
-      batch.load_bins(work, field.data(), stride, count);
-      batch.inverse(work);
-      batch.store(work, field.data(), stride, n, count);
+      batch.transform(work, field.data(), stride, count, false);
       for (std::size_t k = 0; k < field.size(); ++k) {
         const bool touched = static_cast<int>(k % stride) < count;
         if (touched)

@@ -65,7 +65,7 @@ TEST(Json, ListsInListsAreTakenApartOnlySoDeep) {
 
 TEST(Json, SaysWhatItHoldsInsteadOfWhatWasWanted) {
   EXPECT_EQ(error_of([] { Json(true).number(); }),
-            "bad_file: a record holds a boolean where a number should stand; the file was written by another "
+            "bad_file: a record holds a boolean instead of a number; the file was written by another "
             "program or damaged");
   EXPECT_EQ(Json().find("a"), nullptr);
   EXPECT_NE(error_of([] { Json(1).set("a", 2); }), "");

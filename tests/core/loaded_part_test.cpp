@@ -34,11 +34,9 @@ TEST(LoadedPart, ProgramsInTheBuildFolderLookThere) {
 }
 
 TEST(LoadedPart, MissingFileNamesThePlaces) {
-  EXPECT_EQ(
-      refusal({"/nowhere/a.so", "/nowhere/b.so"}),
-      "the part by which nothing is done, asperity-nothing.so, is missing; looked for `/nowhere/a.so` and "
-      "`/nowhere/b.so`; build or install the program as a whole; that part needs Debian's package "
-      "no-package");
+  EXPECT_EQ(refusal({"/nowhere/a.so", "/nowhere/b.so"}),
+            "nothing is done by asperity-nothing.so, a file that is missing; looked for `/nowhere/a.so` and "
+            "`/nowhere/b.so`; build or install the whole program, with Debian's package no-package");
 }
 
 TEST(LoadedPart, FileThatIsNoPartNamesThePackage) {
@@ -46,14 +44,14 @@ TEST(LoadedPart, FileThatIsNoPartNamesThePackage) {
   std::ofstream(path) << "no library";
   const std::string text = refusal({path});
   std::filesystem::remove(path);
-  EXPECT_NE(text.find("the part by which nothing is done cannot be loaded: "), std::string::npos) << text;
+  EXPECT_NE(text.find(", which cannot be loaded: "), std::string::npos) << text;
   EXPECT_NE(text.find("; install Debian's package no-package"), std::string::npos) << text;
 }
 
 TEST(LoadedPart, LibraryWithoutTheFunctionIsOfAnotherVersion) {
   const std::string text = refusal({"/lib/x86_64-linux-gnu/libm.so.6"}, "asperity_no_such_function");
   if (!std::filesystem::exists("/lib/x86_64-linux-gnu/libm.so.6")) GTEST_SKIP() << "libm stands elsewhere";
-  EXPECT_NE(text.find("belongs to another version: it has no `asperity_no_such_function`"), std::string::npos)
+  EXPECT_NE(text.find("a file of another version: it has no `asperity_no_such_function`"), std::string::npos)
       << text;
 }
 

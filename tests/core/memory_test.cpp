@@ -54,7 +54,7 @@ TEST_F(Memory, LimitIsKeptToTheByte) {
     ADD_FAILURE() << "the limit was passed";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::out_of_memory);
-    EXPECT_EQ(error.hint(), "fewer cells need less");
+    EXPECT_EQ(error.hint(), "give fewer `cells`, or raise `--limit-memory`");
     EXPECT_NE(error.sentence().find("of a limit of "), std::string::npos) << error.sentence();
   }
   EXPECT_EQ(memory::held(), before);
@@ -77,7 +77,7 @@ TEST_F(Memory, AbsurdSizesAreRefusedNotWrapped) {
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::out_of_memory);
-    EXPECT_EQ(error.sentence().substr(0, 25), "out of memory: asked for ");
+    EXPECT_EQ(error.sentence().substr(0, 25), "out of memory: requested ");
   }
   EXPECT_THROW(memory::acquire(std::numeric_limits<std::size_t>::max()), Error);
   EXPECT_THROW(Allocator<double>().allocate(std::numeric_limits<std::size_t>::max() / 4), Error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Progress of the whole from its parts.
-#include "engine/core/part_monitor.hpp"
+#include "engine/core/monitor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -119,6 +119,17 @@ TEST(Quantity, OldAndAngloAmericanUnitsByTheirDefinitions) {
   EXPECT_EQ(parse_quantity_as("1 lb", dimension::mass), 0.45359237);
 }
 
+TEST(Quantity, DaysMicronsAndHardModuli) {
+  const auto time = [](const char* text) { return parse_quantity_as(text, dimension::time); };
+  EXPECT_EQ(time("1 day"), 86400.0);
+  EXPECT_EQ(time("2.5 d"), 216000.0);
+  EXPECT_EQ(time("1 week"), 604800.0);
+  EXPECT_EQ(length("3 micron"), 3e-6);
+  EXPECT_EQ(length("2 angstrom"), 2e-10);
+  EXPECT_EQ(length("2 \u00C5"), 2e-10);
+  EXPECT_EQ(parse_quantity_as("1.05 TPa", dimension::pressure), 1.05e12);
+}
+
 // Units of their own: no prefixes k, m, a; no units d, h.
 TEST(Quantity, NamesThatLookLikePrefixesAreUnitsOfTheirOwn) {
   EXPECT_EQ(parse_unit("kip").dimension, dimension::force);
@@ -188,7 +199,7 @@ TEST(Quantity, UnknownUnitNamesTheNearest) {
 }
 
 TEST(Quantity, WhatIsNotANumber) {
-  const std::string none = ": no number to begin with; write a number and a unit, such as \"250 um\"";
+  const std::string none = ": no number at its start; write a number and a unit, such as \"250 um\"";
   for (const std::string text : {"", "  ", "um", "inf um", "nan", "-", ".", "e5", "--3 m", "+ 3 m", "∞ m"})
     EXPECT_EQ(refusal(text), "\"" + text + "\"" + none) << text;
   EXPECT_EQ(refusal("0x10 m").substr(0, 26), "\"0x10 m\": unknown unit `x`");
@@ -199,25 +210,31 @@ TEST(Quantity, WhatIsNotANumber) {
 }
 
 TEST(Quantity, MalformedUnits) {
-  EXPECT_EQ(refusal("1 N/"), "\"1 N/\": a unit is missing at the end");
-  EXPECT_EQ(refusal("1 N*"), "\"1 N*\": a unit is missing at the end");
+  EXPECT_EQ(refusal("1 N/"), "\"1 N/\": a unit is missing at the end; complete it, or drop the last sign");
+  EXPECT_EQ(refusal("1 N*"), "\"1 N*\": a unit is missing at the end; complete it, or drop the last sign");
   EXPECT_EQ(refusal("1 /m"), "\"1 /m\": cannot read a unit from \"/m\"");
   EXPECT_EQ(refusal("1 N//m"), "\"1 N//m\": cannot read a unit from \"/m\"");
-  EXPECT_EQ(refusal("1 m^"), "\"1 m^\": a unit's power is not a whole number from -9 to 9");
-  EXPECT_EQ(refusal("1 m^2.5"), "\"1 m^2.5\": a unit's power is not a whole number from -9 to 9");
-  EXPECT_EQ(refusal("1 m^10"), "\"1 m^10\": a unit's power is not a whole number from -9 to 9");
-  EXPECT_EQ(refusal("1 m⁻"), "\"1 m⁻\": a unit's power is not a whole number from -9 to 9");
+  EXPECT_EQ(refusal("1 m^"),
+            "\"1 m^\": the power of a unit is no whole number from -9 to 9; write it such as \"kg m^-3\"");
+  EXPECT_EQ(refusal("1 m^2.5"),
+            "\"1 m^2.5\": the power of a unit is no whole number from -9 to 9; write it such as \"kg m^-3\"");
+  EXPECT_EQ(refusal("1 m^10"),
+            "\"1 m^10\": the power of a unit is no whole number from -9 to 9; write it such as \"kg m^-3\"");
+  EXPECT_EQ(refusal("1 m⁻"),
+            "\"1 m⁻\": the power of a unit is no whole number from -9 to 9; write it such as \"kg m^-3\"");
   EXPECT_EQ(
       refusal("1 J/(m s)"),
       "\"1 J/(m s)\": brackets in a unit; write every divisor after its own stroke, such as \"J/m^2/s\"");
 }
 
 TEST(Quantity, RangeOfNumbers) {
-  EXPECT_EQ(refusal("1e309 m"), "\"1e309 m\": the value is outside the range of numbers");
-  EXPECT_EQ(refusal("1e300 km^9"), "\"1e300 km^9\": the value is outside the range of numbers");
-  EXPECT_EQ(refusal("1e-400 m"), "\"1e-400 m\": the value is outside the range of numbers");
+  EXPECT_EQ(refusal("1e309 m"), "\"1e309 m\": the value is outside the range of numbers; check its exponent");
+  EXPECT_EQ(refusal("1e300 km^9"),
+            "\"1e300 km^9\": the value is outside the range of numbers; check its exponent");
+  EXPECT_EQ(refusal("1e-400 m"),
+            "\"1e-400 m\": the value is outside the range of numbers; check its exponent");
   EXPECT_EQ(refusal("1e99999999999999999999 m"),
-            "\"1e99999999999999999999 m\": the value is outside the range of numbers");
+            "\"1e99999999999999999999 m\": the value is outside the range of numbers; check its exponent");
   EXPECT_EQ(length("1e312 pm"), 1e300);
   EXPECT_EQ(length("1e0000000000000000003 m"), 1000.0);
   EXPECT_EQ(length("0e999 m"), 0.0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inclined junctions against closed forms and bisection; inclines, saw-teeth, and wavy half-spaces, whose
 // elastic energy supplies the work against slopes.
-#include "engine/friction/interlocking.hpp"
 #include "engine/core/constants.hpp"
+#include "engine/friction/junction_law.hpp"
 
 #include <cmath>
 
@@ -244,8 +244,8 @@ TEST(Interlocking, LockedJunctionsAskForACap) {
                              grid, [](int i, int) { return 0.3 * i; }, Boundary::free)),
                          PressBy::pressure, 0.7);
   EXPECT_EQ(error_of([&] { JunctionLaw({.tau0 = 0, .alpha = 0.4}).on(st); }),
-            "240 of 240 junctions are so steep that they lock: slope times `alpha` is one or more, and no "
-            "force moves them along their slope; give the law a `tau_max`, at which they shear off");
+            "240 of 240 junctions are so steep that they lock: their slope times `alpha` is one or more; "
+            "give the law a `tau_max`, the strength at which they shear off");
   const FrictionResult r = JunctionLaw({.tau0 = 0, .alpha = 0.4, .tau_max = 0.5}).on(st);
   EXPECT_EQ(r.capped_fraction, 1);
   EXPECT_NEAR(r.force / 1.2, 3 * 0.7 + 10 * 0.5, 1e-11);

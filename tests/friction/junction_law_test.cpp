@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "engine/contact/effects/ageing.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -105,6 +107,44 @@ TEST(JunctionLaw, YieldPressureStandsForACap) {
   EXPECT_FALSE(JunctionLaw({.tau0 = 1, .alpha = 0, .yield_pressure = 5}).tau_max());
 }
 
+TEST(JunctionLaw, ACapAtTau0BindsEveryJunction) {
+  const State st = press(boxes(random_surface(80, 50, 1), 2), PressBy::pressure, 0.4);
+  for (const double alpha : {0.0, 0.2}) {
+    const FrictionResult r = JunctionLaw({.tau0 = 0.03, .alpha = alpha, .tau_max = 0.03}).on(st);
+    EXPECT_EQ(r.capped_fraction, 1) << alpha;
+    EXPECT_EQ(r.load_force, 0) << alpha;
+    EXPECT_DOUBLE_EQ(r.force, 0.03 * st.area()) << alpha;
+  }
+}
+
+// 1 + 0.5 ln(1 + 6/2) = 1 + ln 2.
+TEST(JunctionLaw, RestStrengthensTau0AndNeitherAlphaNorTheCap) {
+  Scene scene = boxes(random_surface(80, 50, 1), 2);
+  scene.effects.set(AgeingOptions{0.5, 2});
+  const State st = press(scene, PressBy::pressure, 0.4);
+  const double factor = 1 + std::numbers::ln2;
+  const JunctionLaw law({.tau0 = 0.03, .alpha = 0.2});
+  const FrictionResult rested = law.on(st, 6.0), fresh = law.on(st);
+  EXPECT_DOUBLE_EQ(*rested.strengthening, factor);
+  EXPECT_DOUBLE_EQ(rested.adhesive_force, 0.03 * factor * st.area());
+  EXPECT_EQ(rested.load_force, fresh.load_force);
+  EXPECT_EQ(fresh.strengthening, 1);
+  EXPECT_DOUBLE_EQ(JunctionLaw({.tau0 = 0.03, .alpha = 0.2, .tau_max = 0.04}).on(st, 6.0).force,
+                   0.04 * st.area());
+  EXPECT_DOUBLE_EQ(strengthening(scene.effects, 6.0), factor);
+  EXPECT_EQ(strengthening(scene.effects, 0.0), 1);
+  EXPECT_EQ(strengthening(Effects(), {}), 1);
+}
+
+TEST(JunctionLaw, ARestNeedsAgeingAndIsATime) {
+  const Effects ageing(AgeingOptions{0.5, 2});
+  EXPECT_EQ(error_of([&] { check_rest(-1.0, ageing); }), "`rest` is -1 s; give a time from zero up");
+  EXPECT_EQ(error_of([&] { check_rest(infinite, ageing); }).find("`rest` is inf"), 0U);
+  EXPECT_EQ(test::refusal([] { check_rest(0.0, Effects()); }, ErrorCode::bad_state).find("`rest`"), 0U);
+  EXPECT_EQ(error_of([&] { check_rest(0.0, ageing); }), "");
+  EXPECT_EQ(error_of([] { check_rest({}, Effects()); }), "");
+}
+
 TEST(JunctionLaw, AnInfiniteCapIsNone) {
   EXPECT_FALSE(JunctionLaw({.tau0 = 1, .alpha = 1, .tau_max = infinite}).tau_max());
   EXPECT_FALSE(JunctionLaw({.tau0 = 1, .alpha = 1, .yield_pressure = infinite}).tau_max());
@@ -142,7 +182,7 @@ TEST(JunctionLaw, BadNumbersAreRefusedByName) {
             0U);
   EXPECT_EQ(
       error_of([] { JunctionLaw({.tau0 = 1, .alpha = 1, .tau_max = 3.0, .yield_pressure = 2.0}); }),
-      "`tau_max` and `yield_pressure` are both given; give one: `yield_pressure` stands for tau_max = tau0 + "
+      "`tau_max` and `yield_pressure` are both given; give one: `yield_pressure` means tau_max = tau0 + "
       "alpha yield_pressure");
 }
 

@@ -210,8 +210,8 @@ TEST(PartialSlip, WhatMakesNoSenseIsRefusedByName) {
             "`force` is 400 uN, but the contact slides at 300 uN, friction times load; give less, or a "
             "`ratio` from 0 to 1");
   EXPECT_EQ(asked({{}, 0.5, 0}), "`friction` is 0; give a finite coefficient above zero");
-  EXPECT_EQ(asked({{}, {}, 0.3}), "`force` and `ratio` are not given; give one of both");
-  EXPECT_EQ(asked({1e-4, 0.5, 0.3}), "`force` and `ratio` are both given; give one of both");
+  EXPECT_EQ(asked({{}, {}, 0.3}), "`force` and `ratio` are not given; give one of the two");
+  EXPECT_EQ(asked({1e-4, 0.5, 0.3}), "`force` and `ratio` are both given; give one of the two");
   EXPECT_EQ(error_of([&] { pulled.by(0.5).field("sheer"); }),
             "a shear has no field `sheer` (did you mean `shear`?); fields are shear and stick");
   const State loose = pulled.contact->press({PressBy::load, 0, {}});

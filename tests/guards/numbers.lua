@@ -74,7 +74,7 @@ keep("stylus Ra", lab.stylus{ tip="2 um", spacing="1 um", length="0.4 mm" }:scan
 -- Tables, fits, budgets and logs
 local rows = {}
 for k = 1, 12 do rows[k] = { x=k, y=2 * k + 0.1 * math.sin(k * k) } end
-local fit = lab.table.from(rows):fit{ x="x", y="y", model=function(x, p) return p.a * x + p.b end, start={ a=1, b=0 } }
+local fit = lab.table.from(rows):fit{ x="x", y="y", model=function(q, row) return q.a * row.x + q.b end, start={ a=1, b=0 } }
 keep("fit a", fit.values.a)
 keep("fit standard error", fit.parameters.a.u)
 

@@ -12,8 +12,8 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/fractal_dimension.hpp"
-#include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"

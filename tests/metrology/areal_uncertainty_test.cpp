@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/metrology/parameters/areal_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +85,7 @@ TEST(ArealUncertainty, OfTilesWithHolesNeedsHalfOfEach) {
   };
   EXPECT_TRUE(areal_uncertainty(with_hole(20), 2e-6).Sq);
   EXPECT_EQ(areal_uncertainty(with_hole(30), 2e-6).why_not,
-            "of one of sixteen tiles less than half was measured");
+            "less than half of one of the sixteen tiles was measured");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include "engine/metrology/fractal_dimension.hpp"
 
 #include "engine/core/parallel.hpp"
-#include "engine/metrology/length_ratio.hpp"
+#include "engine/metrology/profile_statistics.hpp"
 #include "tests/metrology/test_fields.hpp"
 
 namespace asperity::fractal_dimension_test {
@@ -149,11 +149,12 @@ TEST(FractalDimension, OfAFewJumpsIsNotResolved) {
     EXPECT_FALSE(d.resolved);
     return d.reason;
   };
-  const std::string one = "one jump makes all of it: the heights do not scale";
+  const std::string one = "one jump causes all height differences: the heights do not scale";
   for (const DimensionMethod method :
        {DimensionMethod::structure, DimensionMethod::psd, DimensionMethod::madogram}) {
     for (const int samples : {64, 101, 4096}) EXPECT_EQ(reason(samples, {samples / 3}, method), one);
-    EXPECT_EQ(reason(4096, {1000, 3000}, method), "2 jumps make most of it: the heights do not scale");
+    EXPECT_EQ(reason(4096, {1000, 3000}, method),
+              "2 jumps cause most height differences: the heights do not scale");
   }
   const Surface surface = make_surface(64, 64, 1, 1, [](int i, int) { return i < 20 ? 0.0 : 1.0; });
   EXPECT_EQ(fractal_dimension(surface, with(DimensionMethod::structure)).reason, one);
@@ -346,14 +347,13 @@ TEST(FractalDimension, RefusesStepsThatMeanNothing) {
       text(DimensionMethod::psd, {1, 2}),
       "`steps` were given for the method `psd`; it fits bands of wavelengths of its own; leave `steps` out");
   EXPECT_EQ(error_text([] { fractal_dimension(std::span<const Profile>(), {}); }),
-            "the fractal dimension of no profiles was asked for; give one profile or more");
+            "a fractal dimension needs profiles, and there are none; give one profile or more");
   FractalDimensionOptions options;
   options.along = Along::both;
   options.pooled = true;
-  EXPECT_EQ(
-      error_text([&] { fractal_dimension(testing::white_noise(20, 20, 1, 2, 1), options); }),
-      "`pooled` over both directions of cells of 0.05 m x 0.1 m; one step must be one length in both; use "
-      "`along=\"x\"`, `along=\"y\"` or leave `pooled` out");
+  EXPECT_EQ(error_text([&] { fractal_dimension(testing::white_noise(20, 20, 1, 2, 1), options); }),
+            "`pooled` needs square cells, and these are 0.05 m x 0.1 m; use `along=\"x\"`, `along=\"y\"` or "
+            "leave `pooled` out");
 }
 
 }  // namespace

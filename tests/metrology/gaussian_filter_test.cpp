@@ -162,7 +162,7 @@ TEST(GaussianFilter, AnInfiniteLongWaveTakesNothingAway) {
 TEST(GaussianFilter, RefusesCutOffsThatMeanNothing) {
   const Profile p(1, {0, 1, 0});
   EXPECT_EQ(error_text([&] { gaussian_filtered(p, {}); }),
-            "a filter was asked for without `short_wave` or `long_wave`; give one or both, as in "
+            "a filter needs `short_wave` or `long_wave`, and neither is given; give one or both, as in "
             "`short_wave=\"2.5 um\", long_wave=\"0.8 mm\"`");
   EXPECT_EQ(error_text([&] {
               gaussian_filtered(p, {0.0, none});
@@ -172,12 +172,11 @@ TEST(GaussianFilter, RefusesCutOffsThatMeanNothing) {
               gaussian_filtered(p, {none, std::nan("")});
             }),
             "`long_wave` is nan m; give a length above zero");
-  EXPECT_EQ(error_text([&] {
-              gaussian_filtered(p, {2.0, 2.0});
-            }),
-            "`short_wave` 2 m is not below `long_wave` 2 m; waves between the two are kept, so `short_wave` "
-            "must be "
-            "the smaller");
+  EXPECT_EQ(
+      error_text([&] {
+        gaussian_filtered(p, {2.0, 2.0});
+      }),
+      "`short_wave` 2 m is not below `long_wave` 2 m; give a smaller `short_wave` or a larger `long_wave`");
 }
 
 // Only the robust mean surface ignores a groove of 10 um in a waviness of 1 um.

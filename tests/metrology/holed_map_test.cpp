@@ -15,7 +15,6 @@
 #include "engine/metrology/levelling.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spectrum.hpp"
-#include "engine/metrology/spherical_tip.hpp"
 #include "engine/metrology/stylus.hpp"
 #include "engine/surface/operations/operations.hpp"
 #include "tests/metrology/test_fields.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/metrology/length_ratio.hpp"
+#include "engine/metrology/profile_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/metrology/line_fit.hpp"
+#include "engine/metrology/dimension_scaling.hpp"
 
 namespace asperity::length_ratio_test {
 namespace {

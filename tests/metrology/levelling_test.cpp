@@ -94,9 +94,7 @@ TEST(Levelling, OfAClosedOutlineIsItsMeanOnly) {
   EXPECT_EQ(levelled(outline, 0).heights()[3], 3);
   EXPECT_EQ(levelled(outline, 0).closed_radius(), 5.0);
   EXPECT_EQ(error_text([&] { levelled(outline); }),
-            "a closed outline was to be levelled with `degree` 1; an outline has no ends between which to "
-            "tilt; use "
-            "`degree` 0");
+            "a closed outline cannot be levelled with `degree` 1; give `degree` 0: an outline has no tilt");
 }
 
 }  // namespace

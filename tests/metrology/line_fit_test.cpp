@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/metrology/line_fit.hpp"
+#include "engine/metrology/dimension_scaling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauges on which two independent programs agree, and an optional measured trace (ASPERITY_MEASURED).
 #include "engine/metrology/parameters/profile_parameters.hpp"
+#include "engine/core/files/source_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -138,7 +139,7 @@ TEST(ProfileParameters, HolesAreLeftOut) {
 TEST(ProfileParameters, OfAMeasuredTrace) {
   const char* folder = std::getenv("ASPERITY_MEASURED");
   if (!folder) GTEST_SKIP() << "ASPERITY_MEASURED names no folder of measured files";
-  const Profile read = read_profile(std::string(folder) + "/dektak-1.csv");
+  const Profile read = read_profile(SourceFile(std::string(folder) + "/dektak-1.csv", Monitor::silent()));
   // Printed positions are rounded to 0.1 um.
   const Array<double> heights(read.heights().begin(), read.heights().end());
   const Profile trace = levelled(Profile(.15625e-6, heights), 1);

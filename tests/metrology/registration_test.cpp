@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ASPERITY_WHOLE=1 runs as many problems as docs/guide.md reports and prints percentiles.
+// ASPERITY_WHOLE=1 runs as many problems as docs/maps.md reports and prints percentiles.
 #include "engine/metrology/registration/registration.hpp"
 
 #include <gtest/gtest.h>
@@ -392,7 +392,7 @@ TEST(Registration, ReportsProgressAndStops) {
 TEST(Registration, RefusesUnrelatedGround) {
   const std::string said = refusal(ground(128, 128, 1), ground(128, 128, 2), turns_up_to(5));
   EXPECT_EQ(said.substr(0, 28), "the best placement explains ") << said;
-  EXPECT_NE(said.find("the maps do not show the same ground"), std::string::npos) << said;
+  EXPECT_NE(said.find("the maps show different places"), std::string::npos) << said;
 }
 
 TEST(Registration, RefusesGroundThatRepeats) {
@@ -403,7 +403,7 @@ TEST(Registration, RefusesGroundThatRepeats) {
     return make_surface(128, 128, 128 * cell, 128 * cell, [&](int i, int j) { return box(i + shift, j); });
   };
   const Surface after = with_noise(map(3), 1e-8, 1), before = with_noise(map(0), 1e-8, 2);
-  EXPECT_NE(refusal(after, before, turns_up_to(5)).find("the ground repeats itself"), std::string::npos);
+  EXPECT_NE(refusal(after, before, turns_up_to(5)).find("the surface repeats itself"), std::string::npos);
   RegistrationOptions near = turns_up_to(5);
   near.at_most = 5 * cell;
   EXPECT_NEAR(registered(after, before, near).shift_x, 3 * cell, 0.01 * cell);
@@ -416,7 +416,7 @@ TEST(Registration, RefusesRidgesWithoutEnd) {
   for (const double noise : {0.0, 1e-8}) {
     const std::string said =
         refusal(with_noise(ridges, noise, 1), with_noise(ridges, noise, 2), turns_up_to(5));
-    EXPECT_NE(said.find("the ground has no features along one direction"), std::string::npos) << said;
+    EXPECT_NE(said.find("the surface has no features along one direction"), std::string::npos) << said;
   }
 }
 
@@ -435,10 +435,12 @@ TEST(Registration, RefusesFlatMapsAndSmallOnes) {
   const Surface plane =
       make_surface(64, 64, 64 * cell, 64 * cell, [](int i, int j) { return 1e-6 * (3 * i - j); });
   const Surface map = ground(64, 64);
-  EXPECT_EQ(refusal(plane, map),
-            "the after-map is flat but for its tilt: nothing tells where it lies; register a rough surface");
-  EXPECT_EQ(refusal(map, plane),
-            "the before-map is flat but for its tilt: nothing tells where it lies; register a rough surface");
+  EXPECT_EQ(
+      refusal(plane, map),
+      "the after-map is flat except for its tilt, so it has no definite place; register a rough surface");
+  EXPECT_EQ(
+      refusal(map, plane),
+      "the before-map is flat except for its tilt, so it has no definite place; register a rough surface");
   EXPECT_EQ(refusal(cropped(map, 0, 0, 31, 64), map),
             "the after-map has 31 x 64 cells; fewer than 32 along a side cannot be registered; measure on "
             "more cells");
@@ -457,9 +459,8 @@ TEST(Registration, RefusesMapsOfLittleInCommon) {
 TEST(Registration, RefusesFewLongCellsAsWhatTheyAre) {
   const Surface map(make_grid(64, 32, 64e-6, 96e-6), Field(ground(64, 32).heights()));
   EXPECT_EQ(refusal(map, map),
-            "the maps are looked over in steps of 6 um, twice their longest cell, and 11 of these along a "
-            "side, under "
-            "16, do not tell a place; give the maps square cells with `resampled`, or measure on more cells");
+            "the search moves the maps in steps of 6 um, twice their longest cell, and 11 steps along a side "
+            "are fewer than 16; give the maps square cells with `resampled`, or measure on more cells");
 }
 
 TEST(Registration, OptionsOutOfRange) {

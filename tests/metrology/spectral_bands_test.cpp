@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Continuous and line spectra, and method `psd`. Weierstrass–Mandelbrot profiles have lines at γⁿ cos θ; in
 // the gaps a periodogram shows its window.
-#include "engine/metrology/spectral_bands.hpp"
+#include "engine/metrology/spectrum.hpp"
 
 #include <cmath>
 
@@ -123,10 +123,9 @@ TEST(SpectralDimension, SaysWhenBandsLieBetweenLines) {
   const FractalDimension d = by_spectrum(lines(2.5, 1, 1.5, 1));
   EXPECT_FALSE(d.resolved);
   EXPECT_EQ(d.reason.substr(0, 15), "waves of about ") << d.reason;
-  EXPECT_NE(
-      d.reason.find(" of the power that the line gives them: the spectrum is one of lines with gaps "
-                    "between them, or it ends or bends; draw `spectrum`, or use the method `structure`"),
-      std::string::npos)
+  EXPECT_NE(d.reason.find(" of the power on the fitted line: the spectrum has gaps, ends or bends; draw "
+                          "`spectrum`, or use the method `structure`"),
+            std::string::npos)
       << d.reason;
   for (const double gamma : {3.1, 5.2})
     for (const int M : {1, 10}) EXPECT_FALSE(by_spectrum(lines(2.5, M, gamma, 1)).resolved) << gamma;

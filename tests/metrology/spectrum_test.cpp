@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "engine/core/parallel.hpp"
-#include "engine/metrology/line_fit.hpp"
+#include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Planes, grooves, cosines, a brute-force maximum, and laws of mathematical morphology.
-#include "engine/metrology/spherical_tip.hpp"
+#include "engine/metrology/stylus.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,6 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/metrology/roughness.hpp"
-#include "engine/metrology/spherical_tip.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
 #include "tests/support/refusal.hpp"

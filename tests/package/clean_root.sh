@@ -37,13 +37,16 @@ inside useradd --create-home visitor
 visitor() { inside su - visitor -c "$*"; }
 visitor asperity run /usr/share/doc/asperity/examples/paper/fig9_flattening.lua --out figure > "$folder/figure.txt" 2>&1 ||
   { cat "$folder/figure.txt"; fail "the figure failed"; }
-grep -F "could not be kept" "$folder/figure.txt" && fail "its results were not kept"
+grep -F "could not be stored" "$folder/figure.txt" && fail "its results were not kept"
 tail -n 3 "$folder/figure.txt"
 ls "$root"/home/visitor/figure/*.svg > /dev/null || fail "the figure drew nothing"
 visitor asperity lesson tilt --run --out lesson > "$folder/lesson.txt" 2>&1 || { cat "$folder/lesson.txt"; fail "the lesson failed"; }
 grep -F "expectations hold" "$folder/lesson.txt" || { cat "$folder/lesson.txt"; fail "the lesson checked nothing"; }
 if [ -f build/package/page/index.html ]; then
   [ -f "$root/usr/share/asperity/page/index.html" ] || fail "the page was built and is not in the package"
+fi
+if [ -f build/site/index.html ]; then
+  [ -f "$root/usr/share/asperity/site/index.html" ] || fail "the documents' site was built and is not in the package"
 fi
 said=$(visitor "lua5.4 -e 'local lab = require \"asperity\"; print(lab.surface.sine{ cells = 8, size = 1, amplitude = 2 }:roughness().amplitude)'")
 [ "$said" = 4.0 ] || fail "the module in lua5.4 said $said"

@@ -25,8 +25,11 @@ build/press > touches
 cat touches
 # Not a test of the physics: a percentage, and a certificate that held.
 grep -qE '^[0-9]+\.[0-9]{2} % of the tile touches, to [0-9]e-(0[6-9]|1[0-9])$' touches || fail "press did not say how much touches"
+# The script twin has the same digest.
+ends 0 " % of the tile touches" installed/bin/asperity run --out twin own/press.lua
+[ "$(grep -xE '[0-9a-f]{32}' output)" = "$(tail -n 1 touches)" ] || fail "press.lua has another digest than press.cpp"
 # Another floor alone, and a version that is not there.
 sed -i 's/asperity::engine/asperity::specimen/' own/CMakeLists.txt
 ends 0 " press" cmake --build build
-sed -i 's/asperity 0.2/asperity 7.0/' own/CMakeLists.txt
+sed -i 's/asperity [0-9.]* REQUIRED/asperity 7.0 REQUIRED/' own/CMakeLists.txt
 ends 1 "compatible with requested version" cmake -S own -B other -DCMAKE_PREFIX_PATH="$folder/installed"

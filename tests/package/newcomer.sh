@@ -63,10 +63,10 @@ step() {
 {
   echo "# From a clone to a first chart"
   echo
-  echo "A machine with nothing but Debian 12 on it, somebody who has read the README, and the commands it names. Made by"
-  echo "\`tests/package/newcomer.sh\`; what package tools and compilers say is left out."
+  echo "You have a machine with Debian 12 and nothing else, and you have read the README. \`tests/package/newcomer.sh\` recorded this"
+  echo "page, without the messages of package tools and compilers."
   step "./lab demo" 3
-  printf '\nA script of their own, `first.lua`:\n\n```lua\n'
+  printf '\nYour own script, `first.lua`:\n\n```lua\n'
   cat "$clone/first.lua"
   printf '```\n'
   step "./lab run first.lua" 6

@@ -255,10 +255,23 @@ export async function save(page, downloads) {
   return join(downloads, files()[0]);
 }
 
+/** Place of an element in the window. A chart that is drawn again is another element, so this takes one step. */
+export const placeOf = (page, selector) =>
+  page.$eval(selector, (element) => {
+    const { x, y, width, height } = element.getBoundingClientRect();
+    return { x, y, width, height };
+  });
+
 /** Draws an element to `window.shot`. */
 async function shoot(page, selector) {
   await painted(page);
-  const shot = await (await page.$(selector)).screenshot({ encoding: 'base64' });
+  // `clip` is a place on the page, wherever the window stands.
+  const clip = await page.$eval(selector, (element) => {
+    element.scrollIntoView({ block: 'nearest', behavior: 'instant' });
+    const { x, y, width, height } = element.getBoundingClientRect();
+    return { x: x + scrollX, y: y + scrollY, width, height };
+  });
+  const shot = await page.screenshot({ encoding: 'base64', clip });
   await page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;

@@ -136,6 +136,27 @@ function knobIn(line, given) {
   };
 }
 
+/** The charts of a script, as the check and the run report them. Only literal keys at the beginning of a line. */
+function chartsIn(script) {
+  const found = [];
+  let notebook = '';
+  const valueOf = (table) => {
+    const texts = [];
+    const bare = table.replace(/"[^"]*"/g, (text) => `@${texts.push(text) - 1}@`);
+    const lists = bare.replace(/\{([^{}=]*)\}/g, '[$1]').replace(/(\w+)=/g, '"$1":').replace(/,\s*}/g, '}');
+    return JSON.parse(lists.replace(/@(\d+)@/g, (_, k) => texts[k]));
+  };
+  for (const [, name, table, study] of script.matchAll(/lab\.notebook ?\(?"(\w+)"|^book:chart(\{[^]*?\})\n|^(study):chart/gm)) {
+    if (name) notebook = name;
+    if (study) found.push({ type: 'chart', study: 'work_precision' });
+    if (!table) continue;
+    const { one_line_per: per = '', y, ...given } = valueOf(table);
+    const usual = { log_x: false, log_y: false, title: '', x_label: '', y_label: '', where: {}, points: true, spread: false };
+    found.push({ type: 'chart', notebook, chart: { ...usual, ...given, per, y: [y].flat() } });
+  }
+  return found;
+}
+
 /** Lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
     `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
     `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
@@ -190,6 +211,7 @@ function* eventsOf(script, knobs, mock) {
       for (let k = 0; k < wide; ++k) row[`${columns}${k}`] = i * 1e-6 * (k + 1);
       yield { type: 'row', notebook: 'wide', row, units: Object.fromEntries(Object.keys(row).slice(1).map((c) => [c, 'm'])) };
     }
+    if (/lab\.work_precision/.test(line)) yield { type: 'study', name: 'work_precision' };
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
     for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
     for (const [, name] of line.matchAll(/mock\.file (\S+)/g))
@@ -214,7 +236,6 @@ function* eventsOf(script, knobs, mock) {
           task: 'half-space solve',
           fraction: m / 600,
           eta_s: (600 - m) / 10,
-          text: `solving, load ${1 + (m % 7)} of 7`,
         };
       }
     }
@@ -242,6 +263,7 @@ function* eventsOf(script, knobs, mock) {
   if (!/mock\.plain/.test(script))
     yield { type: 'view', name: /mock\.deep/.test(script) ? 'deep-1' : 'press-1', title: 'Press 1: 152.8 MPa' };
   if (!/mock\.plain/.test(script)) yield { type: 'views_left_out', count: 7 };
+  yield* chartsIn(script);
   yield { type: 'file', name: 'tips.csv', bytes: 512, kind: 'table' };
   yield { type: 'file', name: 'chart.svg', bytes: chart.length, kind: 'chart' };
   yield { type: 'expectation', text: 'Ra falls with N', held: true };
@@ -303,16 +325,17 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
         return send(200, await readFile(join(folder, path)), types[extname(path)] ?? 'application/octet-stream');
       }
       if (request.headers.authorization !== `Bearer ${token}`)
-        return send(401, { error: 'the token is missing or not this server’s' });
+        return send(401, { error: { message: 'the token is missing or not this server’s' } });
       let text = '';
       for await (const piece of request) text += piece;
       const body = text ? JSON.parse(text) : {};
       const [, , what, id, part, ...rest] = url.pathname.split('/').map(decodeURIComponent);
       if (what === 'about')
         return send(200, {
-          version: '0.2.0',
+          version: '0.3.0',
           limits: { memory_bytes: 1e9, seconds: 30, output_bytes: 1e6, runs: most },
           classroom: room !== '',
+          documents: true,
           teacher: room === 'teacher',
         });
       if (room && (what === 'predictions' || what === 'help') && request.method === 'POST') {
@@ -332,7 +355,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
             lessons.map(({ text: _t, script: _s, ...entry }) => entry),
           );
         const lesson = lessons.find((l) => l.name === id);
-        return lesson ? send(200, lesson) : send(404, { error: 'no such lesson' });
+        return lesson ? send(200, lesson) : send(404, { error: { message: 'no such lesson' } });
       }
       if (what === 'check') {
         const marks = [];
@@ -347,7 +370,8 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
               hint: 'did you mean `amplitude`?',
             });
         });
-        return send(200, { marks, checked_to: body.script.split('\n').length });
+        const charts = chartsIn(body.script).filter((c) => c.notebook);
+        return send(200, { marks, charts, checked_to: body.script.split('\n').length });
       }
       if (what === 'complete') {
         const before = body.text.slice(0, body.position);
@@ -382,13 +406,15 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
           );
         if ([...runs.values()].filter((r) => !over(r)).length >= most)
           return send(429, {
-            error: `${most} runs are going, as many as this server allows`,
-            hint: 'wait until one has ended, or stop one',
+            error: {
+              message: `${most} runs are going, as many as this server allows`,
+              hint: 'wait until one has ended, or stop one',
+            },
           });
         return send(201, { id: start(body.script, body.name, body.knobs).id });
       }
       const run = runs.get(id);
-      if (!run) return send(404, { error: `there is no run ${id}` });
+      if (!run) return send(404, { error: { message: `there is no run ${id}` } });
       if (request.method === 'DELETE') {
         run.stopped = true;
         return send(200, {});
@@ -426,9 +452,9 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
           : rest[0] === 'work_precision.csv'
             ? send(200, study, 'text/csv')
           : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');
-      return send(404, { error: 'nothing is there' });
+      return send(404, { error: { message: 'nothing is there' } });
     } catch (error) {
-      if (!response.headersSent) send(error.code === 'ENOENT' ? 404 : 500, { error: String(error) });
+      if (!response.headersSent) send(error.code === 'ENOENT' ? 404 : 500, { error: { message: String(error) } });
       return undefined;
     }
   });

@@ -124,6 +124,36 @@ TEST(Chart, ErrorBarsEndAtTheRimOfALogarithmicAxis) {
   EXPECT_NE(script.find("yerrorbars"), std::string::npos);
   EXPECT_EQ(script.find("-0.2"), std::string::npos);
   EXPECT_NE(script.find("\n3 0.5 0.5 0.5\n"), std::string::npos);
+  // The first bar reaches below zero: its lower half is an arrow to the frame, without a cap.
+  EXPECT_NE(script.find("$open0 << EOD\n1 0.3 -"), std::string::npos);
+  EXPECT_NE(script.find("$open0 using 1:2:(0):3 with vectors"), std::string::npos);
+  EXPECT_NE(script.find("\n1 0.3 0.3 0.8\n"), std::string::npos);
+}
+
+TEST(Chart, InPrintHasItsWidthAndTextOfItsSize) {
+  LineChart chart = simple();
+  print_at(chart, 0.085, 8);
+  EXPECT_EQ(chart.width, 482);
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(
+      chart_script(chart, PictureFormat::pdf, warnings).starts_with("set terminal pdfcairo size 3.3"));
+  EXPECT_TRUE(
+      chart_script(chart, PictureFormat::png, warnings).starts_with("set terminal pngcairo size 1004,"));
+  EXPECT_EQ(printed_at("<svg viewBox", 0.085, 0.06), "<svg width=\"85mm\" height=\"60mm\" viewBox");
+  EXPECT_EQ(error_of([&] { print_at(chart, 0.025, 12); }),
+            "bad_value: a chart 25 mm wide with text of 12 points has no room for its lines; give a "
+            "`font_size` of at most 3");
+}
+
+TEST(Chart, LegendHasAChosenPlace) {
+  LineChart chart = simple();
+  chart.series[0].name = "mean";
+  chart.legend = "top left";
+  EXPECT_NE(script_of(chart).find("set key inside top left"), std::string::npos);
+  chart.legend = "below";
+  EXPECT_NE(script_of(chart).find("set key below"), std::string::npos);
+  chart.legend = "none";
+  EXPECT_NE(script_of(chart).find("set key off"), std::string::npos);
 }
 
 TEST(Chart, EqualAxesShareOneUnit) {

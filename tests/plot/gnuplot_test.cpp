@@ -86,8 +86,7 @@ TEST_F(Gnuplot, WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
   const GnuplotResult odd = run_gnuplot(script(PictureFormat::png, "print \"no\\nfont\"\nplot x\n"));
   EXPECT_TRUE(odd.picture.starts_with("\x89PNG"));
   EXPECT_EQ(complaints_of(odd, folder / "r.png"),
-            std::vector<std::string>{
-                "`r.png` may look otherwise than it should; gnuplot, which drew it, says: no font"});
+            std::vector<std::string>{"`r.png` may look wrong; gnuplot reports: no font"});
   EXPECT_TRUE(complaints_of(run_gnuplot(script(PictureFormat::png, "plot x\n")), "r.png").empty());
 }
 

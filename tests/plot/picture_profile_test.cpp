@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/plot/picture_profile.hpp"
+#include "engine/plot/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,8 +78,9 @@ TEST(PictureProfile, RefusesMixturesAndNothing) {
             "bad_value: a picture of profiles has none; give at least one");
   const std::vector<NamedProfile> both = {{"a", spike(4, 1)},
                                           {"b", Profile(1e-6, Array<double>(4, 0.0), 1e-3)}};
-  EXPECT_EQ(error_of([&] { profile_chart(both); }),
-            "bad_value: a picture has open traces and closed outlines together; draw them apart");
+  EXPECT_EQ(
+      error_of([&] { profile_chart(both); }),
+      "bad_value: a picture has open traces and closed outlines together; draw them in separate pictures");
 }
 
 TEST_F(PictureProfileTest, DrawsTracesPointsAndOutlines) {

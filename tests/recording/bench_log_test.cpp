@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The log of a bench reads back as performed, with its measurements.
-#include "engine/recording/bench_log.hpp"
 
 #include <numbers>
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
-#include "engine/specimen/protocol_run.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"

@@ -16,7 +16,7 @@ class PressLog : public InFolder {
  protected:
   Protocol read(const std::string& content) {
     write_log(content);
-    return read_press_log(path(), listener);
+    return read_press_log(SourceFile(path(), listener), listener);
   }
   std::string events(const std::string& content) {
     std::string lines;
@@ -27,7 +27,7 @@ class PressLog : public InFolder {
   // The error without the file name.
   std::string refusal(const std::string& content) {
     write_log(content);
-    std::string error = error_of([&] { read_press_log(path(), listener); });
+    std::string error = error_of([&] { read_press_log(SourceFile(path(), listener), listener); });
     const std::string name = "\"" + path() + "\" ";
     if (const std::size_t at = error.find(name); at != std::string::npos) error.erase(at, name.size());
     return error;
@@ -90,10 +90,10 @@ TEST_F(PressLog, QuotedCellsGoOnOverLinesWhichAreCounted) {
             "  2  release (at 60 s, log.csv line 6)\n"
             "  3  press 20 MPa (at 120 s, log.csv line 7)");
   EXPECT_NE(refusal("time [s],load [kN],note\n0,1,\"a\nb\"\n10,2,\"x\n\"\n20,fast,z\n")
-                .find("line 6, column 2 (load): \"fast\" is no finite number"),
+                .find("line 6, column 2 (load): \"fast\" is no number"),
             std::string::npos);
   EXPECT_NE(refusal("time [s];load [kN];note\n0;1;\"a\nb\n10;2;x\n")
-                .find("has a quote in line 2 that is closed nowhere"),
+                .find("has a quote in line 2 that is never closed"),
             std::string::npos);
 }
 
@@ -120,7 +120,7 @@ TEST_F(PressLog, AnEmptyLoadIsAReleaseWithAWarning) {
   ASSERT_EQ(listener.all.size(), 1U);
   EXPECT_EQ(listener.all[0], "\"" + path() +
                                  "\": the cell of the pressure is empty in line 3, and so in 1 more: it is "
-                                 "taken for zero, which takes the load off; write 0 to say so");
+                                 "read as 0, a release; write 0 to confirm");
   listener.all.clear();
   events("pressure [MPa],rotation [deg]\n1,0\n0,90\n1,0\n");
   EXPECT_TRUE(listener.all.empty());
@@ -131,8 +131,8 @@ TEST_F(PressLog, ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
   events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
   ASSERT_EQ(listener.all.size(), 1U);
   EXPECT_EQ(listener.all[0], "\"" + path() +
-                                 "\": the dwell of 1200 s in line 2 goes on after line 3, which begins 600 s "
-                                 "later, and so in 1 more: times are kept, and nothing waits for them");
+                                 "\": the dwell of 1200 s in line 2 ends after the start of line 3, 600 s "
+                                 "later, and so in 1 more: both are kept as written");
   listener.all.clear();
   events("time [min],pressure [MPa],dwell [min]\n0,1,10\n10,1,5\n");
   EXPECT_TRUE(listener.all.empty());
@@ -143,11 +143,10 @@ TEST_F(PressLog, ACommaThatMayPartThousandsIsWarnedOf) {
   EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
             "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
   ASSERT_EQ(listener.all.size(), 1U);
-  EXPECT_EQ(
-      listener.all[0],
-      "\"" + path() +
-          "\": the comma of \"1,250\" in line 2, column 1 (pressure) is read as a decimal sign; if it parts "
-          "thousands, leave it out");
+  EXPECT_EQ(listener.all[0],
+            "\"" + path() +
+                "\" line 2, column 1 (pressure): \"1,250\" may have a decimal comma or separated thousands; "
+                "give decimal=\",\" or thousands=\",\"; the comma is read as a decimal sign");
   listener.all.clear();
   for (const char* log : {"pressure [MPa];dwell [s]\n1,250;5\n1,5;5\n", "pressure [MPa];dwell [s]\n0,250;5\n",
                           "pressure [MPa];dwell [s]\n1234,250;5\n", "pressure [MPa],dwell [s]\n1.250,5\n"})
@@ -185,7 +184,7 @@ TEST_F(PressLog, FormsOfLoggersAreRead) {
   EXPECT_NE(read("time,pressure [MPa]\n46349.25,1\n46349.265625,2\n").text().find("press 2 MPa (at 1350 s"),
             std::string::npos);
   ASSERT_EQ(listener.all.size(), 1U);
-  EXPECT_NE(listener.all[0].find("\"46349.25\", are taken for days of a spreadsheet"), std::string::npos);
+  EXPECT_NE(listener.all[0].find("\"46349.25\", are read as days of a spreadsheet"), std::string::npos);
 }
 
 TEST_F(PressLog, FormsThatAreSaid) {
@@ -219,37 +218,36 @@ TEST_F(PressLog, FormsThatAreSaid) {
             "unknown_name: `columns` names `laod`, which is no column of a protocol (did you mean `load`");
   form.names = {{"load", "Wart"}};
   EXPECT_EQ(
-      error_of([&] { said("Wert [kN]\n1\n", form); }).substr(0, 102),
-      "bad_file: \"log.csv\" has 2 problems\n  line 1: 0 columns are titled \"Wart\", which `columns` calls "
+      error_of([&] { said("Wert [kN]\n1\n", form); }).substr(0, 101),
+      "bad_file: \"log.csv\" has 2 problems\n  line 1: no column is headed \"Wart\", which `columns` calls "
       "`load`");
 }
 
 TEST_F(PressLog, FormsThatAreNotReadAreRefusedInWords) {
   const std::vector<std::pair<std::string, std::string>> logs{
       {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
-       "column 1 (time): holds dates such as \"03/04/2026 10:00\", in which day and month may be either; "
+       "column 1 (time): holds dates such as \"03/04/2026 10:00\" with an ambiguous day and month; give "
        "dates=\"day first\""},
       {"time [s],pressure [MPa]\n10:00:03,1\n",
-       "line 2, column 1 (time): \"10:00:03\" is no finite number: it is a date or a time of day; write "
-       "times as "
-       "seconds from the start"},
+       "line 2, column 1 (time): \"10:00:03\" is a date or a time of day, and the column has the unit "
+       "\"s\"; remove the unit from its head to read dates and times"},
       {"time,pressure [MPa]\n2026-11-23,1\nlater,2\n", "line 3, column 1 (time): \"later\" is no date"},
       {"Druck\n1\n", "\"Druck\" (did you mean `pressure [MPa]`?)"},
       {"Machine 7\nOperator Li\n\ntime [s],pressure [MPa]\nnone,1\n0,1\n",
-       "begins with words, in line 1; the titles of its columns stand in line 4; put # before the lines "
-       "above the titles, delete them, or skip them with skip=3"},
-      {"pressure [MPa],dwell [s]\n10 N,1\n",
-       "\"10 N\" is no finite number: it is a force where a pressure is wanted"},
+       "begins with words, in line 1, and its column titles are in line 4; put # before the lines above the "
+       "titles, delete them, or give skip=3"},
+      {"pressure [MPa],dwell [s]\n10 N,1\n", "\"10 N\" is a force where a pressure is wanted"},
       {"pressure,dwell [s]\n10 MPa,1\n5,1\n",
        "line 3, column 1 (pressure): \"5\" has no unit, as the cells above"},
       {"pressure [MPa],dwell [s]\n1,1\nTotal\n2,2\n",
-       "line 3: there is 1 cell under 2 columns; put # before a line that is no row"},
+       "line 3: there is 1 cell under 2 heads; put # before a line that is no row"},
       {"load [N],pressure [Pa]\n1,1\n", "begin the title of the other with \"result \""},
       {"load [N],load [kN]\n1,1\n",
-       "column 2 (load): means the same as column 1; leave one of them out, or begin its title with \"result "
+       "column 2 (load): has the same meaning as column 1; leave one of them out, or begin its title with "
+       "\"result "
        "\""},
       {"\x1F\x8B\x08 log", "is not text that can be read: it is packed with gzip (.gz); unpack it"},
-      {"Kraft [kN],Last [kN]\n1,1\n", "column 2 (load): means the same as column 1"},
+      {"Kraft [kN],Last [kN]\n1,1\n", "column 2 (load): has the same meaning as column 1"},
   };
   for (const auto& [log, words] : logs) {
     const std::string error = refusal(log);
@@ -292,7 +290,7 @@ TEST_F(PressLog, SampledRecordingsAreWarnedOf) {
   EXPECT_TRUE(listener.all.empty());
   EXPECT_EQ(read(log + "99,1\n").count(), 100U);
   ASSERT_EQ(listener.all.size(), 1U);
-  EXPECT_NE(listener.all[0].find("has 100 rows and neither dwell nor turn: each is taken for an event"),
+  EXPECT_NE(listener.all[0].find("has 100 rows without dwell or turn, and each is read as an event"),
             std::string::npos);
 }
 
@@ -314,9 +312,10 @@ TEST_F(PressLog, ColumnsThatMeanNothingCertainAreRefused) {
             "wanted; write \"pressure [MPa]\"");
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("line 1, column 1 (pressure): "), std::string::npos);
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("(did you mean `MPa`?)"), std::string::npos);
-  EXPECT_EQ(refusal("turn [deg],pressure [Pa],rotation [deg]\n0,1,0\n"),
-            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out, or "
-            "begin its title with \"result \"");
+  EXPECT_EQ(
+      refusal("turn [deg],pressure [Pa],rotation [deg]\n0,1,0\n"),
+      "bad_file: line 1, column 3 (rotation): has the same meaning as column 1; leave one of them out, or "
+      "begin its title with \"result \"");
   EXPECT_EQ(refusal("pressure [Pa],load [N]\n1,1\n"),
             "bad_file: line 1: both `pressure` and `load` are given; choose one, and begin the title of the "
             "other with \"result \" or leave it out");
@@ -339,17 +338,17 @@ TEST_F(PressLog, AllProblemsAreNamedByLineAndColumn) {
                     "8,1,0,1e400,\n"),
             "bad_file: has 12 problems\n"
             "  line 2, column 2 (pressure): \"-1\" is negative\n"
-            "  line 2, column 3 (rotation): \"x\" is no finite number\n"
+            "  line 2, column 3 (rotation): \"x\" is no number\n"
             "  line 2, column 4 (dwell): \"-2\" is negative\n"
             "  line 2, column 5 (seed): \"1.5\" is no seed; give a whole number from zero up\n"
-            "  line 3, column 2 (pressure): \"nan\" is no finite number\n"
+            "  line 3, column 2 (pressure): \"nan\" is no number\n"
             "  line 3, column 3 (rotation): \"inf\" is no finite number\n"
             "  line 3, column 5 (seed): \"-1\" is no seed; give a whole number from zero up\n"
-            "  line 4, column 1 (time): the time 4 s runs backwards: 5 s stands before it\n"
+            "  line 4, column 1 (time): the time 4 s runs backwards, after 5 s\n"
             "  line 5, column 1 (time): the time is missing\n"
-            "  line 6: there are 2 cells under 5 columns\n"
-            "  line 7: there are 6 cells under 5 columns\n"
-            "  line 8, column 4 (dwell): \"1e400\" is no finite number");
+            "  line 6: there are 2 cells under 5 heads; put # before a line that is no row\n"
+            "  line 7: there are 6 cells under 5 heads; put # before a line that is no row\n"
+            "  line 8, column 4 (dwell): \"1e400\" is too large for a number");
   std::string many = "pressure [MPa]\n";
   for (int k = 0; k < 20; ++k) many += "x\n";
   const std::string text = refusal(many);
@@ -359,8 +358,8 @@ TEST_F(PressLog, AllProblemsAreNamedByLineAndColumn) {
 
 TEST_F(PressLog, ThousandsAreNotGuessed) {
   EXPECT_EQ(refusal("pressure [Pa],dwell [s]\n\"1,500\",1\n"),
-            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number: commas part the cells "
-            "here; write the decimal sign as a point, or part cells by semicolons");
+            "bad_file: line 2, column 1 (pressure): \"1,500\" may have a decimal comma or separated "
+            "thousands; give decimal=\",\" or thousands=\",\"");
 }
 
 TEST_F(PressLog, FilesThatAreNoLogs) {
@@ -370,12 +369,14 @@ TEST_F(PressLog, FilesThatAreNoLogs) {
   EXPECT_NE(refusal("pressure [Pa]\n# nothing\n").find("names columns but holds no row"), std::string::npos);
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
   EXPECT_NE(refusal(std::string("p\0r\0", 4)).find("is not text"), std::string::npos);
-  EXPECT_NE(error_of([&] { read_press_log(path() + "x"); }).find("there is no file"), std::string::npos);
+  EXPECT_NE(error_of([&] { SourceFile(path() + "x", listener); }).find("there is no file"),
+            std::string::npos);
 }
 
 // Semicolons, decimal commas, Latin-1, CRLF, notes.
 TEST_F(PressLog, AFileAsItIsKept) {
-  const Protocol p = read_press_log(ASPERITY_TEST_DATA "/../data/press_log.csv", listener);
+  const Protocol p =
+      read_press_log(SourceFile(ASPERITY_TEST_DATA "/../data/press_log.csv", listener), listener);
   EXPECT_EQ(p.text(),
             "protocol of 8 events\n"
             "  1  press 1.9098 kN for 10 min (at 0 s, press_log.csv line 4)\n"
@@ -442,17 +443,17 @@ TEST_F(PressLogWriter, NamesWhatALogCannotSay) {
     return error_of([&] { press_log_text(P(std::move(events))); });
   };
   EXPECT_EQ(refused({{press}, {P::Shift{1, 0}}}),
-            "bad_value: a press log cannot hold event 2, shift by 1 m along x and 0 m along y: it has no "
-            "column for one");
+            "bad_value: a press log cannot hold event 2, shift by 1 m along x and 0 m along y: a log has no "
+            "column for it");
   EXPECT_EQ(refused({{press}, {PressRequest{PressBy::load, 1, {}}}}),
-            "bad_value: a press log cannot hold event 2, press 1 N: it has a column of pressures or one of "
-            "loads, and events before give the other");
+            "bad_value: a press log cannot hold event 2, press 1 N: a log has pressures or loads, and the "
+            "events before give the other");
   EXPECT_NE(
-      refused({{PressRequest{PressBy::flatten, 0.1, {}}}}).find("it presses to a pressure or a load only"),
+      refused({{PressRequest{PressBy::flatten, 0.1, {}}}}).find("a log presses to a pressure or a load only"),
       std::string::npos);
-  EXPECT_NE(refused({{PressRequest{}}}).find("zero stands for a release there; use a release"),
+  EXPECT_NE(refused({{PressRequest{}}}).find("a log reads zero as a release; use a release"),
             std::string::npos);
-  EXPECT_NE(refused({{P::Rotate{0}}}).find("a turn by nothing stands for none"), std::string::npos);
+  EXPECT_NE(refused({{P::Rotate{0}}}).find("a log has no turn by zero"), std::string::npos);
   EXPECT_NE(refused({{P::Place{(std::uint64_t{1} << 53) + 1}}}).find("its seed is above 2^53"),
             std::string::npos);
 }

@@ -38,20 +38,20 @@ TEST(PressRecording, UnitsAreThoseOfTheTitles) {
 TEST(PressRecording, TimesIncreaseOrTheirLinesAreNamed) {
   EXPECT_EQ(refusal("time [s],load [N]\n1,1\n1,1\n0.5,1\n,1\nx,1\n2,y\n"),
             "bad_file: \"press.csv\" has 5 problems\n"
-            "  line 3, column 1 (time): the time 1 s stands in line 2 too; write more of its digits, or "
-            "have such rows spread by equal_times=\"spread\"\n"
-            "  line 4, column 1 (time): the time 0.5 s runs backwards: 1 s stands before it\n"
+            "  line 3, column 1 (time): the time 1 s is in line 2 too; write more of its digits, or "
+            "spread such rows by equal_times=\"spread\"\n"
+            "  line 4, column 1 (time): the time 0.5 s runs backwards, after 1 s\n"
             "  line 5, column 1 (time): the time is missing\n"
-            "  line 6, column 1 (time): \"x\" is no finite number\n"
-            "  line 7, column 2 (load): \"y\" is no finite number");
+            "  line 6, column 1 (time): \"x\" is no number\n"
+            "  line 7, column 2 (load): \"y\" is no number");
 }
 
 TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
   EXPECT_EQ(refusal("load [N]\n1\n"),
-            "bad_file: \"press.csv\" line 1: no column `time`, without which no event is found; write \"time "
+            "bad_file: \"press.csv\" line 1: no column `time`, and events need one; write \"time "
             "[s]\"");
   EXPECT_TRUE(refusal("time [s],load [N],dwell [min]\n1,1,1\n")
-                  .find("line 1, column 3 (dwell): a recording has none") != std::string::npos);
+                  .find("line 1, column 3 (dwell): a recording has no such column") != std::string::npos);
   EXPECT_TRUE(refusal("time [s],load [N],pressure [Pa]\n1,1,1\n").find("both `pressure` and `load`") !=
               std::string::npos);
   EXPECT_TRUE(refusal("time [s]\n1\n").find("no column `pressure` or `load`") != std::string::npos);

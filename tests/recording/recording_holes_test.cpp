@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events outside absent rows are found; possible events in gaps are refused or reported; uneven sampling is
 // no gap.
-#include "engine/recording/recording_holes.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 #include <cmath>
 #include <functional>
@@ -110,11 +110,10 @@ TEST(RecordingHoles, AHoldBetweenLongStepsIsNeitherSwallowedNorAPeak) {
 TEST(RecordingHoles, AGapBetweenTwoLevelsIsRefusedByItsLines) {
   for (const double second : {50.0, 100.0}) {
     const PressRecording whole = two_levels(75, 0, second);
-    EXPECT_EQ(
-        refusal(without_rows(whole, 90, 70)),
-        "bad_file: \"press.csv\" lacks the load in the time between lines 91 and 162, where it neither "
-        "was held nor rested: what was done there is not recorded; fill the rows in by hand, or cut the "
-        "recording there");
+    EXPECT_EQ(refusal(without_rows(whole, 90, 70)),
+              "bad_file: \"press.csv\" lacks the load in the time between lines 91 and 162 while it changes, "
+              "so the events there are unknown; fill the rows in by hand, or cut the "
+              "recording there");
     EXPECT_NE(refusal(without_rows(whole, 90, 20)).find("between lines 91 and 112"), std::string::npos);
     EXPECT_NE(refusal(without_loads(without_rows(whole, 90, 20), 90, 5)).find("between lines 91 and 117"),
               std::string::npos);
@@ -125,9 +124,8 @@ TEST(RecordingHoles, AGapInAHoldOrARestIsWarnedOf) {
   test::Warnings listener;
   const Protocol held = detect_events(without_rows(two_levels(75, 90, 75), 90, 70), {}, listener);
   EXPECT_EQ(kinds(held), "prre");
-  EXPECT_TRUE(
-      listener.told("no load was recorded for 71 s in the time between lines 91 and 162, and it is "
-                    "taken to have stayed at 75"));
+  EXPECT_TRUE(listener.told(
+      "no load was recorded for 71 s in the time between lines 91 and 162, and is assumed constant at 75"));
   test::Warnings at_rest;
   const Protocol rested = detect_events(without_rows(two_levels(75, 0, 50), 102, 46), {}, at_rest);
   EXPECT_EQ(kinds(rested), "prreprre");
@@ -212,7 +210,7 @@ TEST(RecordingHoles, StepsTooUnevenToTellGapsAreWarnedOf) {
   } catch (const Error&) {
     FAIL();
   }
-  EXPECT_TRUE(listener.told("one step of time in twenty is 7 s or longer, where half are 1 s or shorter"));
+  EXPECT_TRUE(listener.told("one time step in twenty is 7 s or longer, and half are 1 s or shorter"));
 }
 
 }  // namespace

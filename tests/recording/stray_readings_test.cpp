@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/recording/stray_readings.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -94,7 +94,7 @@ TEST(StrayReadings, AreToldInOneLine) {
   EXPECT_EQ(kinds(detect_events(recorded(loads, 0.5), {}, listener)), "prre");
   EXPECT_EQ(stray_warnings(listener),
             std::vector<std::string>{"\"press.csv\": 5 stray readings are left out, in lines 62, 162 to 164 "
-                                     "and 260: the readings around them lie on lines that they leave"});
+                                     "and 260: they are off the line of the readings around"});
 }
 
 std::vector<double> operator+(std::vector<double> a, const std::vector<double>& b) {

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A requested accuracy of 1 % holds for a ball whose contact is a few cells wide; the error on 64 cells was 1.5 %. The
--- estimate counts the edges of the contact, and grids have to agree. The true value is that of 2048 cells.
+-- estimate counts the edges of the contact, and grids have to agree. The true value comes from 2048 cells.
 local lab = require "asperity"
 local ball = lab.surface.sphere{ cells=1024, size=1e-3, radius=0.03, material=lab.material{ young=1e11, poisson=0 } }
 local truth = 0.13591

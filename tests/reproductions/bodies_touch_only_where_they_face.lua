@@ -16,7 +16,7 @@ for _, p in ipairs{ 5e6, 2e7, 8e7 } do
   local st = c:press{ pressure=p }
   assert(math.abs(st.overlap_fraction - 0.828) < 0.01, st.overlap_fraction)
   assert(st.area_fraction <= st.overlap_fraction, st.area_fraction .. " touch of " .. st.overlap_fraction)
-  -- Load over the tile, all of it on the overlap; and no gap where nothing is above.
+  -- Load over the tile, carried by the overlap alone; no gap below missing nodes.
   local carried, off = 0, 0
   local pressure, gap = st:field("pressure"):values(), st:field("gap"):values()
   for j, row in ipairs(pressure) do

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Columns of a table came in alphabetical order, and rows() turned 1 into 1.0. They come in the order that is given, else in
--- that of their names, for Lua keeps none; integers stay integers.
+-- Columns of a table came in alphabetical order, and rows() turned 1 into 1.0. They come in the given order, else in the
+-- order of their names, because Lua has no order; integers stay integers.
 local lab = require "asperity"
 local b = lab.notebook("n", { columns={ "z", "a", "share [%]" } })
 b:write{ b=true, a=2, z=1, ["share [%]"]=10 }
@@ -11,7 +11,7 @@ assert(table.concat(lines, "|") == "z,a,share [%],b,c|1,2,10,true,|100000,100000
 assert(math.type(b:rows()[1].z) == "integer" and math.type(b:rows()[2].a) == "float")
 assert(tostring(b:rows()[2].z) == "100000")
 local other = lab.notebook "n"
-assert(select(2, pcall(lab.notebook, "n", { columns={ "a", "z" } })):find("in another order already", 1, true))
+assert(select(2, pcall(lab.notebook, "n", { columns={ "a", "z" } })):find("already have another order", 1, true))
 assert(lab.notebook("n", { columns={ "z", "a", "share [%]" } }).name == other.name)
 local plain = lab.notebook "plain"
 plain:write{ z=1, a=2 }

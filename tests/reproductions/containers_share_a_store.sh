@@ -13,5 +13,5 @@ LUA
 for i in 1 2 3 4; do unshare -p -f "$program" run --threads 1 --store S --out ns$i s.lua 2> ns$i.err & done
 wait
 for i in 1 2 3 4; do says '"status": "done"' ns$i/manifest.json; done
-! grep -h "not kept\|could not be kept" ns?.err || fail "they disturb each other"
+! grep -h "not kept\|could not be stored" ns?.err || fail "they disturb each other"
 [ -z "$(find S -name '*.part*')" ] || fail "parts in the store"

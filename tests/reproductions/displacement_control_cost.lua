@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A press by indentation, approach or flattening takes at most 60 transforms and three times those of the same state by
+-- A press by indentation, approach or flattening takes at most 60 transforms and three times the transforms of the same state by
 -- pressure. Every solvable press is solved; an unreachable one is refused by name.
 local lab = require "asperity"
 local m = lab.material{ young=1e11, poisson=0 }
@@ -19,7 +19,7 @@ local flat = lab.contact{ lower=lab.surface.flat{ cells=8, size=1e-3, material=m
 local ok, message = pcall(flat.press, flat, { indentation=0.3 })
 assert(not ok and not message:find("e+55", 1, true), message)
 
--- One that was lost by pressure.
+-- A press by pressure: it once failed.
 local soft = lab.material{ young=3498417126.8865466, poisson=0, hardness=1135771.91093065 }
 local hard = lab.contact{
   lower=lab.surface.sine{ cells=96, size=0.0006020977480034872, amplitude=3.948845195143764e-05, directions=2, material=soft },

@@ -34,7 +34,7 @@ assert printed('print(lab.profile.read("trace.csv"):heights()[3] / 1e-6)').start
 
 rest = bytes(64)
 for name, data, what in [
-    ("trace.prf", "Stylus profiler\nOperator Li\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n", "has a head of its own"),
+    ("trace.prf", "Stylus profiler\nOperator Li\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n", "has a head in lines 1 "),
     ("map.al3d", b"AliconaImaging\0\r\n" + rest, "Alicona"),
     ("map.vk4", b"VK4_" + rest, "Keyence"),
     ("map.opdx", b"VCA DATA\x01\0\0U" + rest, "Bruker"),

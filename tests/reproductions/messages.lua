@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Mistakes that were answered badly or not at all, each with what its answer must hold now.
---! error: no wave is longer than
+-- Mistakes with a poor answer or none, each with the text required now.
+--! error: little more than the mean
 --! error: carry no wave so short
 --! error: placing a flat upper body changes nothing
 --! error: turning a flat upper body changes nothing
@@ -32,7 +32,7 @@ for _, st in ipairs{ contact(s:scaled{ amplitude="10 mm" }):press{ pressure="1 k
 end
 assert(lab.surface.sine{ cells="64", size="1 mm", amplitude="1 um" }.cells[1] == 64)
 refused(function() for _ in pairs(s) do end end, "a surface is no table")
-refused(function() return "1 um" + 1 end, "quantities are strings")
+refused(function() return "1 um" + 1 end, "where a quantity is a plain SI number")
 refused(function() lab.material{ hardness="100 HBW" } end, "HBW")
 local book = lab.notebook "grits"
 book:write{ grit="P80", Ra=1 }

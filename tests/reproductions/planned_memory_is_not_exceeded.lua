@@ -11,7 +11,7 @@ local function compare(cells, boundary, single)
   assert(taken <= said, taken .. " bytes taken of " .. said)
   assert(said <= 2 * taken + 2 ^ 20, said .. " bytes said for " .. taken)
 end
--- Elements, and bodies that rest on what has yielded: a press leaves bodies, too.
+-- Elements, and bodies on yielded surfaces: a press leaves bodies, too.
 local hard = lab.material{ young=1e11, poisson=0, hardness=1e9 }
 local function compare_elements(cells, model, two)
   local function face(seed)
@@ -29,7 +29,7 @@ for _, model in ipairs{ "box", "rigid" } do
     for _, two in ipairs{ false, true } do compare_elements(cells, model, two) end
   end
 end
--- What is said of a press by flattening holds what seeking its load takes.
+-- The plan of a press by flattening includes the search for its load.
 local f = lab.contact{ lower=lab.surface.self_affine{ cells=256, size=1e-3, hurst=.8, rms_slope=.1, short_wave=1e-3 / 8, material=m },
   upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
 local said, taken = f:explain{ flatten=.3 }.bytes, f:press{ flatten=.3 }.cost.bytes

@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Press logs: a saturated sensor is named, filtered noise makes no presses, doubtful entries cause warnings, units of gauges
 -- are read, and forms that are not read are refused with the remedy.
---! error: so reads a sensor at its limit
---! error: "1,250" in line 2
---! error: goes on after line 3
---! error: it is taken for zero, which takes the load off
+--! error: the sensor may be at its limit
+--! error: "1,250" may have a decimal comma
+--! error: ends after the start of line 3
+--! error: it is read as 0, a release
 --! error: did you mean `rotation [deg]`?
 local lab = require "asperity"
 
@@ -17,7 +17,7 @@ local function normal()
   end
   return sum
 end
--- Three holds at ten samples a second, with noise that went through a filter of y(k) = r y(k-1) + e; cut at `limit`.
+-- Three holds at ten samples a second, with noise through a filter of y(k) = r y(k-1) + e; cut at `limit`.
 local function recording(name, noise, r, limit)
   local file <close> = assert(io.open(name, "w"))
   file:write "time [s],load [kN]\n"
@@ -72,15 +72,15 @@ local with = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with
 local function refused(text, words) with(words, log, text) end
 refused("time,pressure [MPa]\n03/04/2026 10:00,1\n", 'dates="day first" or dates="month first"')
 assert(#log "Machine 7\n\ntime [s],pressure [MPa]\n0,1\n" == 1) -- the lines above are left out with a warning
-refused("pressure [MPa],dwell [s]\n10 N,1\n", "it is a force where a pressure is wanted")
+refused("pressure [MPa],dwell [s]\n10 N,1\n", "is a force where a pressure is wanted")
 refused("pressure [MPa],dwell [s]\n1,1\nTotal\n2,2\n", "put # before a line that is no row")
 refused("load [N],load [kN]\n1,1\n", 'begin its title with "result "')
 refused("\x1F\x8B\x08 log", "packed with gzip")
-refused('pressure [MPa],dwell [s]\n"1,500",1\n', "write the decimal sign as a point")
--- What is wrong is shown as it stands in the file, and what may part thousands is named.
-refused("load [N];dwell [s]\n1\xE2\x80\xAF234,5;1\n", '"1\xE2\x80\xAF234,5" is no finite number: if a blank parts thousands')
-refused("load [N];dwell [s]\n1.234,5;1\n", 'if a point parts thousands, say thousands="."')
-refused("load [N];dwell [s]\n1'234.5;1\n", "if an apostrophe parts thousands")
+refused('pressure [MPa],dwell [s]\n"1,500",1\n', "may have a decimal comma or separated thousands")
+-- Each refusal names the sign of thousands.
+refused("load [N];dwell [s]\n1\xE2\x80\xAF234,5;1\n", 'thousands=" " if')
+refused("load [N];dwell [s]\n1.234,5;1\n", 'thousands="." if')
+refused("load [N];dwell [s]\n1'234.5;1\n", "thousands=\"'\" if")
 refused("time,load [N],dwell [s]\n23:50:00,1,1\n00:05:00,2,1\n", "times of day that go past midnight need their dates")
 -- A logger with a column for the day and one for the time of day.
 do

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/run/across_versions.hpp"
+#include "engine/run/recorded_run.hpp"
 
 #include <gtest/gtest.h>
 

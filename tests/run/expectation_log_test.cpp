@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/run/expectation_log.hpp"
+#include "engine/run/expectation.hpp"
 
 #include <gtest/gtest.h>
 

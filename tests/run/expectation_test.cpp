@@ -213,13 +213,11 @@ TEST(Expectation, RefusesToSayNothing) {
   EXPECT_EQ(error_of([&] { check(e); }), "bad_value: `rel` is -0.1; give a finite number, zero or above");
   e.near = 0;
   e.relative = 0.1;
-  EXPECT_EQ(error_of([&] { check(e); }),
-            "bad_value: `near` is 0, of which `rel` leaves no width; give `within`");
+  EXPECT_EQ(error_of([&] { check(e); }), "bad_value: `near` is 0, so `rel` gives no width; give `within`");
   e = about("mu");
   e.within = 1;
   e.at_least = 0;
-  EXPECT_EQ(error_of([&] { check(e); }),
-            "bad_value: `within` needs `near`; say what the value should be near");
+  EXPECT_EQ(error_of([&] { check(e); }), "bad_value: `within` needs `near`; give `near` as well");
   e = about("mu");
   e.at_least = 2;
   e.at_most = 1;
@@ -249,12 +247,32 @@ constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},       {"MPa", "0.01 GPa
                                   {"", "10 %", 0.1},           {"N", "3 kN", 3000},
                                   {"MPa/um", "80 MPa/um", 80}, {"kg m^-3", "2 g/cm^3", 2000}};
 
+std::string named(const std::string& column, const std::string& unit) {
+  return unit.empty() ? column : column + " [" + unit + "]";
+}
+
+TEST(Expectation, NumbersAreInSiOrInTheUnitOfTheName) {
+  Table table;
+  const std::vector<Entry> row = {{"Ra [um]", 2.8}};
+  table.append(row);
+  Expectation e = about("Ra");
+  e.near = 2.8e-6;
+  e.within = 0.1e-6;
+  EXPECT_TRUE(judge(e, table).passed);
+  EXPECT_EQ(judge(e, table).sentence, "`Ra` is near 2.8 um within 0.1 um (1 row, 2.8 um)");
+  e.column = "Ra [nm]";
+  EXPECT_FALSE(judge(e, table).passed);
+  e.near = 2800;
+  e.within = 100;
+  EXPECT_EQ(judge(e, table).sentence, "`Ra` is near 2800 nm within 100 nm (1 row, 2800 nm)");
+}
+
 TEST(Expectation, QuantitiesAreCountedInTheUnitOfTheColumn) {
   for (const UnitCase& one : same_kind) {
     SCOPED_TRACE(std::string(one.quantity) + " in " + one.column);
     for (const double factor : {1.0, 1.001}) {
       Table table;
-      const std::vector<Entry> row = {{"v", one.cell * factor, one.column}};
+      const std::vector<Entry> row = {{named("v", one.column), one.cell * factor}};
       table.append(row);
       const bool holds = factor == 1;
       Expectation near = about("v");
@@ -271,7 +289,7 @@ TEST(Expectation, QuantitiesAreCountedInTheUnitOfTheColumn) {
 TEST(Expectation, AnotherKindIsAnError) {
   const auto refused = [](std::string unit, const char* quantity) {
     Table table;
-    const std::vector<Entry> row = {{"v", 10.0, std::move(unit)}};
+    const std::vector<Entry> row = {{named("v", unit), 10.0}};
     table.append(row);
     Expectation e = about("v");
     e.at_least = ExpectedValue(std::string_view(quantity));
@@ -282,14 +300,12 @@ TEST(Expectation, AnotherKindIsAnError) {
       return std::string(error.what());
     }
   };
-  EXPECT_EQ(
-      refused("MPa", "10 N"),
-      "`at_least` is \"10 N\", which is a force, and column `v` is in MPa; give a plain number, which is "
-      "counted in MPa, or a pressure");
-  EXPECT_EQ(
-      refused("MPa", "10"),
-      "`at_least` is \"10\", which has no unit, and column `v` is in MPa; give a plain number, which is "
-      "counted in MPa, or a pressure");
+  EXPECT_EQ(refused("MPa", "10 N"),
+            "`at_least` is \"10 N\", which is a force, and column `v` is in MPa; give a pressure, or a plain "
+            "number in SI");
+  EXPECT_EQ(refused("MPa", "10"),
+            "`at_least` is \"10\", which has no unit, and column `v` is in MPa; give a pressure, or a plain "
+            "number in SI");
   EXPECT_EQ(
       refused("", "10 um"),
       "`at_least` is \"10 um\", which is a length, and column `v` has no unit; give a plain number, or the "
@@ -300,19 +316,20 @@ TEST(Expectation, AnotherKindIsAnError) {
 
 TEST(Expectation, SaysWhatWasWantedInTheUnitOfTheColumn) {
   Table table;
-  const std::vector<Entry> row = {{"p", 12.0, "MPa"}};
+  const std::vector<Entry> row = {{"p [MPa]", 12.0}};
   table.append(row);
   Expectation e = about("p");
   e.near = ExpectedValue(std::string_view("10000 kPa"));
-  e.within = 1.5;
-  EXPECT_EQ(judge(e, table).sentence, "`p` should be near 10 MPa within 1.5, but row 1 has 12 (1 of 1 row)");
+  e.within = 1.5e6;
+  EXPECT_EQ(judge(e, table).sentence,
+            "`p` should be near 10 MPa within 1.5 MPa, but row 1 has 12 (1 of 1 row)");
   e.within = ExpectedValue(std::string_view("0.002 GPa"));
-  EXPECT_EQ(judge(e, table).sentence, "`p` is near 10 MPa within 2 MPa (1 row, 12)");
+  EXPECT_EQ(judge(e, table).sentence, "`p` is near 10 MPa within 2 MPa (1 row, 12 MPa)");
   Expectation between = about("p");
   between.at_least = ExpectedValue(std::string_view("5 MPa"));
-  between.at_most = 20.0;
+  between.at_most = 20e6;
   EXPECT_TRUE(judge(between, table).passed);
-  between.at_most = 4.0;
+  between.at_most = 4e6;
   EXPECT_THROW(judge(between, table), Error);
 }
 

@@ -119,7 +119,7 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
     const auto journal = Journal::again(folder / "j.jsonl");
     write(*journal, 2, "press");
     EXPECT_EQ(journal->departure(),
-              "from line 1 of the journal on it was written anew: `row.s` was 1.0 and is now 2.0");
+              "from line 1 of the journal on it is written again: `row.s` was 1.0 and is now 2.0");
     EXPECT_EQ(journal->count(), 2);
   }
   EXPECT_EQ(content_of(folder / "j.jsonl"),
@@ -129,9 +129,9 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
   const auto journal = Journal::again(folder / "j.jsonl");
   EXPECT_EQ(
       error_of([&] { write(*journal, 2, "scan"); }),
-      "bad_state: the run goes another way than the one it takes up: in line 2 of the journal `function` "
-      "was \"press\" and is now \"scan\"; something it reads has changed; run the script anew, with "
-      "--reuse for what is still the same");
+      "bad_state: the run differs from the resumed one: in line 2 of the journal `function` "
+      "was \"press\" and is now \"scan\"; its inputs have changed; run the script again, with --reuse for "
+      "unchanged results");
   EXPECT_EQ(content_of(folder / "j.jsonl"), before);
 }
 
@@ -151,8 +151,7 @@ TEST_F(JournalTest, IsTakenUpToAHoleAndElseNamesWhatServes) {
     for (std::size_t k = from; k < std::min(from + 20, torn.size()); ++k) torn[k] = '\0';
     std::ofstream(file, std::ios::binary) << torn;
     EXPECT_NE(error_of([&] { (void)read_journal(file, false); })
-                  .find("holds zeros, as a power cut leaves them; its results "
-                        "are taken by `asperity run " +
+                  .find("holds zeros, as a power cut leaves them; use its results by `asperity run " +
                         (folder / "script.lua").string() + " --reuse " + folder.string() + "`"),
               std::string::npos);
     const auto journal = Journal::again(file);
@@ -199,7 +198,7 @@ TEST_F(JournalTest, AnotherNameOfTheFileKeepsItsBytes) {
 TEST_F(JournalTest, WhatIsNoJournalIsNotTakenUp) {
   EXPECT_NE(error_of([&] { Journal::again(folder / "none.jsonl"); }), "");
   std::ofstream(folder / "j.jsonl") << "{\"n\":2,\"event\":\"x\"}\n";
-  EXPECT_NE(error_of([&] { Journal::again(folder / "j.jsonl"); }).find("does not carry its number"),
+  EXPECT_NE(error_of([&] { Journal::again(folder / "j.jsonl"); }).find("has a wrong number"),
             std::string::npos);
 }
 

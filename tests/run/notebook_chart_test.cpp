@@ -158,7 +158,7 @@ Table grits() {
   Table table;
   double N = 0;
   for (const char* grit : {"P80", "P120", "P80"}) {
-    const std::vector<Entry> row = {{"grit", grit}, {"Ra", N + 1, "um"}, {"N", N}};
+    const std::vector<Entry> row = {{"grit", grit}, {"Ra [um]", N + 1}, {"N", N}};
     table.append(row);
     ++N;
   }
@@ -176,10 +176,9 @@ TEST(NotebookChart, TextsAlongXAreNamesInTheOrderOfTheirRows) {
   EXPECT_EQ(
       error_of([&] { drawn(grits(), options); }),
       "bad_value: `grit` holds names, such as \"P80\"; `log_x`, `fit` and `functions` need numbers along");
-  EXPECT_EQ(
-      error_of([&] { drawn(grits(), chart("N", {"grit"})); }),
-      "bad_value: the chart of `grit` against `N` has nothing to draw; `grit` holds names, such as \"P80\"; "
-      "names stand along x: write a column of numbers beside them");
+  EXPECT_EQ(error_of([&] { drawn(grits(), chart("N", {"grit"})); }),
+            "bad_value: the chart of `grit` against `N` has nothing to draw; `grit` holds names, such as "
+            "\"P80\"; names can only be along x: add a column of numbers");
 }
 
 TEST(NotebookChart, LinesAcrossAreCountedInTheColumnsUnit) {
@@ -188,14 +187,20 @@ TEST(NotebookChart, LinesAcrossAreCountedInTheColumnsUnit) {
   const LineChart lines = drawn(grits(), options);
   EXPECT_EQ(*lines.references[0].y, 2.5);
   EXPECT_EQ(*lines.references[1].x, 1);
+  options.references = {{{}, ExpectedValue(2.5e-6), ""}};
+  EXPECT_EQ(*drawn(grits(), options).references[0].y, 2.5);
+  options.y = {"Ra [nm]"};
+  options.references = {{{}, ExpectedValue(2500), ""}};
+  EXPECT_EQ(*drawn(grits(), options).references[0].y, 2500);
+  EXPECT_EQ(drawn(grits(), options).series[0].y, (std::vector<double>{1000, 2000, 3000}));
   options.references = {{{}, ExpectedValue("2 N"), ""}};
   EXPECT_TRUE(error_of([&] { drawn(grits(), options); }).starts_with("bad_unit: a line across `Ra`: "));
 }
 
 TEST(NotebookChart, FitsAndFunctionsAreLinesOverTheRangeOfX) {
   NotebookChart options = chart("N", {"Ra"});
-  options.fits = {{"", "N", "Ra", 0.9, {{0, 1, 0.5, 1.5}, {2, 3, 2.5, 3.5}}}};
-  options.functions = {{"double", [](double x) { return 2 * x; }}};
+  options.fits = {{"", "N", "Ra", 0.9, {{0, 1e-6, 0.5e-6, 1.5e-6}, {2, 3e-6, 2.5e-6, 3.5e-6}}}};
+  options.functions = {{"double", [](double x) { return 2e-6 * x; }}};
   const LineChart lines = drawn(grits(), options);
   ASSERT_EQ(lines.series.size(), 3U);
   EXPECT_FALSE(lines.series[0].line);

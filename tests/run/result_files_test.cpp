@@ -147,7 +147,7 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
     keep(files, "fourth", field);  // all three are of this run
     EXPECT_EQ(count(limited.folder), 3U);
     ASSERT_EQ(files.notices().size(), 1U);
-    EXPECT_NE(files.notices().front().find("no longer fit"), std::string::npos);
+    EXPECT_NE(files.notices().front().find("results of this run exceed"), std::string::npos);
   }
   for (const auto& entry : std::filesystem::directory_iterator(limited.folder))
     std::filesystem::last_write_time(entry, entry.last_write_time() - std::chrono::hours(1));
@@ -190,8 +190,8 @@ TEST_F(ResultFilesTest, PartsOfKilledWritersGoAndOthersCount) {
   ResultFilesSetup limited = setup();
   limited.most_bytes = 250 << 10;
   std::filesystem::create_directories(limited.folder);
-  const std::filesystem::path old = limited.folder / ".x.00000000-1-0123456789abcdef.part.h5",
-                              now = limited.folder / ".y.00000000-1-0123456789abcdef.part.h5";
+  const std::filesystem::path old = limited.folder / ".x.00000000-1-0123456789abcdef.part.result",
+                              now = limited.folder / ".y.00000000-1-0123456789abcdef.part.result";
   for (const auto& part : {old, now}) std::ofstream(part) << std::string(200 << 10, 'x');
   std::filesystem::last_write_time(old,
                                    std::filesystem::file_time_type::clock::now() - std::chrono::hours(48));
@@ -209,7 +209,7 @@ TEST_F(ResultFilesTest, TheLimitIsToldInItsOwnUnit) {
   ResultFiles files(limited);
   keep(files, "key", ramp(64, 64));
   ASSERT_EQ(files.notices().size(), 1U);
-  EXPECT_NE(files.notices().front().find("no longer fit the 3 KiB of its store"), std::string::npos)
+  EXPECT_NE(files.notices().front().find("exceed the 3 KiB of its store"), std::string::npos)
       << files.notices().front();
 }
 
@@ -220,7 +220,7 @@ TEST_F(ResultFilesTest, AFolderThatCannotBeMadeIsNoticedAndNothingElse) {
   keep(files, "another", ramp());
   EXPECT_EQ(files.counts().kept, 0);
   ASSERT_EQ(files.notices().size(), 1U);
-  EXPECT_NE(files.notices().front().find("could not be kept"), std::string::npos);
+  EXPECT_NE(files.notices().front().find("could not be stored"), std::string::npos);
 }
 
 TEST_F(ResultFilesTest, NothingIsKeptBeforeTheDiskHasWhatItNeeds) {
@@ -230,7 +230,7 @@ TEST_F(ResultFilesTest, NothingIsKeptBeforeTheDiskHasWhatItNeeds) {
   keep(files, "key", ramp());
   EXPECT_EQ(files.counts().kept, 0);
   ASSERT_EQ(files.notices().size(), 1U);
-  EXPECT_NE(files.notices().front().find("script.lua` to the disk: No such file"), std::string::npos)
+  EXPECT_NE(files.notices().front().find("script.lua` on the disk: No such file"), std::string::npos)
       << files.notices().front();
   std::ofstream(folder / "script.lua") << "return 1";
   keep(files, "key", ramp());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Least recently used results are dropped first; a store is the second level.
-#include "engine/run/result_memory.hpp"
+#include "engine/run/result_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,6 @@
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
 #include "engine/run/run_folder.hpp"
-#include "engine/run/run_lock.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_directory_test {
@@ -136,8 +135,7 @@ TEST_F(RunDirectoryTest, RefusesEveryWayOut) {
   RunDirectory run(setup());
   const auto refused = [](std::string_view file) {
     return "not_permitted: the file `" + std::string(file) +
-           "` lies outside the run directory; files are written only under the run directory; `--trust` "
-           "lifts this";
+           "` is outside the run directory; give a path in the run directory, or add `--trust`";
   };
   fs::create_symlink("/tmp", run.path() / "link");
   for (const std::string file : {"/tmp/x", "../x", "a/../../x", "maps/../../fig9-1x/x", "link/x"})
@@ -497,7 +495,7 @@ TEST_F(RunDirectoryTest, AFinishedRunIsMendedOrSaysWhatCannotBe) {
   RunDirectory run(again);
   work(run, 0.6);
   EXPECT_NE(
-      error_of([&] { run.finish(RunStatus::done); }).find("`book.csv` could not be made again as recorded"),
+      error_of([&] { run.finish(RunStatus::done); }).find("`book.csv` could not be restored as recorded"),
       std::string::npos);
   EXPECT_FALSE(run.mended());
   EXPECT_EQ(manifest(run).find("status")->string(), "failed");
@@ -531,7 +529,7 @@ TEST_F(RunDirectoryTest, AJournalThatIsTakenAwayUnderWayIsNoticed) {
   s.out = folder / "r";
   RunDirectory run(s);
   fs::remove(run.path() / "journal.jsonl");
-  EXPECT_NE(error_of([&] { run.finish(RunStatus::done); }).find("was taken away while the run wrote it"),
+  EXPECT_NE(error_of([&] { run.finish(RunStatus::done); }).find("was removed while the run wrote it"),
             std::string::npos);
   EXPECT_EQ(manifest(run).find("status")->string(), "failed");
   RunSetup again = setup();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One holder, named in errors; the lock ends with its process.
-#include "engine/run/run_lock.hpp"
+#include "engine/run/run_folder.hpp"
 
 #include <sys/utsname.h>
 #include <sys/wait.h>
@@ -57,9 +57,8 @@ TEST_F(RunLockTest, TheSecondComerIsToldProcessAndHostAndChangesNothing) {
   const std::shared_ptr<RunLock> lock = RunLock::take(folder);
   const std::string before = content_of(folder / ".lock");
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(
-        error_of([&] { RunLock::take(folder); }),
-        "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+    EXPECT_EQ(error_of([&] { RunLock::take(folder); }),
+              "bad_state: " + held_by(::getpid()) + "; wait until it has ended, or give another directory");
   EXPECT_NE(error_of([&] { RunLock::take_if_known(folder); }), "");
   EXPECT_EQ(content_of(folder / ".lock"), before);
   EXPECT_EQ(files_in(folder), 1U);
@@ -86,9 +85,8 @@ TEST_F(RunLockTest, WhoIsNamedLives) {
     if (++asked == 3) std::ofstream(folder / ".lock") << name;
     return EAGAIN;
   };
-  EXPECT_EQ(
-      error_of([&] { RunLock::take(folder, ask); }),
-      "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, ask); }),
+            "bad_state: " + held_by(::getpid()) + "; wait until it has ended, or give another directory");
 }
 
 // One holds the lock until all others are refused.
@@ -132,11 +130,11 @@ TEST_F(RunLockTest, OfManyOneHasIt) {
 TEST_F(RunLockTest, WithoutLocksProcessAndHostDecide) {
   const pid_t child = holder(no_locks);
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
-            "bad_state: " + held_by(child) + "; wait until that one has ended, or give another directory");
+            "bad_state: " + held_by(child) + "; wait until it has ended, or give another directory");
   kill(child);
   {
     const std::shared_ptr<RunLock> lock = RunLock::take(folder, no_locks);
-    EXPECT_NE(lock->notice().find("gives no locks"), std::string::npos);
+    EXPECT_NE(lock->notice().find("has no locks"), std::string::npos);
     EXPECT_NE(error_of([&] { RunLock::take(folder, no_locks); }), "");
   }
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }), "");
@@ -146,8 +144,8 @@ TEST_F(RunLockTest, WithoutLocksProcessAndHostDecide) {
          "\"process_start\":\"1\"}\n";
   EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
             "bad_state: `" + folder.string() +
-                "` is being written by process 1 on another; if that one has ended, remove `" +
-                (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
+                "` is being written by process 1 on another; if it has ended, remove `" +
+                (folder / ".lock").string() + "`; this file system has no locks");
 }
 
 // A sandbox hides boot time and process namespace and forbids signals: the holder counts as alive.
@@ -211,7 +209,7 @@ TEST_F(RunLockTest, IsNoLink) {
   fs::create_symlink(folder / "victim", folder / ".lock");
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }),
             "bad_file: `" + (folder / ".lock").string() +
-                "` is a link; a run writes its own files where they are; take the link away");
+                "` is a link; remove the link: a run writes its own files");
   EXPECT_EQ(content_of(folder / "victim"), "mine");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/run/timed_lock.hpp"
+#include "engine/run/run_folder.hpp"
 
 #include <gtest/gtest.h>
 

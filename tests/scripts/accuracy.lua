@@ -4,7 +4,7 @@
 --! flags: --repeats 2
 --! args: 48
 --! error: work and precision: 8 settings, each timed 2 times after a first run: about 
---! error: of which the truth { cells_factor=2, tolerance=1e-08 } takes about 
+--! error: the truth { cells_factor=2, tolerance=1e-08 } takes about 
 --! output: pressed on 48 cells
 --! not output: pressed on 96 cells
 --! output: { cells_factor=0.25 }

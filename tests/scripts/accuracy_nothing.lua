@@ -2,5 +2,5 @@
 -- A script that returns a number in which nothing can be made finer.
 --! command: accuracy
 --! exit: 1
---! error: the script makes no surface from `cells` and no contact
+--! error: the script has no `cells` of a surface and no contact
 return 1

@@ -58,7 +58,7 @@ refused(function() plane:profile{ row=3 }:profile_parameters{ section="12 um", F
 local row = lab.surface.from_function{ cells={ 64, 1 }, size={ "64 um", "1 um" }, height=function(x) return um * math.sin(x / um) end }
 assert(row:areal_parameters().Std == nil and row:areal_parameters().Spd == nil)
 
--- A profile has the curve too: half of it lies above the mean.
+-- A profile has the curve too: half the points are above the mean.
 near(s:profile{ row=5 }:bearing():ratio(0), 0.5, 0.05, "Rmr(0)")
 near(s:profile{ row=5 }:bearing():height(0), s:profile{ row=5 }:roughness().peak, 1e-9, "Rmc(0), of whole periods")
 

@@ -20,7 +20,7 @@ local function layer(keys)
 end
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity="layer" } } end, "`effects.elasticity` is \"layer\" without its options; give { model=\"layer\", thickness= }")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects=layer{ thickness="1 mm" } } end, "a layer needs boundary=\"periodic\"")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="free", effects=layer{ thickness="1 mm" } } end, "`boundary` is \"free\" on a layer")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="free", effects=layer{ thickness="1 mm" } } end, "`boundary` is \"free\", and a layer")
 refused(function() lab.contact{ lower=s, upper=steel, boundary="periodic", effects=layer{ thickness="1 mm" } } end, "the upper body is of `steel`", "lab.rigid")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=layer{ thickness="1 mm", stiffness=1e9 } } end, "`effects.elasticity`: `stiffness` is of model=\"box\", and the model is \"layer\"")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity={ model="half_space", base="bonded" } } } end, "`effects.elasticity`: `base` is of model=\"layer\"")
@@ -45,7 +45,7 @@ local before = c:press{ approach="0.5 um" }
 assert(not pcall(c.press, c, { pressure=-1 }))
 assert(c:press{ approach="0.5 um" }.digest == before.digest)
 -- Pressing until just nothing, and nothing at all.
-assert(c:press{ pressure=0 }.contacts == 0)
+assert(c:press{ pressure=0 }.nodes_in_contact == 0)
 refused(function() before:field "presure" end, "(did you mean `pressure`?)")
 refused(function() before:deformed "middle" end, 'give "lower" or "upper"')
 refused(function() return before.plastic_volume end, "needs the effect `plasticity`")

@@ -4,8 +4,8 @@
 --! error: bad_press_log.lua:14: 
 --! error: log.txt" has 3 problems
 --! error:   line 2, column 2 (pressure): "-3" is negative
---! error:   line 3, column 1 (time): the time 5 s runs backwards: 10 s stands before it
---! error:   line 4: there are 3 cells under 2 columns
+--! error:   line 3, column 1 (time): the time 5 s runs backwards, after 10 s
+--! error:   line 4: there are 3 cells under 2 heads
 --! not output: accepted
 local lab = require "asperity"
 local file = assert(io.open("log.txt", "w"))

@@ -4,11 +4,11 @@
 local lab = require "asperity"
 local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 local P = lab.protocol
-refused(function() P{} end, "a protocol of no events was asked")
+refused(function() P{} end, "a protocol has no events")
 refused(function() P(3) end, "lab.protocol takes a list of events, and was given the number 3")
 refused(function() P() end, "was given nothing")
 refused(function() P({ { release=true } }, 2) end, "lab.protocol takes one argument")
-refused(function() P{ press={ pressure=1 } } end, "`press` stands outside the braces of an event; write { press=... }")
+refused(function() P{ press={ pressure=1 } } end, "`press` is outside the braces of an event; write { press=... }")
 refused(function() P{ times=3, { release=true } } end, "unknown key `times`; a protocol is a list of events")
 refused(function() P{ [1]={ release=true }, [3]={ release=true } } end, "the list has an entry at the number 3")
 refused(function() P{ { pres={ pressure=1 } } } end, "event 1: unknown event `pres` (did you mean `press`?); the events are press, release, place, rotate and shift")
@@ -32,8 +32,8 @@ refused(function() P{ { release=true }, { press={ pressure=math.huge, dwell="1 m
 local p = P{ { release=true } }
 refused(function() p:on(3) end, "`contact` is the number 3; give a contact")
 refused(function() p:on() end, "`contact` is nothing")
-refused(function() p:repeated{ times=0 } end, "`times` is 0; give a whole number at least 1")
-refused(function() p:repeated{ times=1e12 } end, "give a whole number from 1 to 10000000")
+refused(function() p:repeated{ repeats=0 } end, "`repeats` is 0; give a whole number at least 1")
+refused(function() p:repeated{ repeats=1e12 } end, "give a whole number from 1 to 10000000")
 refused(function() return p.lenght end, "a protocol has no field `lenght`")
 refused(function() p.count = 3 end, "a protocol cannot be changed")
 refused(function() return p:events()[1].pressur end, "has no field `pressur` (did you mean `pressure`?)")

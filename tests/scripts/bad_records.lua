@@ -17,7 +17,7 @@ refused(function() book:expect("a") end, "has no condition")
 refused(function() book:expect("a", { near=1 }) end, "`near` needs a width")
 refused(function() book:chart{ x="a" } end, "`y` is missing")
 refused(function() book:chart{ x="a", y="q" } end, "`y` names `q`, which is no column")
-refused(function() book:chart{ x="a", y="a", file="../x.svg" } end, "lies outside the run directory")
+refused(function() book:chart{ x="a", y="a", file="../x.svg" } end, "is outside the run directory")
 refused(function() book:chart{ x="a", y="a", file="x.gif" } end, "pictures are .svg, .png or .pdf")
 book:write{ a=42 }
 print "all refused"

@@ -5,7 +5,7 @@ local lab = require "asperity"
 local S = lab.surface
 local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").at_its_line
 refused(function() S.flat{ cells=8, size="1 kg" } end, '`size`: "1 kg": a mass where a length is wanted')
-refused(function() S.flat{ cells=8, size="1 micron" } end, "`size`: ")
+refused(function() S.flat{ cells=8, size="1 microns" } end, "`size`: ")
 refused(function() S.flat{ cells=8, size="1" } end, "`size`: ")
 refused(function() S.flat{ cells=8, size="um" } end, "`size`: ")
 refused(function() S.flat{ cells=8, size="" } end, "`size`: ")

@@ -15,7 +15,7 @@ for _, D in ipairs{ 2.0, 2.5, 2.9 } do
   local c <close> = lab.contact{ lower=scaled, upper=rough:mirrored(), effects={ elasticity={ model="box", stiffness="80 MPa/um" } } }
   c:place{ seed=2 }
   for st in c:sweep{ pressure={ "1 MPa", "10 MPa", scaled:roughness().Ra * 1e12 } } do
-    local shown = string.format("%.3f um %d %s", st.approach / um, st.contacts, st) .. st.area
+    local shown = string.format("%.3f um %d %s", st.approach / um, st.nodes_in_contact, st) .. st.area
     book:write{ D=D, Ra=scaled:roughness().Ra, pressure=st.pressure, text=shown, mu=st.area_fraction^2 // 1 }
     for name, value in pairs(st.cost) do local x = name .. tostring(value) end
     st:field "pressure":picture("pressure.png", { title=table.concat({ "D", D, st.area }, " ") })

@@ -9,7 +9,7 @@ local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box" } }
 local known = lab.protocol{ { press={ pressure="1 MPa" } }, { release=true } }
 local asked = lab.protocol{ { press={ pressure=c:press{ load=1 }.pressure } }, { rotate=s:roughness().Rq } }
 local turns = 0
-for _, p in ipairs{ known, asked, lab.protocol.read "measured.csv", known:plus(asked):repeated{ times=3 } } do
+for _, p in ipairs{ known, asked, lab.protocol.read "measured.csv", known:plus(asked):repeated{ repeats=3 } } do
   for event, st in p:on(c) do
     turns = turns + 1
     local text = event.text .. event.index .. "/" .. event.total .. st.area .. event.pressure / 1e6

@@ -2,7 +2,7 @@
 -- A case that fails is told at once, the others run on and are kept, and the run does not pass for done.
 --! exit: 1
 --! error: warning: case load = 2000, seed = 1 failed: 
---! error: 2 of 6 cases failed, and the other 4 ran (what they returned is in ensemble_kept.csv)
+--! error: 2 of 6 cases failed, and the other 4 ran (their results are in ensemble_kept.csv)
 --! error:   case load = 2000, seed = 2: 
 --! output: reported 2 of 6
 --! output: first failed at seed 1

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+--! flags: --trace
 --! exit: 1
---! error: error_engine.lua:7: lab.surface.flat: unknown key `cell` (did you mean `cells`?)
+--! error: error_engine.lua:8: lab.surface.flat: unknown key `cell` (did you mean `cells`?)
 --! error: stack traceback:
 --! error: 'make'
 local lab = require "asperity"

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+--! flags: --trace
 --! exit: 1
 --! error: asperity:
---! error: error_text.lua:12: out of specimens
+--! error: error_text.lua:13: out of specimens
 --! error: stack traceback:
 --! error: in local 'press'
 --! file: manifest.json: "status": "failed"

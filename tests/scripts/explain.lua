@@ -21,5 +21,5 @@ end
 local c, last = contact(64), nil
 for k = 1, 5 do last = c:press{ pressure = 0.001 * k } end
 for _ in c:sweep{ pressure = { 0.001, 0.002, 0.003 } } do end
-lab.ensemble{ over = { seed = { 1, 2, 3 } }, run = function() contact(32):press{ pressure = 1e-3 } contact(32):press{ pressure = 2e-3 } end }
+lab.ensemble{ over = { seed = { 1, 2, 3 } }, run = function() contact(32):press{ pressure = 1e-3 } contact(32):press{ pressure = 2e-3 } return {} end }
 if last.area_fraction > 0.5 then print "never printed" end

@@ -21,7 +21,7 @@ local tile = 250e-6 ^ 2
 for key, value in pairs{ load=20e6 * tile, approach=st.approach, indentation=st.indentation, flatten=st.flatten } do
   local same = c:press{ [key]=value }
   assert(math.abs(same.pressure / st.pressure - 1) < 1e-5, key)
-  assert(math.abs(same.contacts - st.contacts) <= 2, key)
+  assert(math.abs(same.nodes_in_contact - st.nodes_in_contact) <= 2, key)
 end
 assert(math.abs(st.separation + st.approach - (c:press{ pressure=0 }).separation) < 1e-15)
 
@@ -30,11 +30,11 @@ local near = c:press{ pressure="20.02 MPa" }
 local slope = (near.pressure - st.pressure) / (near.approach - st.approach)
 assert(math.abs(st.stiffness / slope - 1) < 0.02, st.stiffness / slope)
 
--- Nothing yields unless it is asked for.
+-- Nothing yields without the effect `plasticity`.
 refused(function() return st.plastic_volume end, "plastic_volume", "plasticity")
 assert(c:lower() == body(1) or c:lower().digest == body(1).digest)
 
--- With plasticity, what yields stays; creep lowers the hardness with dwell.
+-- With plasticity, deformation stays; creep lowers the hardness with dwell.
 local p = bench{ elasticity="half_space", plasticity={}, creep={} }
 local pressed = p:press{ pressure="60 MPa", dwell="10 min" }
 assert(pressed.plastic_volume > 0 and pressed.plastic_fraction > 0 and pressed.peak_pressure <= 1.1e9)
@@ -48,7 +48,7 @@ refused(function() p:press{ pressure="2 GPa" } end, "1.1 GPa")
 assert(p:lower().digest == worn)
 assert(p:press{ pressure="60 MPa", dwell="10 min" }.plastic_volume < 1e-5 * pressed.plastic_volume)
 
--- Costs are told by effect; what is off is listed.
+-- Costs are reported by effect; effects that are off are listed.
 assert(pressed.cost.by_effect.elasticity.transforms > 0 and pressed.cost.by_effect.plasticity)
 assert(table.concat(pressed.effects_run, " ") == "elasticity plasticity creep")
 

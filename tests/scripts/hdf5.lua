@@ -26,7 +26,7 @@ local function says(wanted, f, ...)
   local ok, problem = pcall(f, ...)
   assert(not ok and tostring(problem):find(wanted, 1, true), tostring(problem))
 end
-says("none of which is called `height`", lab.surface.read, "state.h5")
+says("and none is called `height`", lab.surface.read, "state.h5")
 says("holds no map `plastic`", lab.surface.read, "few.h5", { channel="plastic" })
 says("`pressure` in Pa, which is a pressure", lab.surface.read, "state.h5", { channel="pressure" })
 says("use .h5", st.write, st, "state.csv")
@@ -34,7 +34,7 @@ says("did you mean `pressure`?", st.write, st, "state.h5", { fields={ "presure" 
 says("give a list of names", st.write, st, "state.h5", { fields="pressure" })
 says("which holds one map", lab.surface.read, s:write "s.npy", { channel="gap", size="1 mm", unit="m" })
 
--- What no effect computes is not there.
+-- A file holds no field without its effect.
 local elastic = lab.contact{ lower=s:with{ material=steel }, upper=lab.rigid, boundary="periodic",
                              effects={ elasticity="half_space" } }
 elastic:press{ pressure="50 MPa" }:write "elastic.h5"

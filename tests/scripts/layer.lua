@@ -16,12 +16,12 @@ local layer = { model="layer", thickness="80 um", base="bonded" }
 -- Every way of asking gives the same state.
 local c = bench(layer)
 local st = c:press{ pressure="30 kPa" }
-assert(st.converged and st.contacts > 100 and st.area_fraction < 0.9)
+assert(st.converged and st.nodes_in_contact > 100 and st.area_fraction < 0.9)
 for key, value in pairs{ load=st.load, approach=st.approach, indentation=st.indentation, flatten=st.flatten } do
   local same = c:press{ [key]=value }
   assert(math.abs(same.pressure / st.pressure - 1) < 1e-5, key)
   assert(math.abs(same.approach / st.approach - 1) < 1e-5, key)
-  assert(math.abs(same.contacts - st.contacts) <= 2, key)
+  assert(math.abs(same.nodes_in_contact - st.nodes_in_contact) <= 2, key)
 end
 
 -- In full contact the tangent stiffness equals the stiffness of uniform compression.

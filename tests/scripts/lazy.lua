@@ -17,12 +17,12 @@ local function calls()
   return lines
 end
 
--- What is there when the solve ends costs no transform to read.
+-- Results of the solve itself cost no transform to read.
 local c = bench()
 local st = c:press{ pressure=0.01 }
 local before = lab.ledger().transforms
 assert(st.cost.transforms > 0 and before >= st.cost.transforms)
-local _ = st.area_fraction + st.approach + st.peak_pressure + st.contacts + st.residual + st.mean_gap + st.energy
+local _ = st.area_fraction + st.approach + st.peak_pressure + st.nodes_in_contact + st.residual + st.mean_gap + st.energy
   + st.spots + st.plastic_volume
 assert(lab.ledger().transforms == before)
 
@@ -32,14 +32,14 @@ local stiffness = st.stiffness
 local after = lab.ledger().transforms
 assert(after > before and calls()["State.stiffness"].times == 1)
 assert(st.stiffness == stiffness and lab.ledger().transforms == after)
--- So do the bounds of its errors.
+-- The error bounds do the same.
 local bound = st.error.algebraic.approach
 local bounded = lab.ledger().transforms
 assert(bounded > after and st.error.algebraic.approach == bound and lab.ledger().transforms == bounded)
 -- The press's own cost excludes them.
 assert(st.cost.transforms <= before)
 
--- Closed, the contact is gone: of a state there is what was read, and what was known when the solve ended.
+-- After `close` the contact is gone. A state retains the values already read and the results of the solve itself.
 local readers = {
   mean_gap=function(s) return s.mean_gap end, energy=function(s) return s.energy end,
   stiffness=function(s) return s.stiffness end, spots=function(s) return s.spots end,

@@ -29,7 +29,7 @@ assert(lines["lab.surface.self_affine"].times == 1)
 assert(math.abs(ledger.by_effect.elasticity.transforms - transforms) < 1e-9)
 assert(not pcall(function() return ledger.by_effect.plasticity end), "an effect that was not named has no line")
 
--- Cases of an ensemble are kept apart.
+-- Cases of an ensemble have separate ledgers.
 lab.ensemble{ over = { load = { 0.001, 0.002 } }, run = function(case)
   local c = lab.contact{
     lower = lab.surface.sine{ cells = 16, size = 1, amplitude = 0.01, material = unit }, upper = lab.rigid,

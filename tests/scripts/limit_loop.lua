@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- The line that ran, with a traceback.
---! flags: --limit-time 2s
+--! flags: --limit-time 2s --trace
 --! exit: 1
 --! error: the time limit
 --! error: limit_loop.lua:12: the time limit of the run is reached

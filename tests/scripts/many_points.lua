@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A chart of more points than a vector drawing should hold is drawn, with a word; as PNG without.
---! error: 100001 points are drawn, and the file holds each: a .png holds what is seen of them
+--! error: 100001 points are drawn and stored in the file; a .png is smaller
 local lab = require "asperity"
 local rows = {}
 for k = 1, 100001 do rows[k] = { x = k, y = k % 7 } end

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Columns of digits as names: a warning gives the lost digits and the key against the loss.
---! error: ids.txt" line 2, column 1 (id): "007" is read as a number, which loses its zeros; text={ "id" } keeps it as it stands
+--! error: ids.txt" line 2, column 1 (id): "007" is read as a number, which loses its zeros; text={ "id" } reads it unchanged
 --! error: ids.txt" line 3, column 2 (bar code): "123456789012345678901" is read as a number, which loses digits; text={ "bar code" }
 --! not error: month
 --! not error: force

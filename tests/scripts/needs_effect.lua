@@ -61,7 +61,7 @@ local function refused(s, row)
   refusal(function() ask(s) end, effect, what, "needs_effect.lua:")
 end
 
--- A bare scene refuses every name. So does a scene with all other effects.
+-- A bare scene refuses every name. A scene with all other effects refuses it too.
 local bare = scene{}
 for _, row in ipairs(asked) do refused(bare, row) end
 local others = {

@@ -77,13 +77,13 @@ local failing = lab.protocol{ { press={ pressure="10 MPa" } }, { rotate="45 deg"
 local f, seen = contact "periodic", 0
 local ok, message = pcall(function() for _ in failing:on(f) do seen = seen + 1 end end)
 assert(not ok and seen == 0 and not tostring(f):find "under load")
-assert(message:find("event 2 of 3: rotate 45 deg: a turn by 45 deg was asked", 1, true), message)
+assert(message:find("event 2 of 3: rotate 45 deg: a turn by 45 deg does not fit", 1, true), message)
 assert(f:press{ pressure="10 MPa" }.digest == contact "periodic":press{ pressure="10 MPa" }.digest)
 
 -- Put together, and compared.
 local turn = lab.protocol{ { release=true }, { rotate="90 deg" } }
-local q = lab.protocol{ { press={ pressure=1e6 } } }:plus(turn):repeated{ times=3 }
-assert(#q == 9 and q == q:repeated{ times=1 } and q ~= p and q.digest ~= p.digest)
+local q = lab.protocol{ { press={ pressure=1e6 } } }:plus(turn):repeated{ repeats=3 }
+assert(#q == 9 and q == q:repeated{ repeats=1 } and q ~= p and q.digest ~= p.digest)
 local angle = 0
 for event in q:on(contact "periodic") do angle = angle + (event.angle or 0) end
 assert(math.abs(angle - 1.5 * math.pi) < 1e-15)

@@ -39,7 +39,7 @@ assert(math.abs(second.load - 60) < 0.2 and math.abs(second.dwell - 30) <= 1)
 assert(tostring(p):find "recorded.csv lines %d+ to %d+")
 assert(tostring(p):find("2 holds, 0 peaks, 2 releases, 1 turn", 1, true))
 
--- What was found, and by which thresholds.
+-- The events found, and the thresholds.
 local r = p.recording
 assert(r.samples == 240 and r.missing == 0 and math.abs(r.zero_low - 3) < 0.1 and r.interval == 0.5)
 assert(r.spans[1].kind == "rest" and r.spans[2].kind == "rise" and r.spans[3].kind == "hold")

@@ -31,5 +31,5 @@ refused(function() part:registered_to() end, "before")
 refused(function() print(r.shfit) end, "(did you mean `shift`?)")
 -- Heights of one map in millimetres and of the other in micrometres.
 refused(function() before:scaled{ amplitude=1000 * before.peak_to_valley }:registered_to(before) end,
-  "the heights of the after-map are 1e+03 times those of the before-map", "look at the units of both")
+  "the heights of the after-map are 1e+03 times those of the before-map", "check the units of both")
 print "all as it should be"

@@ -31,7 +31,7 @@ end
 
 local c = lab.contact{ lower=rough, upper=counter, effects={ elasticity="box" } }
 for st in c:sweep{ flatten={ 0.01, 0.1, 0.3, 0.05 } } do
-  show("flattened " .. st.contacts, st.digest)
+  show("flattened " .. st.nodes_in_contact, st.digest)
   show("stiffness, energy", string.format("%.17g %.17g", st.stiffness, st.energy))
 end
 c:place{ seed=3 }

@@ -15,7 +15,7 @@ local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").a
 local function near(a, b, within) assert(math.abs(a - b) <= (within or 1e-12) * math.abs(b), a .. " " .. b) end
 local law = lab.friction{ tau0="50 MPa", alpha=0.2 }
 
--- Without them: the plain law, and each by its name where it is asked for.
+-- Without effects: the plain law. Each result of an effect is refused by name.
 local plain = bench{}
 local st = plain:press{ pressure="20 MPa" }
 local r = law:on(st)
@@ -38,7 +38,7 @@ assert(tostring(all:explain()):find("tangential", 1, true))
 local aged = bench{ ageing={ rate=0, onset="1 s" } }
 assert(law:on(aged:press{ pressure="20 MPa" }, { rest="1 h" }).force == r.force)
 
--- Interlocking: the plain parts and what the slopes add; the other way they add something else.
+-- Interlocking: the plain parts and the part of the slopes; the other direction gives another part.
 local s = law:on(same)
 assert(s.adhesive_force == r.adhesive_force and s.load_force == r.load_force)
 assert(s.force == s.adhesive_force + s.load_force + s.interlocking_force and s.interlocking_force ~= 0)
@@ -62,7 +62,7 @@ refused(function() bench{ ageing={ rate=0.1 } } end, "`onset` is missing")
 refused(function() bench{ ageing={ rate=0.1, onset="1 um" } } end, "`onset`", "time")
 refused(function() law:on(state, { rest=-1 }) end, "`rest`")
 
--- Tangential: part of the contact slips; at Coulomb's force all of it.
+-- Tangential: part of the contact slips; at Coulomb's force the whole contact slips.
 refused(function() bench{ tangential={} }:shear{ ratio=0.5, friction=0.3 } end, "carries no load")
 local q = all:shear{ ratio=0.5, friction=0.3 }
 near(q.force, 0.5 * 0.3 * same.load)

@@ -25,7 +25,7 @@ refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 um", fine=tru
 refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 um", dent={ "60 um", "25 um" } } end,
   "`dent` runs from 60 um down to 25 um")
 refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 um", dent="200 um" } end,
-  "`dent` allows a radius of 200 um", "a dent is no wider than its bead")
+  "`dent` allows a radius of 200 um", "give smaller radii as `dent`")
 refused(function() S.bead_blasted{ cells=8, size="500 um", ra="3 um" } end, "give more `cells`")
 refused(function() S.bead_blasted{ cells=25, size="500 um", ra="3 um" } end, "the fine texture: `short_wave` is 16 um")
 refused(function() S.bead_blasted{ cells=128, size="500 um", ra="3 MPa", coverage=0, bead={ 1, 2, 3 } } end,
@@ -45,7 +45,7 @@ refused(function() lab.stylus{ radius="2 um" } end, "unknown key `radius`")
 refused(function() lab.stylus{ length="0.3 um" } end, "at least two spacings")
 refused(function() return stylus.lenght end, "a stylus has no field `lenght` (did you mean `length`?)")
 
--- Its traces: a plain list, and what the tip did.
+-- Its traces: a plain list, and the effect of the tip.
 local traces = stylus:scan(s, { count=3, seed=2 })
 assert(#traces == 3 and #traces.lines == 3)
 local count = 0
@@ -74,7 +74,7 @@ refused(function() stylus:scan() end, "surface")
 refused(function() stylus:scan(s, { count=0 }) end, "`count` is 0")
 refused(function() stylus:scan(s, { conut=3 }) end, "(did you mean `count`?)")
 
--- The map as the tip gives it, and the part of it that the tip could touch.
+-- The map as the tip gives it, and the part within reach of the tip.
 local wide = lab.stylus{ tip="50 um" }
 local felt, reached = wide:dilated(s), wide:closed(s)
 assert(felt.periodic and felt:roughness().valley > s:roughness().valley)

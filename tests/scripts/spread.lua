@@ -12,7 +12,7 @@ local function close(what, found, wanted, within)
   end
 end
 
--- Every number within ten tolerances, but the pressure of one node, which no average steadies, within a hundred; the
+-- Every number within ten tolerances, but the pressure of a single node within a hundred; the
 -- numbers of nodes may differ by one that is on the edge.
 local function compare(cells, press, plasticity)
   local keys = { cells = cells, size = { "100 um", "80 um" }, hurst = 0.7, rms_height = "1 um", short_wave = "12 um",
@@ -31,11 +31,11 @@ local function compare(cells, press, plasticity)
     close(name, a[name], b[name], 10 * tolerance)
   end
   close("peak_pressure", a.peak_pressure, b.peak_pressure, 100 * tolerance)
-  assert(math.abs(a.contacts - b.contacts) <= 1)
-  close("area", a.area, a.contacts * (100e-6 / spread.cells[1]) * (80e-6 / spread.cells[2]), 1e-12)
+  assert(math.abs(a.nodes_in_contact - b.nodes_in_contact) <= 1)
+  close("area", a.area, a.nodes_in_contact * (100e-6 / spread.cells[1]) * (80e-6 / spread.cells[2]), 1e-12)
   if plasticity then
     close("plastic_volume", a.plastic_volume, b.plastic_volume, 10 * tolerance)
-    assert(math.abs(a.plastic_fraction - b.plastic_fraction) * b.contacts / b.area_fraction <= 1.5)
+    assert(math.abs(a.plastic_fraction - b.plastic_fraction) * b.nodes_in_contact / b.area_fraction <= 1.5)
   end
   return a
 end
@@ -64,7 +64,7 @@ assert(math.abs(half.area_fraction - 2 / math.pi * math.asin(math.sqrt(0.5))) < 
 local flat = lab.spread.contact{ lower = lab.spread.flat{ cells = 16, size = 1e-4, material = al }, upper = lab.rigid,
   boundary = "periodic", effects = { elasticity = "half_space" } }:press{ pressure = 1e6 }
 assert(flat.area_fraction == 1 and flat.peak_pressure == 1e6 and flat.approach == 0)
-assert(waves:press{ pressure = 0 }.contacts == 0)
+assert(waves:press{ pressure = 0 }.nodes_in_contact == 0)
 
 -- Written and read again in slabs, bit for bit.
 local made = lab.spread.from_function{ cells = { 31, 9 }, size = 1e-4, material = al,
@@ -100,9 +100,9 @@ fails("exactly one of `pressure`", waves.press, waves, {})
 fails("cannot be carried", function()
   lab.spread.contact(scene{ effects = { elasticity = "half_space", plasticity = {} } }):press{ pressure = "1 GPa" }
 end)
-fails("past full contact", waves.press, waves, { approach = "1 um" })
+fails("in full contact at", waves.press, waves, { approach = "1 um" })
 fails("needs the effect `plasticity`", function() return half.plastic_fraction end)
-fails("not negative", waves.press, waves, { pressure = -1 })
+fails("from zero up", waves.press, waves, { pressure = -1 })
 fails("under two cells", lab.spread.self_affine,
   { cells = 16, size = 1e-4, hurst = 0.8, rms_height = 1e-6, short_wave = 1e-6 })
 fails("there is no file", lab.spread.read, "nowhere.npy", { size = 1e-4 })

@@ -10,7 +10,7 @@ local lab = require "asperity"
 local s = lab.surface.sine{ cells=64, size=1, amplitude="1 mm", material=lab.material "steel" }
 local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box" } }
 io.stdout:setvbuf "no"
-for event in lab.protocol{ { press={ pressure="1 MPa" } }, { release=true } }:repeated{ times=1000000 }:on(c) do
+for event in lab.protocol{ { press={ pressure="1 MPa" } }, { release=true } }:repeated{ repeats=1000000 }:on(c) do
   if event.index == 3 then print "ready" end
 end
 print "finished"

@@ -3,7 +3,7 @@
 -- the range of numbers: nothing of it goes by without a word.
 --! error: all replicates give the same answer, to the last digit: does `ask` use what `replicate` names?
 --! error: the two finest grids give the same answer, to the last digit: does `ask` use its `cells`?
---! error: the answer does not hang on the inputs: does `ask` use them?
+--! error: the answer does not depend on the inputs: does `ask` use them?
 --! output: all told
 local lab = require "asperity"
 local refused = dofile((arg[0]:match ".*/" or "") .. "../support/refused.lua").with

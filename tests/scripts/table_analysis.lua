@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Means with intervals, fits, histograms and charts of tables and notebooks, and what they refuse.
 --! output: as it should be
---! error: fewer than five say little of how they scatter
+--! output: mu [%] size [nm]
+--! output: size 2.1 um, 12 rows, done, 50 %, 100 %
+--! error: the scatter of fewer than five is uncertain
 --! file: fit.svg: </svg>
 --! file: hist.svg: </svg>
 local lab = require "asperity"
@@ -13,10 +15,10 @@ book:units{ size="um", load="N" }
 local mu = { { 0.40, 0.44, 0.42, 0.41, 0.45 }, { 0.50, 0.55, 0.52 }, { 0.61, 0.66, 0.60 } }
 for i, N in ipairs{ 8, 1, 20 } do
   for k, value in ipairs(mu[i]) do
-    book:write{ N=N, mu=value, size=2 + 0.1 * k, load=10 * i, body=i == 1 and "worn" or "new " .. i, u=0.01 * k }
+    book:write{ N=N, mu=value, ["size [um]"]=2 + 0.1 * k, load=10 * i, body=i == 1 and "worn" or "new " .. i, u=0.01 * k }
   end
 end
-book:write{ N=8, size=1, load=5 }
+book:write{ N=8, ["size [um]"]=1, load=5 }
 
 -- Means.
 local means = book:mean("mu", { by="N" })
@@ -27,10 +29,7 @@ assert(rows[2].n == 5 and rows[2].left_out == 1 and rows[2].interval == "Student
 near(rows[2].high - rows[2].mean, 2.7764451051977943578 * rows[2].sd / math.sqrt(5))
 near(rows[2].u, rows[2].sd / math.sqrt(5))
 assert(tostring(means):find("low to high is their 95 % interval", 1, true), tostring(means))
-local numbered = lab.notebook "numbered"
-for k = 1, 4 do numbered:write{ seed=7 * k % 5, k=k, mu=k % 3 } end
-local told = tostring(numbered)
-assert(told:find "mu: 1" and not told:find "seed:" and not told:find "k:", told)
+assert(tostring(book):find('notebook "trials": 12 rows of 6 columns', 1, true), tostring(book))
 local one = book:mean("size"):rows()
 assert(#one == 1 and one[1].n == 12)
 assert(book:table():mean("size").units.mean == "um")
@@ -57,7 +56,7 @@ near(line.residual_sd, 0.160018938273132553)
 assert(line.n == 5 and line.degrees == 3 and #line.residuals == 5 and line.rows[5] == 5 and line.left_out == 0)
 near(line.parameters.slope.high, 1.96818181818181818 + 3.1824463052837096 * 0.0288334112462066621, 1e-9)
 assert(line.correlation[1][2] == line.correlation[2][1] and line.names[2] == "slope")
-local own = t:fit{ x="p", y="A", model=function(x, q) return q.a + q.b * x end, start={ a=0, b=1 } }
+local own = t:fit{ x="p", y="A", model=function(q, row) return q.a + q.b * row.p end, start={ a=0, b=1 } }
 near(own.values.b, line.values.slope, 1e-10)
 near(own.parameters.a.u, line.parameters.intercept.u, 1e-8)
 near(own.curve.high[50], line.curve.high[50], 1e-9)
@@ -65,17 +64,17 @@ local power = t:fit{ x="p", y="A", model="power", name="a p^b" }
 assert(power.values.b > 0.7 and power.values.b < 1 and power.r_squared > 0.99)
 refused(function() line.parameters.slop() end, "has no field `slop`", "did you mean `slope`?")
 refused(function() t:fit{ x="p", y="A", model="cubic" } end, "model")
-refused(function() t:fit{ x="p", y="A", model=function(x, q) return q.a * x end } end, "`start` is missing")
-refused(function() t:fit{ x="p", y="A", model="power", start={ a=1 } } end, "`start` is of no use")
-refused(function() t:fit{ x="p", y="A", model=function(x, q) return q.c * x end, start={ a=1 } } end, "the function `model` failed")
-refused(function() t:fit{ x="p", y="A", model=function(x, q) return "much" end, start={ a=1 } } end, "the function `model` returned")
-refused(function() t:fit{ x="p", y="A", model=function(x, q) return (q.tau0 + q.alpha) * x end, start={ tau0=1, alpha=1 } } end,
+refused(function() t:fit{ x="p", y="A", model=function(q, row) return q.a * row.p end } end, "`start` is missing")
+refused(function() t:fit{ x="p", y="A", model="power", start={ a=1 } } end, "`start` has no effect")
+refused(function() t:fit{ x="p", y="A", model=function(q, row) return q.c * row.p end, start={ a=1 } } end, "the function `model` failed")
+refused(function() t:fit{ x="p", y="A", model=function(q, row) return "much" end, start={ a=1 } } end, "the function `model` returned")
+refused(function() t:fit{ x="p", y="A", model=function(q, row) return (q.tau0 + q.alpha) * row.p end, start={ tau0=1, alpha=1 } } end,
   "alpha and tau0 are not identifiable: only alpha + tau0 = ")
 refused(function() book:fit{ x="N", y="body", model="linear" } end, 'column `body` holds the text "worn"')
-refused(function() book:fit{ x="N", y="mu", model="linear", where={ N=8 } } end, "do not tell `intercept` and `slope` apart")
+refused(function() book:fit{ x="N", y="mu", model="linear", where={ N=8 } } end, "cannot separate `intercept` and `slope`")
 local weighted = book:fit{ x="N", y="mu", model="linear", weights="u" }
 assert(weighted.n == 11 and weighted.left_out == 1)
-refused(function() book:fit{ x="N", y="mu", model="linear", weights="u", u=0.1 } end, "`weights` and `u` both say how rows weigh")
+refused(function() book:fit{ x="N", y="mu", model="linear", weights="u", u=0.1 } end, "`weights` and `u` both set the weights of rows")
 
 -- A fit takes relative scatter, u and specimens, and prints as a calibration does.
 local known = t:fit{ x="p", y="A", model="linear", u=2 }
@@ -108,14 +107,36 @@ refused(function() t:chart{ x="p", y="A", interval="low" } end, "two columns' na
 refused(function() book:chart{ x="body", y="mu", log_x=true } end, "holds names")
 
 -- Histograms.
-local h = book:histogram{ of="mu", bins={ 0.4, 0.5, 0.6, 0.7 }, file="hist.svg" }
+local h = book:histogram("mu", { bins={ 0.4, 0.5, 0.6, 0.7 }, file="hist.svg" })
 assert(h.counts[1] == 5 and h.counts[2] == 3 and h.counts[3] == 3 and h.n == 11 and h.left_out == 1)
-local wide = book:histogram{ of="size", bins={ "1 um", "0.002 mm", 4 } }
-assert(wide.counts[1] == 1 and wide.edges[2] == 2)
-assert(book:histogram{ of="mu" }.rule == "Freedman-Diaconis")
-refused(function() book:histogram{ of="mu", bins={ 1, 1 } } end, "edges ascend")
-refused(function() book:histogram{ of="mu", bins=0 } end, "bins")
-refused(function() book:histogram{ of="mv" } end, "`of` names `mv`")
+local wide = book:histogram("size", { bins={ "1 um", "0.002 mm", 4e-6 } })
+assert(wide.counts[1] == 1 and wide.edges[2] == 2e-6)
+assert(book:histogram("size [nm]", { bins={ 1000, 2000, 4000 } }).counts[1] == 1)
+assert(book:histogram("mu").rule == "Freedman-Diaconis")
+refused(function() book:histogram("mu", { bins={ 1, 1 } }) end, "edges ascend")
+refused(function() book:histogram("mu", { bins=0 }) end, "bins")
+refused(function() book:histogram("mv") end, "`column` names `mv`")
+
+-- Rows in SI, sorted, computed, reduced.
+assert(book[1].size == 2.1e-6 and book[13] == nil and #book == 12)
+local seen = 0
+for row in book:each() do seen = seen + row.N end
+assert(seen == 8 * 6 + 3 + 60 and book:sum "N" == seen and book:min "load" == 5 and book:max "load" == 30)
+local largest = book:sorted{ by={ "N", "mu" }, descending=true }
+assert(largest[1].N == 20 and largest[1].mu == 0.66 and largest[12].N == 1 and largest[12].mu == 0.5)
+local wider = book:with{ ["double [nm]"]=function(row) return 2e9 * row.size end, size=function(row) return row.size end }
+near(wider[1].double, 4.2e-6)
+assert(wider.units.double == "nm" and wider.units.size == "um" and book.columns[7] == nil)
+refused(function() book:with{ bad=function(row) return {} end } end, "the function of `bad` failed in row 1: it returned")
+refused(function() wider:write{ N=1 } end, "a table takes no rows")
+refused(function() book:max "body" end, "holds the text")
+assert(#book:where{ ["size [um]"]=1 } == 1 and #book:where{ size=1e-6 } == 1 and #book:where{ size="1 um" } == 1)
+assert(wider:expect("double [um]", { where={ N=8 }, near=4.4, within=0.3, should_fail=true }))
+book:units{ size="nm" }
+assert(book[1].size == 2.1e-6 and book:table().units.size == "nm")
+book:units{ size="um" }
+book:where{ N=20 }:show{ "mu [%]", "size [nm]", digits=3 }
+lab.say("size %.1f [um], %d rows, %s, %.0f [%], 100 %%", book[1].size, #book, "done", 0.5)
 
 -- Expectations in the unit of the column.
 assert(book:expect("size", { where={ N=8 }, at_most="0.0026 mm", at_least="900 nm" }))

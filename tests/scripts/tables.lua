@@ -2,7 +2,7 @@
 -- Tables as values: read from a file, chosen from, joined, written and read back; a notebook is one too.
 --! exit: 0
 --! output: scans/angles.txt": 4 rows of 3 columns
---! output:   N angle [deg]  tag
+--! output:   N angle [°]  tag
 --! output: all held
 local lab = require "asperity"
 local function near(a, b) assert(math.abs(a - b) <= 1e-12 * math.abs(b), tostring(a) .. " is not " .. tostring(b)) end
@@ -14,17 +14,17 @@ write("scans/angles.txt", "Versuch;Winkel [\u{b0}];tag\n1;30;new\n2;33,5;new\n4;
 local t = lab.table.read("scans/angles.txt", { columns={ angle="Winkel", N="Versuch" } })
 print(t)
 assert(#t == 4 and table.concat(t.columns, " ") == "N angle tag")
-assert(t.units.angle == "rad" and t.units.N == nil)
+assert(t.units.angle == "\u{b0}" and t.units.N == nil)
 local rows = t:rows()
 assert(math.type(rows[3].N) == "integer" and rows[4].angle == nil and rows[4].tag == "worn")
 near(rows[2].angle, math.rad(33.5))
 assert(#t:where{ tag="new" } == 2 and #t:where{ angle={ "30 deg", "36 deg" } } == 2)
 local angles = t:column "angle"
 assert(#angles == 4 and angles[4] ~= angles[4])
--- What is written reads back the same.
+-- A written table reads back the same.
 local again = lab.table.read(t:write "copy.csv")
 assert(again == t and again.digest == t.digest and again ~= t:where{ tag="new" })
--- Beside what was computed, in a notebook.
+-- Joined to computed rows in a notebook.
 local book = lab.notebook("computed", { columns={ "N", "mu" } })
 for _, N in ipairs{ 1, 2, 4 } do book:write{ N=N, mu=0.5 + 0.01 * N } end
 assert(#book:where{ N={ 1, 4 } } == 2 and book:column "mu"[2] == 0.52 and #book:table() == 3)
@@ -34,7 +34,7 @@ assert(both:rows()[3].mu == 0.54)
 assert(#book:joined(t, { by="N" }) == 3)
 assert(both == lab.table.from(both:rows(), { columns=both.columns }) == false) -- the unit is not in the rows
 local made = lab.table.from({ { N=1, ["angle [deg]"]=30 }, { N=2, angle="33.5 deg" } }, { columns={ "N" } })
-assert(made.units.angle == "rad")
+assert(made.units.angle == "deg")
 near(made:rows()[2].angle, math.rad(33.5))
 -- A folder, in alphabetical order.
 write("scans/b10.txt", "x\n1\n")

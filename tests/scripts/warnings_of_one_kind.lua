@@ -2,7 +2,7 @@
 -- Warnings with different numbers only are one line with a count; the journal has each warning. A mean by groups
 -- warns once for all its groups.
 --! error: warnings_of_one_kind.lua:19: surface:masked: 1 of 4096 measured points
---! error: warning: 3 more warnings differ in numbers alone from this one: 
+--! error: warning: 3 more like this one, with other numbers: 
 --! error: warning: column `mu` where `p` = 1, and in 5 more of 6 groups: 
 --! not error: masked: 2 of 4096
 --! file: journal.jsonl: masked: 2 of 4096 measured points

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A study of a real contact: what it will take is said first, and rows, chart and journal are kept.
 --! error: work and precision: 6 settings, each timed 3 times after a first run: about 
---! error: of which the truth { cells=128, tolerance=1e-08 } takes about 
+--! error: the truth { cells=128, tolerance=1e-08 } takes about 
 --! output: cheapest for 10 %: 
 --! output: * nothing measured is both faster and closer
 --! output: calls as counted

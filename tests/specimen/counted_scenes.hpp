@@ -16,7 +16,7 @@
 #include "tests/contact/contacts.hpp"
 #include "tests/support/self_affine.hpp"
 
-namespace asperity::counted {
+namespace asperity::counted_scenes {
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 inline constexpr double hardness = 0.15, pressed = 0.01, tolerance = 1e-8;
@@ -57,4 +57,4 @@ class OnOneThread : public testing::Test {
   int threads_ = 1;
 };
 
-}  // namespace asperity::counted
+}  // namespace asperity::counted_scenes

@@ -26,7 +26,7 @@
 namespace asperity::effects_counted_test {
 namespace {
 
-using namespace counted;
+using namespace counted_scenes;
 
 struct Effect {
   const char* name;
@@ -184,7 +184,7 @@ TEST_F(EffectsCounted, ABareHalfSpaceIsItsSolverAlone) {
     HalfSpaceProblem problem;
     problem.grid = geometry.grid();
     problem.boundary = boundary;
-    problem.modulus = std::get<HalfSpaceOperator>(pair.plan().elasticity).modulus;
+    problem.modulus = pair.plan().elasticity->modulus;
     problem.heights = std::make_shared<const Field>(geometry.combined());
     const double middle = mean(problem.heights->values());
     Array<double> squares(problem.heights->size());

@@ -50,8 +50,8 @@ std::vector<LazyQuantity> lazy_quantities() {
 }
 
 Scene plastic_scene() {
-  Scene scene{counted::rough(1, cells), counted::rough(2, cells), Boundary::periodic, HalfSpaceOptions{},
-              Accuracy{1e-8}};
+  Scene scene{counted_scenes::rough(1, cells), counted_scenes::rough(2, cells), Boundary::periodic,
+              HalfSpaceOptions{}, Accuracy{1e-8}};
   scene.effects.set(PlasticityOptions{0.05});
   return scene;
 }
@@ -69,7 +69,7 @@ Reading read(const State& state, const LazyQuantity& quantity) {
   return {scope.so_far(), memory::held() - before, value};
 }
 
-class LazyState : public counted::OnOneThread {};
+class LazyState : public counted_scenes::OnOneThread {};
 
 TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
   for (const LazyQuantity& quantity : lazy_quantities()) {

@@ -9,7 +9,6 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/quantities.hpp"
-#include "engine/specimen/protocol_run.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"

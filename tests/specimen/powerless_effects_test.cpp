@@ -20,7 +20,7 @@
 namespace asperity::powerless_effects_test {
 namespace {
 
-using namespace counted;
+using namespace counted_scenes;
 using PowerlessEffects = OnOneThread;
 
 struct Powerless {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Protocols run like presses by hand; failed and stopped events.
-#include "engine/specimen/protocol_run.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 #include <numbers>
 
@@ -76,20 +76,19 @@ TEST(ProtocolRun, AnEventThatDoesNotFitIsRefusedBeforeTheFirst) {
   const auto expect_told = [](const std::string& error, const std::string& part) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  expect_told(
-      refusal(rough_pair(),
-              Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}, 9.0, "log.csv line 3"}})),
-      "event 2 of 2: rotate 45 deg (log.csv line 3): a turn by 45 deg was asked; a periodic contact turns by "
-      "whole multiples of 90 deg only");
+  expect_told(refusal(rough_pair(),
+                      Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}, 9.0, "log.csv line 3"}})),
+              "event 2 of 2: rotate 45 deg (log.csv line 3): a turn by 45 deg does not fit a "
+              "periodic tile, which turns by multiples of 90 deg");
   expect_told(refusal(rough_pair(12, 8), Protocol({{pressure(1)}, {Protocol::Rotate{quarter}}})),
-              "event 2 of 2: rotate 90 deg: a turn by 90 deg was asked of a tile that is not square");
+              "event 2 of 2: rotate 90 deg: a turn by 90 deg does not fit a tile that is not square");
   expect_told(refusal(rough_pair(), Protocol({{pressure(1)}, {Protocol::Shift{0.1, 0}}})),
               "event 2 of 2: shift");
   const auto free_pair = std::make_shared<SpecimenPair>(
       scene_of(random_surface(12, 12, 1), random_surface(12, 12, 2), 3.0, Boundary::free));
   EXPECT_NO_THROW(ProtocolRun(Protocol({{pressure(1)}, {Protocol::Rotate{0.5 * quarter}}}), free_pair));
   expect_told(refusal(free_pair, Protocol({{pressure(1)}, {Protocol::Shift{0.25, 0}}})),
-              "event 2 of 2: shift by 250 mm along x and 0 m along y: `shift` was asked on a free boundary");
+              "event 2 of 2: shift by 250 mm along x and 0 m along y: `shift` is given on a free boundary");
 }
 
 TEST(ProtocolRun, AStopIsSeenBetweenEvents) {

@@ -63,7 +63,7 @@ TEST(Protocol, CountsEventsAndPresses) {
 
 TEST(Protocol, RefusesNoEvents) {
   EXPECT_EQ(error_of([] { Protocol({}); }),
-            "bad_value: a protocol of no events was asked; give at least one, such as { press={ "
+            "bad_value: a protocol has no events; give at least one, such as { press={ "
             "pressure=\"10 MPa\" } }");
 }
 
@@ -121,7 +121,7 @@ TEST(Protocol, IsPutTogetherFromOthers) {
 TEST(Protocol, RefusesTimesThatMakeNoProtocol) {
   const Protocol two({{pressure(1)}, {Protocol::Release{}}});
   EXPECT_EQ(error_of([&] { two.repeated(0); }),
-            "bad_value: a protocol of 2 events was to be repeated 0 times; give a whole number from 1 to "
+            "bad_value: a protocol of 2 events cannot be repeated 0 times; give a whole number from 1 to "
             "5000000");
   EXPECT_NE(error_of([&] { two.repeated(5'000'001); }), "");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lateral effects on the bench: shear, growth of slip on a tilting stage, rest, slopes.
-#include "engine/specimen/slip_growth.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -107,10 +107,9 @@ TEST(SpecimenPair, AWholeTurnInAnyNumberOfStepsIsTheIdentity) {
 
 TEST(SpecimenPair, TurnsOffTheLatticeAreRefused) {
   SpecimenPair pair(rough_pair(Boundary::periodic));
-  EXPECT_EQ(
-      error_of([&] { pair.rotate(37 * std::numbers::pi / 180); }),
-      "a turn by 37 deg was asked; a periodic contact turns by whole multiples of 90 deg only; put the body "
-      "down afresh with `place{seed=}`, or give boundary=\"free\": surfaces are never resampled in place");
+  EXPECT_EQ(error_of([&] { pair.rotate(37 * std::numbers::pi / 180); }),
+            "a turn by 37 deg does not fit a periodic tile, which turns by multiples of 90 deg; "
+            "place the body again with `place{seed=}`, or give boundary=\"free\"");
   EXPECT_NE(error_of([&] { pair.rotate(quarter + 2e-9); }), "");
   EXPECT_NE(error_of([&] { pair.rotate(std::numeric_limits<double>::quiet_NaN()); }), "");
   SpecimenPair oblong(rough_pair(Boundary::periodic, 12, 8));

@@ -50,8 +50,7 @@ TEST(TiltTrials, TheBalanceHoldsAtTheExactAngle) {
   EXPECT_LT(left(t.angle + 1e-12), 0);
 }
 
-const std::string one_pair =
-    "`spread` is of trials on one pair of faces: what other seeds or specimens give is not in it";
+const std::string one_pair = "`spread` covers trials on one pair of faces, not other seeds or specimens";
 
 TEST(TiltTrials, OnAFlatTrialsAreTheSameWithoutScatter) {
   const TiltResult t = raise(on_flat(), JunctionLaw({.tau0 = 0.1, .alpha = 0.2}), light());
@@ -90,8 +89,7 @@ TEST(TiltTrials, AWeightOnFewNodesIsToldOf) {
   options.stage.mass *= 1e-9;
   const TiltResult t = raise(on_rough(), JunctionLaw({.tau0 = 0, .alpha = 0.2}), options);
   EXPECT_EQ(t.note.find("the weight rests on "), 0U) << t.note;
-  EXPECT_NE(t.note.find(" only: mu is that of their areas and changes with the grid"), std::string::npos)
-      << t.note;
+  EXPECT_NE(t.note.find(" only, so mu depends on the cells"), std::string::npos) << t.note;
 }
 
 TEST(TiltTrials, MoreTrialsKeepTheFirstOnes) {

@@ -1,25 +1,24 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes docs/stability.md and its charts from the hard cases of tests/stability/cases.
-# usage: report.sh PROGRAM                run every case, then write the page (PROGRAM, or a folder it was built in)
-#        report.sh --check RUNS [FOLDER]  does docs/stability.md of the project's FOLDER say what the runs found?
-# A page of another machine may differ by rounding: numbers of 1e-9 and less, and any by a factor of four (iterations of a solve to the last digit).
+# Writes docs/stability.md, docs/stability/ and their charts from the hard cases of tests/stability/cases.
+# usage: report.sh PROGRAM                run every case, then write the pages (PROGRAM, or its build folder)
+#        report.sh --check RUNS [FOLDER]  compare the pages of the project's FOLDER with the runs
+# Pages of another machine may differ by rounding: numbers of 1e-9 and less, and any by a factor of four (iterations of a
+# solve to the last digit).
 set -eu
 here=$(dirname -- "$(readlink -f -- "$0")")
 
-# page RUNS: the page from the parts that the runs have left, in the order of their numbers.
-page() {
-  cat "$here/page.md"
-  printf '\n| case | edge swept | worst error, or refusal | verdict |\n| --- | --- | --- | --- |\n'
-  cat "$1"/*/row.md | sort -n | sed 's/^[0-9]*//'
-  for row in "$1"/*/row.md; do
-    printf '%s %s\n' "$(sed 's/|.*//' "$row")" "$(dirname -- "$row")"
-  done | sort -n | while read -r number folder; do
-    printf '\n'
-    cat "$folder/section.md"
+# pages RUNS FOLDER: the table stability.md and a page of each case, stability/NAME.md, into the folder.
+pages() {
+  mkdir -p "$2/stability"
+  {
+    cat "$here/page.md"
+    printf '\n| case | edge swept | worst error, or refusal | verdict |\n| --- | --- | --- | --- |\n'
+    cat "$1"/*/row.md | sort -n | sed 's/^[0-9]*//'
+  } >"$2/stability.md"
+  for page in "$1"/*/page.md; do
+    cp "$page" "$2/stability/$(basename -- "$(dirname -- "$page")").md"
   done
-  printf '\n'
-  cat "$here/found.md"
 }
 
 # The same text, and the same numbers but for rounding.
@@ -51,22 +50,24 @@ agree() {
 if [ "${1:-}" = --check ]; then
   runs=$2
   project=${3:-$here/../..}
-  page "$runs" >"$runs/stability.md"
+  written=$(mktemp -d)
+  trap 'rm -rf "$written"' EXIT
+  pages "$runs" "$written"
   for chart in "$runs"/*/*.svg; do
     [ -f "$project/docs/pictures/stability/$(basename -- "$chart")" ] || {
       echo "docs/pictures/stability/$(basename -- "$chart") is missing: run tests/stability/report.sh PROGRAM"
       exit 1
     }
   done
-  if cmp -s "$runs/stability.md" "$project/docs/stability.md"; then
-    echo "docs/stability.md is what these runs write"
-  elif agree "$runs/stability.md" "$project/docs/stability.md"; then
-    echo "docs/stability.md is what these runs write, but for rounding"
-  else
-    echo "docs/stability.md is stale: run tests/stability/report.sh PROGRAM"
-    exit 1
-  fi
-  exit
+  stale=0
+  for page in stability.md $(cd "$written" && echo stability/*.md); do
+    if [ ! -f "$project/docs/$page" ] || { ! cmp -s "$written/$page" "$project/docs/$page" &&
+      ! agree "$written/$page" "$project/docs/$page"; }; then
+      echo "docs/$page is stale: run tests/stability/report.sh PROGRAM"
+      stale=1
+    fi
+  done
+  exit "$stale"
 fi
 
 [ $# = 1 ] || {
@@ -90,6 +91,7 @@ done
 mkdir -p docs/pictures/stability
 rm -f docs/pictures/stability/*.svg
 cp "$runs"/*/*.svg docs/pictures/stability/
-page "$runs" >docs/stability.md
-echo "docs/stability.md and docs/pictures/stability are written"
+find docs/stability -name '*.md' ! -name found.md -delete
+pages "$runs" docs
+echo "docs/stability.md, docs/stability and docs/pictures/stability are written"
 exit $failed

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs one hard case and leaves its part of docs/stability.md in a folder. The error stream must hold what the
+# Runs one hard case and writes its page and its row of docs/stability.md into a folder. The error stream must hold what the
 # head of the script says in lines `--! error: TEXT`.
 # usage: run_case.sh PROGRAM SCRIPT FOLDER
 set -eu

@@ -28,6 +28,9 @@ TEST(StudentT, FactorsOfWholeAndFractionalDegrees) {
   expect_close(student_t_factor(0.2, 30), 0.25560536495191277249, "30");
   expect_close(student_t_factor(0.998, 0.5), 102849.11563017555403, "0.5");
   expect_close(student_t_factor(0.95, 1000), 1.962339080826408485, "1000");
+  // Confidence over the density in the middle.
+  for (const double confidence : {1e-300, 1e-9, 9e-7, 1.1e-6})
+    expect_close(student_t_factor(confidence, 6), confidence * 8 / 15 * std::sqrt(6.0), "middle");
 }
 
 // Share q in each tail.
@@ -56,6 +59,8 @@ TEST(FisherF, SharesOfWholeAndFractionalDegrees) {
   expect_close(f_cdf(0.11516889456229307146, 3, 17), 0.05, "3, 17");
   expect_close(f_cdf(3.0787199815797877564, 5, 300), 0.99, "5, 300");
   expect_close(f_cdf(3.2351361382028832167, 100, 0.7), 0.5, "100, 0.7");
+  // Many degrees need more digits inside.
+  EXPECT_NEAR(f_cdf(1.029870644075269, 14, 1e9) / 0.58095712067664418, 1, 2e-11);
 }
 
 TEST(FisherF, IsTheSquareOfStudentsTAndItsOwnInverse) {

@@ -36,14 +36,17 @@ TEST(TableFilter, TakesNoRowForNoAcceptedValue) {
   EXPECT_EQ(TableFilter({{"D", {3.0}}}).rows(cases()), Rows{});
 }
 
-TEST(TableFilter, CountsQuantitiesInTheUnitOfTheColumn) {
-  const Table loads({{"load", "kN"}, {"tag", ""}},
-                    {{3.0, std::string("3 kN")}, {0.5, std::string("new")}, {std::string("broken"), Cell()}});
+TEST(TableFilter, NumbersAreInSiOrInTheUnitOfTheName) {
+  const Table loads(
+      {{"load", "kN"}, {"tag", ""}},
+      {{3000.0, std::string("3 kN")}, {500.0, std::string("new")}, {std::string("broken"), Cell()}});
   const auto rows = [&](const char* column, std::vector<Cell> accepted) {
     return TableFilter(std::vector<Condition>{{column, std::move(accepted)}}).rows(loads);
   };
   EXPECT_EQ(rows("load", {std::string("3000 N")}), (Rows{0}));
-  EXPECT_EQ(rows("load", {std::string("0.5 kN"), 3.0}), (Rows{0, 1}));
+  EXPECT_EQ(rows("load", {std::string("0.5 kN"), 3000.0}), (Rows{0, 1}));
+  EXPECT_EQ(rows("load [kN]", {std::string("500 N"), 3.0}), (Rows{0, 1}));
+  EXPECT_EQ(rows("load", {3.0}), Rows{});
   EXPECT_EQ(rows("load", {std::string("broken")}), (Rows{2}));
   EXPECT_EQ(rows("tag", {std::string("3 kN")}), (Rows{0}));
   EXPECT_EQ(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joins, unmatched rows; SI; text.
+// Joins, unmatched rows; display units; text.
 #include "engine/statistics/table_operations.hpp"
 
 #include <gtest/gtest.h>
@@ -31,25 +31,24 @@ TEST(TableOperations, JoinedRowsStandInTheOrderOfTheFirst) {
 TEST(TableOperations, WhatIsJoinedInSilenceIsNot) {
   EXPECT_EQ(
       refusal(measured(), computed(), {{"N"}}),
-      "1 row of the notebook found none in the notebook, the first in row 2: `N` = 4; unmatched=\"leave "
+      "1 row of the notebook without a match in the notebook, the first in row 2: `N` = 4; unmatched=\"leave "
       "out\" takes the other rows, unmatched=\"keep\" leaves their cells empty");
   const Table twice({{"N", ""}, {"x", ""}}, {{1.0, 1.0}, {1.0, 2.0}});
   EXPECT_EQ(refusal(twice, computed(), {{"N"}}),
-            "rows with `N` = 1 stand more than once in both tables; join by one more column that tells them "
-            "apart, or take means of one of the two first");
-  EXPECT_EQ(
-      refusal(measured(), measured(), {{"N"}}),
-      "both tables have `angle`, by which they are not joined; tell the other's apart by a suffix of their "
-      "names, as in { by=\"N\", suffix=\"_predicted\" }");
+            "rows with `N` = 1 occur more than once in both tables; join by one more column, or take means "
+            "of one table first");
+  EXPECT_EQ(refusal(measured(), measured(), {{"N"}}),
+            "both tables have `angle` besides the columns of `by`; give the other's names a suffix, as in { "
+            "by=\"N\", suffix=\"_predicted\" }");
   EXPECT_EQ(refusal(measured(), computed(), {{"M"}}).substr(0, 45),
             "`by` names `M`, which is no column of the not");
 }
 
-TEST(TableOperations, KeysAreCountedInOneUnit) {
-  const Table in_kilo({{"load", "kN"}, {"a", ""}}, {{3.0, 1.0}, {0.1, 2.0}});
-  const Table in_si_units({{"load", "N"}, {"b", ""}}, {{100.0, 20.0}, {3000.0, 10.0}});
-  EXPECT_EQ(joined(in_kilo, in_si_units, {{"load"}}).csv(), "load [kN],a,b\n3,1,10\n0.1,2,20\n");
-  EXPECT_EQ(joined(in_si_units, in_kilo, {{"load"}}).csv(), "load [N],b,a\n100,20,2\n3000,10,1\n");
+TEST(TableOperations, KeysOfDifferentDisplayUnitsMeet) {
+  const Table in_kilo({{"load", "kN"}, {"a", ""}}, {{3000.0, 1.0}, {100.0, 2.0}});
+  const Table in_newtons({{"load", "N"}, {"b", ""}}, {{100.0, 20.0}, {3000.0, 10.0}});
+  EXPECT_EQ(joined(in_kilo, in_newtons, {{"load"}}).csv(), "load [kN],a,b\n3,1,10\n0.1,2,20\n");
+  EXPECT_EQ(joined(in_newtons, in_kilo, {{"load"}}).csv(), "load [N],b,a\n100,20,2\n3000,10,1\n");
   const Table of_lengths({{"load", "m"}}, {{3.0}});
   EXPECT_EQ(refusal(in_kilo, of_lengths, {{"load"}}),
             "column `load` is a force in the notebook and a length in the notebook; rows are joined by equal "
@@ -64,16 +63,26 @@ TEST(TableOperations, KeysMayBeTextsEmptyOrNumbersThatRoundOtherwise) {
             "tag,x,y\nworn,0.3,1\n,0.2,2\ntrue,0.1,3\nnew,0.7,4\n");
 }
 
-TEST(TableOperations, SiIsRoundedOnce) {
-  const Table table({{"l", "um"}, {"a", "deg"}, {"n", ""}},
-                    {{0.1, 180.0, 5.0}, {std::int64_t{3}, Cell(), 6.0}});
-  const Table converted = in_si(table);
-  EXPECT_EQ(converted.columns()[0].unit, "m");
-  EXPECT_EQ(std::get<double>(converted.cell(0, 0)), 1e-7);
-  EXPECT_EQ(std::get<double>(converted.cell(1, 0)), 3e-6);
-  EXPECT_EQ(converted.columns()[1].unit, "rad");
-  EXPECT_TRUE(is_empty(converted.cell(1, 1)));
-  EXPECT_EQ(std::get<double>(converted.cell(1, 2)), 6.0);
+TEST(TableOperations, DisplayUnitsAreRoundedOnce) {
+  const Table table({{"l", "um"}, {"a", "rad"}, {"n", ""}},
+                    {{1e-7, 3.141592653589793, 5.0}, {3e-6, Cell(), 6.0}});
+  const std::vector<std::string> names = {"a [deg]"};
+  const Table shown = in_display_units(table, names);
+  EXPECT_EQ(std::get<double>(shown.cell(0, 0)), 0.1);
+  EXPECT_EQ(std::get<double>(shown.cell(1, 0)), 3.0);
+  EXPECT_EQ(shown.columns()[1].unit, "deg");
+  EXPECT_EQ(std::get<double>(shown.cell(0, 1)), 180.0);
+  EXPECT_TRUE(is_empty(shown.cell(1, 1)));
+  EXPECT_EQ(std::get<double>(shown.cell(1, 2)), 6.0);
+}
+
+TEST(TableOperations, ChosenColumnsStandInChosenUnits) {
+  const Table table({{"p", "Pa"}, {"N", ""}}, {{1.5e7, std::int64_t{1}}});
+  const std::vector<std::string> names = {"N", "p [MPa]"};
+  EXPECT_EQ(columns_of(table, names).csv(), "N,p [MPa]\n1,15\n");
+  EXPECT_EQ(
+      test::error_of([&] { (void)columns_of(table, std::vector<std::string>{"q"}); }, "q").substr(0, 10),
+      "`column` n");
 }
 
 TEST(TableOperations, DigestIsOfWhatItHoldsAndNotOfItsName) {
@@ -81,7 +90,8 @@ TEST(TableOperations, DigestIsOfWhatItHoldsAndNotOfItsName) {
   named.rename("another");
   EXPECT_EQ(named.digest(), measured().digest());
   EXPECT_NE(computed().digest(), measured().digest());
-  EXPECT_NE(Table({{"a", "m"}}, {{1.0}}).digest(), Table({{"a", "mm"}}, {{1.0}}).digest());
+  EXPECT_EQ(Table({{"a", "m"}}, {{1.0}}).digest(), Table({{"a", "mm"}}, {{1.0}}).digest());
+  EXPECT_NE(Table({{"a", "m"}}, {{1.0}}).digest(), Table({{"a", "Pa"}}, {{1.0}}).digest());
   EXPECT_NE(Table({{"a", ""}}, {{Cell()}}).digest(), Table({{"a", ""}}, {{""}}).digest());
 }
 

@@ -13,6 +13,20 @@ namespace {
 
 bool add(Table& table, std::vector<Entry> row) { return table.append(row); }
 
+TEST(TableColumns, EveryFormOfAUnitNamesOneColumn) {
+  for (const char* head : {"p [MPa]", "p[MPa]", "p (MPa)", "p / MPa"}) {
+    const TableColumn column = split_column_unit(head);
+    EXPECT_EQ(column.name, "p") << head;
+    EXPECT_EQ(column.unit, "MPa") << head;
+  }
+  for (const char* head : {"p", "mu (first)", "area / load", "Run N"}) {
+    EXPECT_EQ(split_column_unit(head).name, head);
+    EXPECT_EQ(split_column_unit(head).unit, "");
+  }
+  EXPECT_EQ(split_column_unit("slope [-]").name, "slope");
+  EXPECT_EQ(split_column_unit("slope [-]").unit, "");
+}
+
 TEST(Table, ColumnsStandInOrderOfAppearance) {
   Table table;
   EXPECT_TRUE(add(table, {{"N", 1.0}, {"Ra", 1e-6, "m"}}));
@@ -62,23 +76,49 @@ TEST(Table, TakesAUnitFromTheName) {
   EXPECT_EQ(table.columns()[0].unit, "N");
   EXPECT_EQ(table.find_column("load"), 0U);
   EXPECT_EQ(table.find_column("load [N]"), 0U);
-  EXPECT_EQ(table.find_column("load [Pa]"), std::nullopt);
+  EXPECT_EQ(table.find_column("load [Pa]"), 0U);
+  EXPECT_EQ(
+      error_of([&] { table.column("load [Pa]", "y"); }),
+      "bad_unit: column `load` is a force in N, not a pressure; give the other quantity a column of its own");
   EXPECT_EQ(table.csv_header(), "load [N]\n");
 }
 
-TEST(Table, KeepsTheFirstUnit) {
+TEST(Table, StoresSiAndShowsTheFirstUnit) {
   Table table;
-  EXPECT_TRUE(table.declare_unit("Ra", "m"));
-  EXPECT_FALSE(table.declare_unit("Ra", "m"));
-  add(table, {{"Ra", 1e-6}});
-  EXPECT_EQ(error_of([&] {
-              add(table, {{"Ra", 1.0, "um"}});
-            }),
-            "bad_unit: column `Ra` is in m, not in um; a column has one unit; convert the value, or give it "
-            "a column "
-            "of its own");
-  EXPECT_EQ(error_of([&] { table.declare_unit("Ra", "Pa"); }).substr(0, 9), "bad_unit:");
-  EXPECT_EQ(table.rows(), 1U);
+  EXPECT_TRUE(table.declare_unit("Ra", "um"));
+  EXPECT_FALSE(table.declare_unit("Ra", "um"));
+  add(table, {{"Ra", 2.8e-6}});
+  EXPECT_FALSE(add(table, {{"Ra [nm]", 2900.0}}));
+  EXPECT_EQ(std::get<double>(table.cell(1, 0)), 2.9e-6);
+  EXPECT_EQ(table.csv(), "Ra [um]\n2.8\n2.9\n");
+  EXPECT_TRUE(table.declare_unit("Ra", "nm"));
+  EXPECT_EQ(table.csv(), "Ra [nm]\n2800\n2900\n");
+  EXPECT_EQ(std::get<double>(table.cell(0, 0)), 2.8e-6);
+  EXPECT_EQ(
+      error_of([&] { table.declare_unit("Ra", "Pa"); }),
+      "bad_unit: column `Ra` is a length in nm, not a pressure; give the other quantity a column of its own");
+  EXPECT_EQ(table.rows(), 2U);
+}
+
+TEST(Table, UnknownUnitsStayInTheName) {
+  Table table;
+  add(table, {{"signal [counts]", 3.0}});
+  EXPECT_EQ(table.columns()[0].name, "signal [counts]");
+  EXPECT_EQ(table.columns()[0].unit, "");
+}
+
+TEST(Table, UnitsMayBeginWithOne) {
+  Table table;
+  add(table, {{"area per load [1/MPa]", 2.0}});
+  EXPECT_EQ(table.columns()[0].unit, "1/MPa");
+  EXPECT_EQ(std::get<double>(table.cell(0, 0)), 2e-6);
+}
+
+TEST(Table, SharesAreNumbers) {
+  Table table;
+  add(table, {{"area [%]", 12.0}});
+  EXPECT_EQ(std::get<double>(table.cell(0, 0)), 0.12);
+  EXPECT_EQ(table.csv(), "area [%]\n12\n");
 }
 
 TEST(Table, RefusesRowsThatSayNothingOrTwoThings) {

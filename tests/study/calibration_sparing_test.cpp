@@ -11,7 +11,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sanitizers.hpp"
-#include "engine/study/calibration.hpp"
+#include "engine/study/calibrate.hpp"
 
 namespace asperity::calibration_sparing_test {
 namespace {
@@ -239,7 +239,7 @@ TEST(SparingCalibration, BoundGivesNoNumberToHalfAProduct) {
     const Calibration found = calibrate(
         made.rows, product, std::vector<CalibrationParameter>{{"a", 1, {}, {}}, {"b", 1, {}, 1.0}}, options);
     EXPECT_FALSE(found.parameters[0].value || found.parameters[1].value) << found.verdict;
-    EXPECT_EQ(found.verdict.find("stands at"), std::string::npos) << found.verdict;
+    EXPECT_EQ(found.verdict.find("is at its"), std::string::npos) << found.verdict;
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calibrations: a certified problem, coverage for the tilt law tan θ = α + τ0 c
 // (tests/reference/uncertainty_calibration.csv), undetermined parameters, refusals.
-#include "engine/study/calibration.hpp"
+#include "engine/study/calibrate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -373,7 +373,7 @@ TEST(Calibration, ParametersHardlyApartAreTold) {
   const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
   EXPECT_TRUE(found.identifiable);
   EXPECT_TRUE(found.parameters[0].value);
-  EXPECT_TRUE(says(found.verdict, "hardly tell alpha and tau0 apart")) << found.verdict;
+  EXPECT_TRUE(says(found.verdict, "hardly separate alpha and tau0")) << found.verdict;
   EXPECT_EQ(found.combinations.size(), 1U);
 }
 
@@ -460,7 +460,7 @@ TEST(Calibration, BoundThatTheRowsPushAgainst) {
   EXPECT_TRUE(found.parameters[0].at_lower);
   EXPECT_FALSE(found.parameters[0].low || found.parameters[1].low);
   EXPECT_TRUE(found.parameters[1].profile_low);
-  EXPECT_TRUE(says(found.verdict, "alpha stands at its lower bound 0.35: the rows ask for less"))
+  EXPECT_TRUE(says(found.verdict, "alpha is at its lower bound 0.35: the rows fit better with less"))
       << found.verdict;
   // The other parameter is optimal at the bound.
   const std::vector<CalibrationParameter> alone = {{"tau0", 0.5, {}, {}}};
@@ -526,9 +526,8 @@ TEST(Calibration, StartAtWhichNoStepChangesARowIsRefused) {
     });
   };
   for (const double n : {3.0, 2.8, 0.0, -40.0})
-    EXPECT_TRUE(
-        says(refused(n, 1, 1), "no row changes when `n` makes a step at its start " + format_short(n)));
-  EXPECT_TRUE(says(refused(3, 0, 0), "no row changes when"));
+    EXPECT_TRUE(says(refused(n, 1, 1), "step of `n` from its start " + format_short(n)));
+  EXPECT_TRUE(says(refused(3, 0, 0), "no row changes with a"));
 }
 
 TEST(Calibration, KnownUncertaintyGivesTheIntervalWithoutScatter) {
@@ -763,7 +762,7 @@ TEST(Calibration, WhatCannotBeFittedIsRefused) {
   EXPECT_TRUE(says(refused(rows, tilt_law), "y is not finite in row 4"));
   rows = made.rows;
   rows.specimens.resize(2);
-  EXPECT_TRUE(says(refused(rows, tilt_law), "15 values of y and 2 of what goes with them"));
+  EXPECT_TRUE(says(refused(rows, tilt_law), "15 values of y and 2 of another column"));
   rows = made.rows;
   rows.u.assign(15, 0);
   EXPECT_TRUE(says(refused(rows, tilt_law), "`u` is 0 in row 1"));
@@ -786,7 +785,7 @@ TEST(Calibration, WhatCannotBeFittedIsRefused) {
   rows.specimens.assign(15, "one");
   EXPECT_TRUE(says(refused(rows, tilt_law, options), "has 1 specimen for 2 parameters"));
   rows.specimens.clear();
-  EXPECT_TRUE(says(refused(rows, tilt_law, options), "needs to know the specimen"));
+  EXPECT_TRUE(says(refused(rows, tilt_law, options), "needs the specimen"));
 }
 
 TEST(Calibration, StopEndsItBetweenRows) {

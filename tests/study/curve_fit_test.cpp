@@ -196,7 +196,7 @@ TEST(CurveFit, NamesWhatThePointsDoNotDetermine) {
       error_of([] {
         fit_line(points_of({2, 2, 2}, {1, 2, 3}));
       }),
-      "the points do not tell `intercept` and `slope` apart: x is 2 in all of them; measure at two or more "
+      "the points cannot separate `intercept` and `slope`: x is 2 in all of them; measure at two or more "
       "values of x");
 }
 
@@ -309,7 +309,7 @@ TEST(CurveFit, WholeNumberedParameterIsRefusedAtItsStart) {
   const CurveModel whole = [](double x, std::span<const double> q) { return std::floor(q[0] + 0.5) * x; };
   EXPECT_NE(error_of([&] {
               fit_model(points_of({1, 2, 3, 4}, {5.1, 9.8, 15.3, 19.9}), whole, Start{{"n", 3, {}, {}}});
-            }).find("no row changes when `n` makes a step at its start 3, only when the step is wide"),
+            }).find("no row changes with a small step of `n` from its start 3"),
             std::string::npos);
 }
 

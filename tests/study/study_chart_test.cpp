@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts: a line per method, rings around the front, rim marks for rows without an error.
-#include "engine/study/study_chart.hpp"
+#include "engine/study/study_result.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.hpp"
-#include "engine/study/study_text.hpp"
 #include "tests/study/study_fixture.hpp"
 
 namespace asperity::study_result_test {
@@ -85,8 +84,7 @@ TEST(Cheapest, IsTiedWithWhatMayBeAsFast) {
   const auto tied = tied_with(result, chosen, 0.1);
   ASSERT_EQ(tied.size(), 1U);
   EXPECT_EQ(tied[0]->setting, 2U);
-  EXPECT_NE(study_text(result).find(
-                "; its time is not told apart from that of grid { cells=256 } (held to 3.12 %)"),
+  EXPECT_NE(study_text(result).find("; as fast within the scatter: grid { cells=256 } (held to 3.12 %)"),
             std::string::npos)
       << study_text(result);
 }
@@ -110,7 +108,7 @@ TEST(Cheapest, PassesByAnAccidentalCrossing) {
   EXPECT_EQ(
       refusal(result, 0.002),
       "no setting of the study holds an error of 0.2 %: the best reached is 1.56 %, by grid { cells=512 }; "
-      "grid { cells=128 } is at 0.0977 %, but finer settings of its way are not, so that is an accident; "
+      "grid { cells=128 } reaches 0.0977 % by accident: finer settings of its way do not; "
       "add finer settings to a way, or ask for less");
 }
 

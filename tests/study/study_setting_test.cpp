@@ -35,10 +35,9 @@ TEST(StudyWay, WithoutAListItIsOneSetting) {
 }
 
 TEST(StudyWay, RefusesListsOfUnequalLength) {
-  EXPECT_EQ(
-      failure_of({{"tolerance", three, true}, {"cells", two, true}}),
-      "the way `fine` lists 2 values of `cells` and 3 of `tolerance`; lists of one way go along together: "
-      "give equally many, or make two ways of it");
+  EXPECT_EQ(failure_of({{"tolerance", three, true}, {"cells", two, true}}),
+            "the way `fine` lists 2 values of `cells` and 3 of `tolerance`; give lists of equal length, or "
+            "make two ways");
 }
 
 TEST(StudyWay, RefusesEmptyListsAndClashingNames) {

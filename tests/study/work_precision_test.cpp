@@ -179,7 +179,7 @@ TEST_F(Study, WithoutABudgetTheQuoteSaysWhatItTakes) {
   EXPECT_TRUE(monitor.sentences[0].starts_with(
       "work and precision: 2 settings, each timed 3 times after a first run: about "))
       << monitor.sentences[0];
-  EXPECT_NE(monitor.sentences[0].find("of which the truth { cells=256 } takes about "), std::string::npos);
+  EXPECT_NE(monitor.sentences[0].find("the truth { cells=256 } takes about "), std::string::npos);
 }
 
 TEST_F(Study, TheTruthHasTheFirstCallOnTheBudget) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The text of the Error that a call throws.
+// The text of the Error thrown by a call.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::string error_of(const Call& call, const char* otherwise = "") {
   return otherwise;
 }
 
-// As error_of, of an error that must have this code.
+// As error_of; the error must have this code.
 template <class Call>
 std::string refusal(const Call& call, ErrorCode code = ErrorCode::bad_value) {
   try {

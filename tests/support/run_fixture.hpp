@@ -34,7 +34,7 @@ inline std::size_t files_in(const std::filesystem::path& path) {
       std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
 }
 
-// "code: text" of the Error that `call` throws, or "".
+// "code: text" of the Error thrown by `call`, or "".
 template <class Call>
 std::string error_of(const Call& call) {
   try {

@@ -62,13 +62,14 @@ TEST(Al3d, LinesOfOddLengthArePadded) {
 
 TEST(Al3d, EachFaultIsSaid) {
   EXPECT_NE(refusal(with("Cols", "5")).find("5 x 2 heights of 4 bytes but has 32 bytes"), std::string::npos);
-  EXPECT_EQ(refusal(with("Cols", "4.5")), "\"a\" has no count as its Cols: \"4.5\"");
+  EXPECT_EQ(refusal(with("Cols", "4.5")), "\"a\" has no count for `Cols` in its header: \"4.5\"");
   EXPECT_NE(refusal(with("Cols", "99999999999")).find("heights"), std::string::npos);
   EXPECT_EQ(refusal(with("PixelSizeXMeter", "0")), "\"a\" gives 0 m as the distance of its points");
-  EXPECT_EQ(refusal(with("PixelSizeYMeter", "wide")), "\"a\" has no number as its PixelSizeYMeter: \"wide\"");
+  EXPECT_EQ(refusal(with("PixelSizeYMeter", "wide")),
+            "\"a\" has no number for `PixelSizeYMeter` in its header: \"wide\"");
   Al3dExample bare;
   bare.tags = {{"Cols", "4"}, {"Rows", "2"}};
-  EXPECT_EQ(refusal(bare), "\"a\" has no tag PixelSizeXMeter");
+  EXPECT_EQ(refusal(bare), "\"a\" has no `PixelSizeXMeter` in its header");
   bare.tags = {{"Cols", "4"}, {"Rows", "2"}, {"DepthImageOffset", "99999"}};
   EXPECT_NE(refusal(bare).find("has its heights at byte 99999, past its end"), std::string::npos);
   bare.tags[2].second = "0";

@@ -8,7 +8,6 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
-#include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"

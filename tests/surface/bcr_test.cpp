@@ -68,7 +68,7 @@ TEST(Bcr, FloatsAreInTheirUnitAndVoidpixelsMayBeTheNumber) {
   EXPECT_EQ(read(example<float>(header + "voidpixels = -9999\n", {2.5F, -9999.0F})).measured(), 1U);
   EXPECT_EQ(read(example<float>(header + "voidpixels = 1\n", {1.0F, 2.0F})).measured(), 2U);
   EXPECT_NE(refusal(example<float>(header + "voidpixels = many\n", {1, 2}))
-                .find("no number for voidpixels in its header: \"many\""),
+                .find("no number for `voidpixels` in its header: \"many\""),
             std::string::npos);
   EXPECT_NE(refusal(example<float>("fileformat = bcrf\nxpixels = 2\nypixels = 1\nzunit = V\n", {1, 2}))
                 .find("no known unit of length as zunit: \"V\""),
@@ -81,7 +81,7 @@ TEST(Bcr, AScaleOfIntegersIsPassedOverForFloatsWithAWarning) {
       "fileformat = bcrf\nxpixels = 2\nypixels = 1\nxlength = 2\nylength = 1\nbit2nm = 0.5\n";
   const Surface s = read_surface(SourceFile("a.bcr", example<float>(header, {1, 2})), {}, warnings);
   EXPECT_EQ(s.height(1, 0), 2 * 1e-9);
-  EXPECT_TRUE(warnings.told("a bit2nm of \"0.5\", which is of integers"));
+  EXPECT_TRUE(warnings.told("a bit2nm of \"0.5\", which is for integers only"));
 }
 
 TEST(Bcr, TheHeaderIsAsLongAsItSays) {
@@ -103,9 +103,9 @@ TEST(Bcr, EachFaultIsSaid) {
             "the file is "
             "cut short or its header is wrong");
   EXPECT_EQ(refusal(example("fileformat = bcrstm\nxpixels = 3\n", six)),
-            "\"a.bcr\" has no ypixels in its header");
+            "\"a.bcr\" has no `ypixels` in its header");
   EXPECT_EQ(refusal(example("fileformat = bcrstm\nxpixels = -3\n", six)),
-            "\"a.bcr\" has no count for xpixels in its header: \"-3\"");
+            "\"a.bcr\" has no count for `xpixels` in its header: \"-3\"");
   EXPECT_EQ(refusal(example(integers + "xunit = V\n", six)),
             "\"a.bcr\" gives no known unit of length as xunit: \"V\"");
   EXPECT_EQ(refusal(example("fileformat = bcrstm_unicode\n", six)),

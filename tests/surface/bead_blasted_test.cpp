@@ -211,10 +211,9 @@ TEST(BeadBlasted, RefusesWhatNoBeadMakes) {
             "`bead` runs from 400 um down to 300 um; give the smaller length first");
   EXPECT_EQ(refusal([](O& o) { o.dent_low = std::nan(""); }),
             "`dent` is nan; give a finite value above zero");
-  EXPECT_EQ(
-      refusal([](O& o) { o.dent_high = 126e-6; }),
-      "`dent` allows a radius of 126 um, and `bead` a bead of radius 125 um; a dent is no wider than its "
-      "bead: `dent` are radii and `bead` diameters");
+  EXPECT_EQ(refusal([](O& o) { o.dent_high = 126e-6; }),
+            "`dent` allows a radius of 126 um, and `bead` a bead of radius 125 um; give smaller radii as "
+            "`dent`, or larger diameters as `bead`");
   EXPECT_EQ(refusal([](O& o) { o.grid.nx = 19; }),
             "a cell of 26.32 um is longer than the radius of the smallest dent, 25 um; give more `cells`");
   EXPECT_EQ(refusal([](O& o) { o.coverage = 1e9; }),

@@ -58,7 +58,7 @@ TEST(Claims, SmallFilesThatClaimMuchAreRefusedWithoutAllocating) {
       {"Length,1e9 m\nScan Data\nLateral um,Raw um\n0,1\n1,2\n", "of the 1e+06 km that its header states"},
       {x3p_of("1000000", points), "has a matrix whose SizeX is \"1000000\""},
       {x3p_of("65536", points), "34359738368 bytes, but holds 48"},
-      {x3p_of("16384", points, std::uint64_t{1} << 31), "which cannot be"},
+      {x3p_of("16384", points, std::uint64_t{1} << 31), "which is impossible"},
   };
   for (const auto& [bytes, finding] : files) {
     const std::optional<Error> error = refusal(bytes);

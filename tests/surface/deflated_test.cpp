@@ -51,7 +51,7 @@ TEST(Gzip, EachFaultIsSaid) {
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("a.gz", damaged)); }),
             "\"a.gz\" is packed with gzip and does not unpack; the file is damaged");
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("a.gz", whole + "more")); }),
-            "\"a.gz\" has 4 bytes after what gzip packed; the file is damaged");
+            "\"a.gz\" has 4 bytes after its packed data; the file is damaged");
   EXPECT_NE(message_of([&] { read_surface(SourceFile("a.gz", gzipped(whole))); }).find("packed with gzip"),
             std::string::npos);
   EXPECT_NE(message_of([&] { read_surface(SourceFile("a.gz", gzipped(""))); }).find("is empty"),

@@ -133,7 +133,7 @@ TEST(FileLengths, BytesOverAreCounted) {
   EXPECT_EQ(
       refusal("a.sur", testing::SurExample{.nx = 2}(std::vector<std::int16_t>{1, 2, 3, 4, 5, 6})),
       "\"a.sur\" says in its header that it holds 2 x 2 heights of 2 bytes but has 12 bytes of data, 4 too "
-      "many; its header is wrong or the file is damaged: read so, its lines would be shifted");
+      "many; its header is wrong or the file is damaged");
 }
 
 TEST(FileLengths, TrailersAndFurtherObjectsAreNoBytesOver) {
@@ -164,10 +164,8 @@ TEST(FileLengths, BytesAfterTheEndThatAFileStatesAreWarnedOf) {
       return heard.all;
     };
     EXPECT_TRUE(warnings("").empty()) << name;
-    const std::string said = "\"" + name + "\" goes on for ",
-                      cause =
-                          " after the end that it states; they are not read: something was appended to "
-                          "it, or it was written over a longer file";
+    const std::string said = "\"" + name + "\" has ",
+                      cause = " after its stated end; they are not read: check whether the file is damaged";
     EXPECT_EQ(warnings("x"), std::vector<std::string>{said + "1 byte" + cause});
     EXPECT_EQ(warnings(whole),
               std::vector<std::string>{said + std::to_string(whole.size()) + " bytes" + cause});

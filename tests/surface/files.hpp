@@ -18,7 +18,22 @@
 
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/source_file.hpp"
+#include "engine/surface/io/read.hpp"
 #include "tests/surface/stored_zip.hpp"
+
+namespace asperity {
+
+inline Surface read_surface(const std::string& path, const ReadOptions& options = {},
+                            Monitor& monitor = Monitor::silent()) {
+  return read_surface(SourceFile(path, monitor), options, monitor);
+}
+inline Profile read_profile(const std::string& path, const ReadProfileOptions& options = {},
+                            Monitor& monitor = Monitor::silent()) {
+  return read_profile(SourceFile(path, monitor), options, monitor);
+}
+
+}  // namespace asperity
 
 namespace asperity::testing {
 

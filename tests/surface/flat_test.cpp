@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/generators/flat.hpp"
+#include "engine/surface/generators/sphere.hpp"
 
 #include <gtest/gtest.h>
 

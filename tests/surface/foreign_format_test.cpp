@@ -63,13 +63,11 @@ TEST(ForeignFormat, TextsAreLookedAtByTheirContent) {
 TEST(ForeignFormat, ATextWithAHeadOfItsOwnIsToldWhereItsNumbersBegin) {
   EXPECT_EQ(
       refusal("trace.prf", "Stylus profiler\nOperator Li\nSpeed 0.5 mm/s\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n"),
-      "\"trace.prf\" has a head of its own, from line 1, \"Stylus profiler\", to line 4, over 2 columns of "
-      "numbers: they may be positions and heights, or a matrix of heights; a line such as \"x [mm],z [um]\" "
-      "below "
-      "the head says so of a trace; or say `format` = \"text\": `profile.read` then takes positions and "
-      "heights, "
-      "`surface.read` a matrix");
-  EXPECT_NE(refusal("trace.txt", "Stylus profiler, hall\n1 2\n3 4\n5 6\n").find("has a head of its own"),
+      "\"trace.prf\" has a head in lines 1 (\"Stylus profiler\") to 4 over 2 columns of "
+      "numbers: they may be positions and heights, or a matrix of heights; for a trace, write a line such as "
+      "\"x [mm],z [um]\" below the head; with `format` = \"text\", `profile.read` takes positions and "
+      "heights, `surface.read` a matrix");
+  EXPECT_NE(refusal("trace.txt", "Stylus profiler, hall\n1 2\n3 4\n5 6\n").find("has a head in lines 1 "),
             std::string::npos);
   EXPECT_NE(refusal("map.txt", "Zygo ASCII Data File - Format 2\n0 1 2\n1 2 3\n4 5 6\n").find("MetroPro"),
             std::string::npos);

@@ -158,7 +158,7 @@ TEST(GrainProfile, Refusals) {
     return refusal(options);
   };
   EXPECT_EQ(with(&GrainProfileOptions::radius, 0.0), "`radius` is 0; give a finite length above zero");
-  const std::string dimension = "; the dimension of an outline lies between 1 and 2, ends excluded";
+  const std::string dimension = "; give a dimension between 1 and 2, both excluded";
   EXPECT_EQ(with(&GrainProfileOptions::D, 1.0), "`D` is 1" + dimension);
   EXPECT_EQ(with(&GrainProfileOptions::D, 2.0), "`D` is 2" + dimension);
   EXPECT_EQ(with(&GrainProfileOptions::D, std::nan("")), "`D` is nan" + dimension);

@@ -74,8 +74,7 @@ TEST(Gwy, MaskIsWarnedOf) {
   } monitor;
   const std::string content = map(0, {}) + gwy_inner("/0/mask", GwyField().object());
   read_surface(SourceFile("a.gwy", gwy_example(content)), {}, monitor);
-  EXPECT_EQ(monitor.heard,
-            "\"a.gwy\": the map 0 has a mask, which is not applied: its points are taken as they stand");
+  EXPECT_EQ(monitor.heard, "\"a.gwy\": the map 0 has a mask, which is not applied: all its points are read");
 }
 
 TEST(Gwy, WrittenSurfaceReadsBackBitForBit) {
@@ -104,7 +103,8 @@ TEST(Gwy, EachFaultIsSaid) {
             "\"a.gwy\" says in its header that it holds 4 x 2 heights of 8 bytes but has 48 bytes of data; "
             "the file is "
             "cut short or its header is wrong");
-  EXPECT_EQ(refusal(map(0, {.ny = -2})), "\"a.gwy\" says in its header that it holds 3 x 0 heights");
+  EXPECT_EQ(refusal(map(0, {.ny = -2})),
+            "\"a.gwy\" says in its header that it holds 3 x 0 heights; its header is wrong");
   EXPECT_EQ(refusal(map(0, {.size_x = 0})), "\"a.gwy\" gives the map 0 a size of 0");
   EXPECT_EQ(refusal(std::string("key\0?", 5)), "\"a.gwy\" has a component \"key\" of the unknown type \"?\"");
   EXPECT_EQ(refusal("key"), "\"a.gwy\" is cut short in an object");

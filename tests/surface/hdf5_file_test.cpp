@@ -231,14 +231,13 @@ TEST_F(Hdf5File, NamesAndShapesAreChecked) {
               "`" + std::string(name) +
                   "` cannot be a name in an HDF5 file; parts between `/` are neither empty "
                   "nor `.` nor `..`");
-  EXPECT_EQ(
-      refusal({{}, {one("a"), one("a/b")}}),
-      "`a` stands twice among what an HDF5 file shall hold; each array, group and text has its own name");
+  EXPECT_EQ(refusal({{}, {one("a"), one("a/b")}}),
+            "`a` is given twice for one HDF5 file; give each array, group and text its own name");
   EXPECT_EQ(refusal({{}, {owning_array<double>("a", {2, 2}, {1})}}),
             "the shape of `a` holds 4 numbers and there are 1");
   EXPECT_EQ(refusal({{{"t", std::string(70000, 'x')}}, {}}),
-            "the text `t` has 70000 bytes, more than an attribute of an HDF5 file holds; keep it as an array "
-            "of bytes");
+            "the text `t` has 70000 bytes, more than an attribute of an HDF5 file holds; store it as an "
+            "array of bytes");
 }
 
 TEST_F(Hdf5File, NothingIsLeftWhereItCannotBeWritten) {

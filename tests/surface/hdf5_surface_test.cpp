@@ -8,7 +8,6 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
-#include "engine/surface/io/xdmf.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::hdf5_surface_test {
@@ -81,11 +80,10 @@ TEST(Hdf5Surface, ChannelChoosesAmongSeveral) {
   const Scratch scratch;
   const std::string path =
       written(scratch, {{}, {map("gap", "m"), map("pressure", "Pa"), tile_size(Grid{3, 2, 1, 1})}});
-  EXPECT_EQ(
-      message_of([&] { read_surface(path); }),
-      "\"" + path +
-          "\" holds several arrays, none of which is called `height`: `gap` (2 x 3), `pressure` (2 x 3) "
-          "and `size` (2); name the one to read with `channel`");
+  EXPECT_EQ(message_of([&] { read_surface(path); }),
+            "\"" + path +
+                "\" holds several arrays, and none is called `height`: `gap` (2 x 3), `pressure` (2 x 3) "
+                "and `size` (2); name the one to read with `channel`");
   ReadOptions options;
   options.channel = "gap";
   EXPECT_EQ(read_surface(path, options).height(1, 0), 2);

@@ -254,12 +254,11 @@ TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
   // The changed mask no longer matches the metadata.
   EXPECT_EQ(
       message_of([&] { read_surface(SourceFile("a.gwy", with("4 points", "5 points"))); }),
-      "\"a.gwy\" says of the map 0 \"height\" that it was not measured at \"5 points, those under th...\", "
-      "and its mask has 4; put the mask back, or take \"Not measured\" out of its metadata to have the "
-      "points as they stand");
+      "\"a.gwy\" holds the map 0 \"height\" with 4 masked points, and its metadata say \"5 points, those "
+      "under th...\"; restore the mask, or delete \"Not measured\" from its metadata to read every point");
   EXPECT_NE(message_of([&] {
               read_surface(SourceFile("a.gwy", with("/0/mask", "/0/mosk")));
-            }).find("and its mask has 0"),
+            }).find("with 0 masked points"),
             std::string::npos);
   testing::damage(whole, 23, 2000,
                   [](const std::string& bytes) { read_surface(SourceFile("a.gwy", bytes)); });
@@ -305,8 +304,8 @@ TEST(HolesInFiles, SurfacesOverRanksRefuseThem) {
                         Monitor::silent());
             }),
             "\"" + scratch.path("a.npy") +
-                "\" has no height at node (0, 0), and over ranks every point is needed; read it with "
-                "lab.surface.read, whose `fill` fills what was not measured, and write it again");
+                "\" has no height at node (0, 0), and over ranks every point is needed; fill it with the key "
+                "`fill` of lab.surface.read, and write it again");
 }
 
 }  // namespace

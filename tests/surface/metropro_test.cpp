@@ -62,8 +62,8 @@ TEST(MetroPro, EachFaultIsSaid) {
   EXPECT_NE(refusal({.nx = 4}).find("4 x 2 heights of 4 bytes but has 24 bytes"), std::string::npos);
   EXPECT_EQ(refusal({.resolution = 3}),
             "\"a.dat\" gives 3 as the resolution of its phases; 0, 1 and 2 are known");
-  EXPECT_NE(refusal({.wavelength = 0}).find("the wavelength 0 m"), std::string::npos);
-  EXPECT_NE(refusal({.wavelength = INFINITY}).find("the wavelength inf m"), std::string::npos);
+  EXPECT_NE(refusal({.wavelength = 0}).find("wavelength 0 m"), std::string::npos);
+  EXPECT_NE(refusal({.wavelength = INFINITY}).find("wavelength inf m"), std::string::npos);
   EXPECT_EQ(refusal({.spacing = -1}), "\"a.dat\" gives -1 m as the distance of its points");
   EXPECT_EQ(message_of([] { read("\x88\x1B\x03\x6F"); }),
             "\"a.dat\" is cut short in its header of 834 bytes");

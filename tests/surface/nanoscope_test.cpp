@@ -112,14 +112,14 @@ TEST(Nanoscope, EachFaultIsSaid) {
   EXPECT_NE(refusal({.scan_size = "3 3 V"}).find("has no length for `scan size`"), std::string::npos);
   EXPECT_NE(refusal({.scan_size = "nan nm"}).find("has no length for `scan size`"), std::string::npos);
   EXPECT_EQ(refusal({.sensitivity = "Sens. Nothing"}),
-            "\"a.spm\" has an image scaled by \"@sens. nothing\", which its header does not say");
+            "\"a.spm\" has an image scaled by \"@sens. nothing\", and its header lacks this scale");
   EXPECT_EQ(refusal({.volts = "0 V"}), "\"a.spm\" gives one unit of its heights as 0 m");
   EXPECT_NE(refusal({.volts = "1 A"}).find("has an image scaled in \"A\" with a sensitivity in \"nm/V\""),
             std::string::npos);
   EXPECT_NE(refusal({.bytes_a_pixel = 3}).find("heights of 3 bytes a pixel"), std::string::npos);
   const std::string whole = nanoscope({Image{}});
   EXPECT_EQ(message_of([&] { read(whole.substr(0, whole.size() - 1)); }),
-            "\"a.spm\" has an image past its end, 12 bytes from byte 4096 on; the file is cut short");
+            "\"a.spm\" has an image of 12 bytes from byte 4096 on past its end; the file is cut short");
   EXPECT_EQ(message_of([&] { read(whole.substr(0, 300)); }),
             "\"a.spm\" has a header without \\*File list end; the file is cut short");
   EXPECT_NE(message_of([] { read(nanoscope({})); }).find("holds no map"), std::string::npos);

@@ -63,7 +63,7 @@ TEST(OwnHead, WhatIsStatedTwiceIsNotUsed) {
   ReadOptions options;
   EXPECT_NE(message_of([&] { surface_of(text, options, warnings); }).find("does not say its size"),
             std::string::npos);
-  EXPECT_TRUE(warnings.told("states its size along x in two ways"));
+  EXPECT_TRUE(warnings.told("has two values for its size along x in its head"));
   options.size_x = 30e-6;
   EXPECT_EQ(surface_of(text, options).grid().size_x, 30e-6);
 }
@@ -75,7 +75,7 @@ TEST(OwnHead, CountsThatContradictTheTableAreRefused) {
             std::string::npos);
   const std::string turned = refusal("Profiler\npixels: 2 x 3\n1 2 4\n3 4 7\n");
   EXPECT_NE(turned.find("states 2 columns and 3 rows"), std::string::npos) << turned;
-  EXPECT_NE(turned.find("transpose it"), std::string::npos) << turned;
+  EXPECT_NE(turned.find("transpose the numbers"), std::string::npos) << turned;
   EXPECT_NE(refusal(std::string("Profiler\nnx 3\n") + map + "1 2\n").find("2 cells in line 6"),
             std::string::npos);
 }
@@ -87,7 +87,7 @@ TEST(OwnHead, ASpacingIsThatOfNodesAndALengthThatContradictsItIsRefused) {
                 30e-6, 1e-18);
   EXPECT_NE(message_of([&] {
               surface_of("Profiler\ndx 10 um\nX Range: 40 um\n" + rest);
-            }).find("3 points lie 10 um apart"),
+            }).find("3 points 10 um apart"),
             std::string::npos);
   // "1,250" may be thousands.
   EXPECT_NE(
@@ -120,11 +120,11 @@ TEST(OwnHead, WhatMayBeNoMapIsRefused) {
   for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
            {"Profiler\nthe hall's\n0 1.2\n.1 1.3\n.2 1.1\n", "positions and heights, or a matrix"},
            {std::string("Profiler\n") + map, "x y z points, or a matrix"},
-           {wrapped, "may be wrapped"},
+           {wrapped, "may be a wrapped matrix"},
            {ruled, "rises evenly"},
-           {log, "read by `table.read`"}}) {
+           {log, "by `table.read`"}}) {
     const std::string message = refusal(text);
-    EXPECT_NE(message.find("has a head of its own, from line 1, "), std::string::npos) << message;
+    EXPECT_NE(message.find("has a head in lines 1 ("), std::string::npos) << message;
     EXPECT_NE(message.find(words), std::string::npos) << message;
     EXPECT_EQ(refusal(text, "text"), "no error") << text;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/generators/plane_waves.hpp"
+#include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -45,10 +45,9 @@ TEST(Plu, OfSeveralLayersTheFirstIsRead) {
 TEST(Plu, EachFaultIsSaid) {
   EXPECT_EQ(refusal({.type = 1}),
             "\"a\" holds a measurement of type 1, which is no topography; topographies are read: type 3");
-  EXPECT_EQ(
-      refusal({.layer_nx = 2}),
-      "\"a\" says in its header that it holds 3 x 2 points, and of its first layer 2 x 2; its header is "
-      "wrong or the file is damaged");
+  EXPECT_EQ(refusal({.layer_nx = 2}),
+            "\"a\" holds 3 x 2 points by its header and by its first layer 2 x 2; its header is "
+            "wrong or the file is damaged");
   EXPECT_NE(refusal({.nx = 70000, .layer_nx = 70000}).find("70000 x 2 heights of 4 bytes but has 32 bytes"),
             std::string::npos);
   EXPECT_NE(refusal({.nx = 0, .layer_nx = 0}).find("0 x 2 heights"), std::string::npos);

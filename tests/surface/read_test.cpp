@@ -235,7 +235,7 @@ TEST(Read, TwoColumnsUnderAHeadAreATrace) {
   options.unit = 1e-3;
   EXPECT_NE(message_of([&] {
               read_profile(SourceFile("trace.csv", "x [mm],z [um]\n0,1\n1,2\n2,4\n"), options);
-            }).find("its heights are in units of 1 um, and `unit` is 1 mm"),
+            }).find("heights in units of 1 um, and `unit` is 1 mm"),
             std::string::npos);
   EXPECT_NE(message_of([&] {
               read_profile(SourceFile("trace.csv", "x [mm],z [um]\n0,1,5\n1,2,6\n"));
@@ -257,13 +257,12 @@ TEST(Read, LengthsOutOfAllProportionAreWarnedOf) {
     const std::vector<std::string> all = warnings(text, options);
     return all.size() == 1 && all[0].find(part) != std::string::npos;
   };
-  EXPECT_TRUE(
-      said("h=2 w=2\npixel size=1e-43 m\n" + four, square(2e-43, 1e-60), "points that lie 1e-31 pm apart"));
+  EXPECT_TRUE(said("h=2 w=2\npixel size=1e-43 m\n" + four, square(2e-43, 1e-60), "points 1e-31 pm apart"));
   EXPECT_TRUE(said(four, square(1e4, 1), "is 10 km long"));
   EXPECT_TRUE(said(four, square(1e-6, 1), "heights that span 3 m over 1 um: check its size and its unit"));
   ReadOptions narrow = square(1, 1e-9);
   narrow.size_y = 1e-8;
-  EXPECT_TRUE(said(four, narrow, "lie 500 mm apart along x and 5 nm along y"));
+  EXPECT_TRUE(said(four, narrow, "has points 500 mm apart along x and 5 nm along y"));
 }
 
 // A truncated "152" reads as 15.
@@ -290,7 +289,7 @@ TEST(Read, AFileThatDoesNotFitIsRefusedByItsSize) {
   memory::set_limit(0);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::out_of_memory);
-  EXPECT_EQ(error->sentence(), "\"" + path + "\" has 10 GiB, and the limit of memory leaves 1 MiB");
+  EXPECT_EQ(error->sentence(), "\"" + path + "\" has 10 GiB, and the memory limit leaves 1 MiB");
 }
 
 TEST(Read, LimitOfCells) {

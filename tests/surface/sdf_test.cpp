@@ -94,7 +94,7 @@ TEST(Sdf, EachFaultIsSaid) {
             "the file is "
             "cut short or its header is wrong");
   EXPECT_EQ(refusal(SdfExample{.points = 0}(six)),
-            "\"a.sdf\" says in its header that it holds 0 x 2 heights");
+            "\"a.sdf\" says in its header that it holds 0 x 2 heights; its header is wrong");
   EXPECT_EQ(refusal(SdfExample{.z_scale = 0}(six)), "\"a.sdf\" gives 0 as its Zscale");
   EXPECT_EQ(refusal(SdfExample{.x_scale = -1}(six)), "\"a.sdf\" gives -1 as the distance of its points");
   EXPECT_EQ(refusal(SdfExample{.compression = 1}(six)),
@@ -112,11 +112,11 @@ TEST(Sdf, EachFaultIsSaid) {
   EXPECT_EQ(refusal(text_form + "1 2 x 4 5 6\n*\n"), "\"a.sdf\" has no height in line 15: \"x\"");
   EXPECT_EQ(refusal(text_form.substr(0, 200)),
             "\"a.sdf\" has no line * after its header; the file is cut short");
-  EXPECT_EQ(refusal("aISO-1.0\nNumPoints = 3\n*\n"), "\"a.sdf\" has no NumProfiles in its header");
+  EXPECT_EQ(refusal("aISO-1.0\nNumPoints = 3\n*\n"), "\"a.sdf\" has no `numprofiles` in its header");
   EXPECT_EQ(refusal("aISO-1.0\nNumPoints = -3\n*\n"),
-            "\"a.sdf\" has no count for \"numpoints\" in its header: \"-3\"");
-  EXPECT_EQ(refusal("aISO-1.0\nXscale = um\n*\n"),
-            "\"a.sdf\" has no number for \"xscale\" in its header: \"um\"");
+            "\"a.sdf\" has no count for `numpoints` in its header: \"-3\"");
+  EXPECT_EQ(refusal("aISO-1.0\nNumPoints = 3\nNumProfiles = 2\nXscale = um\n*\n"),
+            "\"a.sdf\" has no number for `xscale` in its header: \"um\"");
 }
 
 TEST(Sdf, MeasuredFile) {

@@ -302,10 +302,9 @@ TEST(SelfAffine, BandIsInOrder) {
   EXPECT_EQ(refusal(options), "`short_wave` is 0; give a finite value above zero");
   options.long_wave = options.roll_off = 0.49e-3;
   options.short_wave = 0.48e-3;
-  EXPECT_EQ(
-      refusal(options),
-      "no wave of the surface lies between `long_wave`, 490 um, and `short_wave`, 480 um; give a shorter "
-      "`short_wave`");
+  EXPECT_EQ(refusal(options),
+            "no wave of the surface is between `long_wave`, 490 um, and `short_wave`, 480 um; give a shorter "
+            "`short_wave`");
 }
 
 }  // namespace

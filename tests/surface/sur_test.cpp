@@ -146,7 +146,7 @@ TEST(Sur, EachFaultIsSaid) {
             "it with "
             "`format`");
   EXPECT_EQ(refusal(SurExample{.order = 257}(six)),
-            "\"a.sur\" is a SUR file of an Apple computer (format 257); save it again on another");
+            "\"a.sur\" is a SUR file of an Apple computer (format 257); save it again on another computer");
   EXPECT_EQ(refusal(SurExample{.type = 3}(six)),
             "\"a.sur\" holds an object of type 3, which is no surface; surfaces and profiles are read: types "
             "1, 2, 4 "
@@ -157,7 +157,8 @@ TEST(Sur, EachFaultIsSaid) {
             "\"a.sur\" says in its header that it holds 3 x 2 heights of 4 bytes but has 12 bytes of data; "
             "the file is "
             "cut short or its header is wrong");
-  EXPECT_EQ(refusal(SurExample{.nx = -3}(six)), "\"a.sur\" says in its header that it holds 0 x 2 heights");
+  EXPECT_EQ(refusal(SurExample{.nx = -3}(six)),
+            "\"a.sur\" says in its header that it holds 0 x 2 heights; its header is wrong");
   EXPECT_EQ(refusal(SurExample{.dz = 0}(six)), "\"a.sur\" gives 0 as the height of one step");
 }
 

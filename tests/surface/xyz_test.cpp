@@ -107,7 +107,7 @@ TEST(Xyz, LinesThatEndTooSoonAreWarnedOf) {
     test::Warnings warnings;
     const Surface found = read_surface(SourceFile("a.xyz", text), options, warnings);
     EXPECT_EQ(found.measured(), static_cast<std::size_t>(16 - (last_missing - first_missing + 1)));
-    return warnings.told("ends within a line of its points: the last " +
+    return warnings.told("ends within a line of points: the last " +
                          std::to_string(last_missing - first_missing + 1) + " are missing");
   };
   for (const bool along_x : {true, false})
@@ -188,13 +188,13 @@ TEST(Xyz, HeadAndCallAgreeOrAreRefused) {
   EXPECT_DOUBLE_EQ(read_surface(SourceFile("own.csv", text), options).height(0, 0), 1.2e-6);
   options.unit = 1e-9;
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("own.csv", text), options); }),
-            "\"own.csv\" says in the line that names its columns that its heights are in units of 1 um, and "
+            "\"own.csv\" names its columns with heights in units of 1 um, and "
             "`unit` is 1 nm; leave `unit` out, or correct that line");
   options.unit.reset();
   options.unit_xy = 1e-6;
   EXPECT_NE(message_of([&] {
               read_surface(SourceFile("own.csv", text), options);
-            }).find("its positions are in units of 1 mm, and `unit_xy` is 1 um"),
+            }).find("positions in units of 1 mm, and `unit_xy` is 1 um"),
             std::string::npos);
   const std::string half = "x,y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n";
   EXPECT_NE(message_of([&] {
@@ -204,7 +204,7 @@ TEST(Xyz, HeadAndCallAgreeOrAreRefused) {
   EXPECT_DOUBLE_EQ(read_surface(SourceFile("own.csv", half), options).grid().size_x, 2e-6);
   EXPECT_NE(message_of([&] {
               read_surface(SourceFile("own.csv", "x [mm],y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"));
-            }).find("says the unit of its x and not that of its y"),
+            }).find("gives a unit of x and none of y"),
             std::string::npos);
   test::Warnings warnings;
   options.unit = 1e-6;
@@ -217,8 +217,8 @@ TEST(Xyz, UnitOfPositionsIsRefusedWhereThereAreNone) {
   ReadOptions options = in_micrometres();
   options.size_x = options.size_y = 1;
   EXPECT_EQ(message_of([&] { read_surface(SourceFile("m.txt", "1 2 3 4\n5 6 7 8\n"), options); }),
-            "`unit_xy` is 1 um, and \"m.txt\" holds no positions, only heights; leave it out: it is of x y z "
-            "points and of profiles in two columns");
+            "`unit_xy` is 1 um, and \"m.txt\" holds no positions, only heights; leave it out: only x y z "
+            "points and profiles in two columns have positions");
 }
 
 // Never a matrix of the coordinates.

@@ -62,6 +62,13 @@ def test_only_this_machine_is_served():
         assert [at[1] for at in listening if at[3] == "0A" and at[1].endswith(here)] == ["0100007F" + here]
 
 
+def test_a_server_that_has_just_begun_stops():
+    for _ in range(10):
+        with Server(runner.program) as server:
+            assert server.port
+        assert server.process.returncode == 0
+
+
 def test_every_answer_is_guarded_by_its_headers():
     with Server(runner.program) as server:
         for path in ("/", "/api/about", "/api/nothing", "/nothing.js", "/../../etc/passwd"):

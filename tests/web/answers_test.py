@@ -44,6 +44,23 @@ def test_a_chart_is_drawn_for_a_run_that_can_start_nothing():
         assert b"<svg" in svg.body and b"</svg>" in svg.body and len(svg.body) > 3000
 
 
+def test_charts_are_foretold_by_the_check_and_told_by_the_run():
+    script = """local lab = require "asperity"
+    local book = lab.notebook "line"
+    for k = 1, 5 do book:write{ k=k, ["square [m]"]=k*k, cube=k^3 } end
+    for _, y in ipairs{ "square", "cube" } do
+      book:chart{ x="k", y=y, where={ k={ 1, 2, 3 } }, log_y=y == "cube", title=y .. " of k" }
+    end"""
+    with Server(runner.program) as server:
+        told = server.ask("POST", "/api/check", {"script": script}).json()["charts"]
+        assert [event["notebook"] for event in told] == ["line", "line"], told
+        first, second = (event["chart"] for event in told)
+        assert first["x"] == "k" and first["y"] == ["square"] and first["where"] == {"k": [1, 2, 3]}, first
+        assert second["title"] == "cube of k" and second["log_y"] and not first["log_y"], second
+        events = of_type(server.run(script), "chart")
+        assert [event["chart"] for event in events] == [first, second], events
+
+
 def test_events_are_taken_up_again_from_a_number():
     with Server(runner.program) as server:
         all_of_them = server.run(chart)

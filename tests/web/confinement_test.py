@@ -233,7 +233,7 @@ def test_a_confined_process_of_nobody_gets_out_nowhere():
 
 def test_a_run_cannot_fork_or_reach_others():
     # The parent of the run and its own threads are all there is to aim at; none of it can be named from Lua, so the
-    # process itself tries before a script would be begun (sandbox/try_barriers.cpp). Here: it has no children and
+    # process itself tries before a script would be begun (sandbox/confinement.cpp). Here: it has no children and
     # there is one process for each run.
     with Server(runner.program) as server:
         run = server.begin("while true do end")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Removes files beyond a run's limit, the record last, without following links.
-#include "bindings/web/confined/disk_bound.hpp"
+#include "bindings/cli/disk_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/support/run_fixture.hpp"
 
-namespace asperity::web::disk_bound_test {
+namespace asperity::cli::disk_bound_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ TEST_F(DiskBound, LinksAreRemovedAndNotFollowed) {
 }
 
 }  // namespace
-}  // namespace asperity::web::disk_bound_test
+}  // namespace asperity::cli::disk_bound_test

@@ -10,9 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "bindings/web/confined/views.hpp"
-#include "bindings/web/runs/answers.hpp"
-#include "bindings/web/runs/event_log.hpp"
+#include "bindings/web/api/answers.hpp"
+#include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/frames.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
@@ -91,14 +90,14 @@ TEST(ReducedField, HolesOfASurfaceAreMissing) {
   Field heights(3, 2, 1e-6);
   heights(1, 1) = nan;
   const Grid grid = make_grid(3, 2, 3e-6, 2e-6);
-  const Json holed = to_json(view_of(Surface::with_holes(grid, heights), "map", 1));
+  const Json holed = to_json(view_of(Surface::with_holes(grid, heights), "map"));
   const Json* const field = &holed.find("fields")->list()[0];
   EXPECT_EQ(field->find("not_measured")->number(), 1);
   const float height = 1e-6F;
   std::vector<float> values{height, height, height, height, static_cast<float>(nan), height};
   EXPECT_EQ(field->find("data")->string(),
             base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)}));
-  const Json whole = to_json(view_of(Surface(grid, Field(3, 2)), "map", 1));
+  const Json whole = to_json(view_of(Surface(grid, Field(3, 2)), "map"));
   EXPECT_EQ(whole.find("fields")->list()[0].find("not_measured"), nullptr);
   // The mean of the measured points.
   Field wide(4, 1, 2.0);

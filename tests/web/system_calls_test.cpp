@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The filter alone: computations work, also under sanitizers; ways out are blocked.
-#include "bindings/web/sandbox/system_calls.hpp"
+#include "bindings/web/sandbox/confinement.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

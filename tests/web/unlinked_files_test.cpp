@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Removed but open files count against the disk limit.
-#include "bindings/cli/unlinked_files.hpp"
+#include "bindings/cli/disk_bound.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

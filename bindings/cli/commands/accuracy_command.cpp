@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity accuracy`: a work-precision study (engine/study/work_precision.hpp) of a script that returns a
-// number. The script runs with scaled `cells` and other contact tolerances.
+// `asperity accuracy`: a work-precision study of a script that returns a number. The script runs with scaled
+// `cells` and other contact tolerances.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,20 +14,19 @@
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
-#include "bindings/cli/muted.hpp"
+#include "bindings/cli/plain_streams.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
-#include "bindings/lua/registry/refinement.hpp"
+#include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/temporary_folder.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/study/study_chart.hpp"
-#include "engine/study/study_text.hpp"
+#include "engine/study/study_result.hpp"
 
 namespace asperity::cli {
 
@@ -35,9 +34,9 @@ namespace {
 
 struct AccuracyCommand {
   RunCommand run;
-  double at_most = 300;         // seconds, all runs
-  int repeats = 3;              // timed, for each setting
-  std::optional<double> truth;  // SI; default: the finest grid
+  std::optional<double> at_most;  // seconds, in all; default 5 min
+  int repeats = 3;                // timed, for each setting
+  std::optional<double> truth;    // SI; default: finest grid
 };
 
 constexpr const char* study_name = "accuracy";
@@ -123,7 +122,7 @@ struct FirstRun {
   std::shared_ptr<lua::Refinement> used = std::make_shared<lua::Refinement>();
 };
 
-// In the run directory, with output; notes grids and contacts.
+// In the run directory; notes grids and contacts.
 FirstRun run_as_written(RunContext& context) {
   FirstRun first;
   ScriptRun run(context, context.run, first.used);
@@ -151,14 +150,14 @@ StudyWay way(const std::string& name, std::vector<double> factors, std::vector<d
 StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor& monitor) {
   const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
   if (!grids && !contacts)
-    throw Error(ErrorCode::bad_value,
-                "the script makes no surface from `cells` and no contact, so that nothing can be made finer",
+    throw Error(ErrorCode::bad_value, "the script has no `cells` of a surface and no contact to make finer",
                 "write a study of its own with lab.work_precision");
+  const double at_most = command.at_most.value_or(300);
   StudyRequest request;
   request.repeats = command.repeats;
-  request.at_most = std::max(command.at_most - first.seconds, 1e-9);
-  // Doubling the cells costs just over four times as much; the reference may use half of the time.
-  const double finest = command.truth || 4.4 * first.seconds < 0.5 * command.at_most ? 2 : 1;
+  request.at_most = std::max(at_most - first.seconds, 1e-9);
+  // Twice the cells cost just over four times as much; the reference may use half of the time.
+  const double finest = command.truth || 4.4 * first.seconds < 0.5 * at_most ? 2 : 1;
   if (grids) {
     std::vector<double> factors;
     for (const double factor : {0.25, 0.5, 1.0, 2.0})
@@ -177,8 +176,7 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
                       .settings.front();
   if (grids && finest == 1)
     monitor.inform(
-        "a grid twice as fine would take more than half of the time there is: the truth is the grid that the "
-        "script gives");
+        "a grid twice as fine would take more than half of the time: the script's own grid is the truth");
   return request;
 }
 
@@ -191,7 +189,7 @@ double exact_value(const std::string& text) {
   }
 }
 
-// As cli::run; also 1 if the script returns no number or has nothing to vary.
+// As cli::run; also 1 without a number or something to vary.
 int accuracy(const AccuracyCommand& command) {
   return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
     const FirstRun first = run_as_written(context);
@@ -225,38 +223,29 @@ int accuracy(const AccuracyCommand& command) {
 }
 
 CommandReader declare_accuracy(CLI::App& options) {
-  struct Given {
-    AccuracyCommand accuracy;
-    std::string time, memory, at_most, truth;
-    std::vector<std::string> knobs;
-  };
-  const auto given = std::make_shared<Given>();
-  RunCommand& run = given->accuracy.run;
-  add_script_options(options, run, given->time);
-  add_run_options(options, run, given->memory);
-  add_knobs(options, given->knobs);
+  const auto given = std::make_shared<AccuracyCommand>();
+  RunCommand& run = given->run;
+  add_script_options(options, run);
+  add_run_options(options, run);
+  add_knobs(options, run.knobs);
   add_trust(options, run.trust);
-  options.add_option("--at-most", given->at_most,
-                     "time for all runs together (default 5 min); quoted first and kept");
-  options.add_option("--repeats", given->accuracy.repeats, "timed runs of each setting (default 3)")
+  add_seconds(options, "--at-most", given->at_most,
+              "time for all runs together (default 5 min); quoted first and kept");
+  options.add_option("--repeats", given->repeats, "timed runs of each setting (default 3)")
       ->check(CLI::Range(1, 100000));
-  options.add_option("--truth", given->truth,
-                     "the exact value, a number or a quantity such as \"0.1 um\"; without it the finest grid "
-                     "is taken for it");
+  options.add_option_function<std::string>(
+      "--truth",
+      [given](const std::string& text) {
+        if (!text.empty()) given->truth = exact_value(text);
+      },
+      "the exact value, a number or a quantity such as \"0.1 um\"; without it the finest grid "
+      "is taken for it");
   options.footer(
       "The first run is the script as it is written: its output is shown and its files are kept. What the "
       "repeated runs print and write is dropped. The table goes to standard output, accuracy.csv and "
       "accuracy.svg to the run directory.");
 
-  return [given]() -> CommandWork {
-    AccuracyCommand& asked = given->accuracy;
-    asked.run.limit_time = seconds_of(given->time);
-    asked.at_most = seconds_of(given->at_most).value_or(asked.at_most);
-    if (!given->truth.empty()) asked.truth = exact_value(given->truth);
-    asked.run.limit_memory = bytes_of(given->memory);
-    asked.run.knobs = knobs_of(given->knobs);
-    return [given] { return accuracy(given->accuracy); };
-  };
+  return [given]() -> CommandWork { return [given] { return accuracy(*given); }; };
 }
 
 }  // namespace

@@ -12,13 +12,10 @@
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
-#include "bindings/cli/exit_status.hpp"
-#include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
-#include "bindings/lua/registry/mistakes.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/files/json.hpp"
@@ -28,7 +25,7 @@ namespace asperity::cli {
 
 namespace {
 
-// From an error with traceback; the error itself may come from a module.
+// From a traceback; the error itself may come from a module.
 std::string line_in_script(const std::string& message, const std::string& script) {
   // As Lua shortens chunk names.
   const std::string name =
@@ -61,15 +58,12 @@ int report_stop(const RunCommand& command, const std::string& verb) {
   return exit_status(reason);
 }
 
-// `report` prints the findings; `reached`: the reason of an early end, or "".
+constexpr int most_charts = 100;  // for an observer
+
+// `report` prints the findings; `reached`: reason of an early end, or "".
 int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
             const std::function<void(const std::string& reached)>& report) {
-  std::string text;
-  try {
-    text = command.text ? *command.text : read_script(command.script);
-  } catch (const Error& error) {
-    return refused(error);
-  }
+  const std::string text = command.text ? *command.text : read_script(command.script);
   RunObserver* const observer = command.observer;
   Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {
     if (observer != nullptr)
@@ -92,13 +86,17 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     return report_mistakes(command, mistakes, reached);
   };
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
+  if (observer != nullptr)
+    session.run->journal().watch([observer, left = most_charts](auto event, const Json& fields) mutable {
+      if (event == "chart" && left-- > 0) observer->recorded(event, fields);
+    });
   session.exit_hook = [&](int) {
     const int status = end("to its os.exit", "");
     std::fflush(nullptr);
     std::_Exit(status);
   };
   try {
-    RunCommand unlimited = command;  // dry runs have their own limit
+    RunCommand unlimited = command;  // dry runs limit themselves
     unlimited.limit_time.reset();
     const lua::State state = make_state(session, unlimited);
     const Watchdog::Watching watching(watchdog, state.get());
@@ -108,10 +106,10 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     if (stop_flag().reason() != StopReason::none) return report_stop(command, verb);
     if (lua::stopped_at_placeholder(message))
       return end("to line " + line_in_script(message, command.script) + ": " + lua::cannot_follow, "");
-    // A result would set this value in a real run, or the script forgot to.
+    // A result would set this value in a real run, unless the script forgot it.
     if (session.gave_placeholders && lua::met_nothing(message))
       return end("to line " + line_in_script(message, command.script) + ", " + lua::without_place(message) +
-                     ": a mistake, unless a result that is not known before the run sets it",
+                     ": a mistake, unless a result of the run sets it",
                  "");
     return end("", message);
   } catch (const std::exception& error) {
@@ -123,7 +121,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   return failed;
 }
 
-// Computations and their cost: makes surfaces, plans contacts, presses nothing. Exit status as in run().
+// Computations and their cost, without presses. Exit status as in run().
 int explain(const RunCommand& command, bool json) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -144,7 +142,7 @@ int explain(const RunCommand& command, bool json) {
   });
 }
 
-// Cases as numbered for --case of `asperity run`.
+// Numbered as for --case of `asperity run`.
 int cases(const RunCommand& command, bool list) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -167,22 +165,18 @@ enum class Follows { check, explain, cases };
 
 struct FollowedScript {
   RunCommand run;
-  std::string time;
-  std::vector<std::string> knobs;
   bool json = false;  // for `explain`
   bool list = false;  // for `cases`
 };
 
 CommandReader declare(CLI::App& options, Follows follows) {
   const auto given = std::make_shared<FollowedScript>();
-  add_script_options(options, given->run, given->time);
-  add_knobs(options, given->knobs);
+  add_script_options(options, given->run);
+  add_knobs(options, given->run.knobs);
   if (follows == Follows::explain) options.add_flag("--json", given->json, "as JSON");
   if (follows == Follows::cases)
     options.add_flag("--list", given->list, "a line for each case: its number, a tab, and its values");
   return [given, follows]() -> CommandWork {
-    given->run.limit_time = seconds_of(given->time);
-    given->run.knobs = knobs_of(given->knobs);
     return [given, follows] {
       return follows == Follows::explain ? explain(given->run, given->json)
              : follows == Follows::cases ? cases(given->run, given->list)

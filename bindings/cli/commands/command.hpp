@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A command of the program: name, help, options and work, each in its own file. main() (bindings/main.cpp)
-// has the list.
+// A command of the program: name, help, options and work, each in its own file.
 #pragma once
 
+#include <cstdio>
+#include <exception>
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace CLI {
 class App;
@@ -13,18 +13,28 @@ class App;
 
 namespace asperity::cli {
 
-// Returns the program's exit status.
+inline constexpr int done = 0, failed = 1, bad_usage = 2;
+inline constexpr int cases_missing = 3;    // missing in the store
+inline constexpr int another_version = 3;  // recorded the replayed run
+
+// Prints the error.
+inline int refused(const std::exception& error) {
+  std::fprintf(stderr, "asperity: %s\n", error.what());
+  return bad_usage;
+}
+
+// Returns the program's exit status; on an exception main() returns bad_usage.
 using CommandWork = std::function<int()>;
 
 // Called once, after parsing. Converts parsed texts and returns the work. Throws Error for a wrong option or
 // combination (exit status bad_usage).
 using CommandReader = std::function<CommandWork()>;
 
-// The writer of standard output; decides about control characters (plain_streams.hpp).
+// Writer of standard output; decides about control characters.
 enum class Prints {
-  text,       // own text: no control characters on a terminal
-  of_script,  // of a script: text and colours on a terminal, every byte elsewhere
-  by_editor,  // libedit writes to the terminal itself
+  text,       // no control characters on a terminal
+  of_script,  // on a terminal text and colours only
+  by_editor,  // by libedit itself
 };
 
 struct Command {
@@ -32,11 +42,11 @@ struct Command {
   std::string sentence;  // without full stop
   std::string overview;  // lines in `asperity help`
   Prints prints = Prints::text;
-  // `options` outlives the returned reader.
+  // `options` outlives the reader.
   std::function<CommandReader(CLI::App& options)> declare;
 };
 
-// Defined in the source file of the same name; the last three in information_commands.cpp.
+// In the source file of the same name; the last three in information_commands.cpp.
 Command accuracy_command();
 Command cases_command();
 Command check_command();
@@ -45,14 +55,9 @@ Command lesson_command();
 Command press_log_command();
 Command repl_command();
 Command status_command();
-// `overview`: returns the lines for `asperity help`.
+// `overview` returns the lines.
 Command help_command(std::string (*overview)());
 Command materials_command();
 Command version_command();
-
-// Generated from the parser (command_pages.cpp). The manual page asperity(1) in man(7) macros:
-std::string manual_page(const CLI::App& app, const std::string& version);
-// Completion for bash:
-std::string bash_completion(const CLI::App& app, const std::vector<std::string>& lessons);
 
 }  // namespace asperity::cli

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity lesson`: lists, shows, copies and runs lessons.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
-#include "bindings/cli/exit_status.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -20,30 +19,22 @@ namespace {
 
 struct LessonCommand {
   std::string name;   // empty: list all
-  bool copy = false;  // script to the working directory
+  bool copy = false;  // to the working directory
   bool run = false;
   RunCommand options;  // of the run
 };
 
 // Wraps at 100 characters; indents later lines.
 std::string in_lines(const std::string& text, std::size_t indent) {
-  std::string result, word;
+  std::istringstream words(text);
+  std::string result;
   std::size_t column = indent;
-  for (const char c : text + " ") {
-    if (c != ' ') {
-      word += c;
-      continue;
-    }
-    if (column > indent && column + word.size() > 100) {
-      result.back() = '\n';
-      result += std::string(indent, ' ');
-      column = indent;
-    }
-    result += word + " ";
-    column += word.size() + 1;
-    word.clear();
+  for (std::string word; words >> word; column += word.size() + 1) {
+    const bool wraps = column > indent && column + word.size() > 100;
+    if (wraps) column = indent;
+    if (!result.empty()) result += wraps ? "\n" + std::string(indent, ' ') : " ";
+    result += word;
   }
-  result.pop_back();
   return result;
 }
 
@@ -69,54 +60,43 @@ void copy(const lua::Lesson& lesson) {
               lesson.file.c_str());
 }
 
-// Exit status: of the run, or 0; 2 for an unknown lesson or an existing file.
+// Status: of the run, or 0; 2 for an unknown lesson or an existing file.
 int lesson(const LessonCommand& command) {
-  try {
-    if (command.name.empty()) {
-      if (command.copy || command.run)
-        throw Error(ErrorCode::bad_value, "no lesson was named",
-                    "name one, as in asperity lesson tilt; asperity lesson lists them");
-      return list(), 0;
-    }
-    const lua::Lesson& lesson = lua::find_lesson(command.name);
-    if (command.copy) copy(lesson);
-    if (command.run) {
-      RunCommand run = command.options;
-      run.script = lesson.file;
-      run.text = std::string(lesson.script);
-      return cli::run(run);
-    }
-    if (!command.copy)
-      std::printf(
-          "%s (%d minutes)\n\nQuestion: %s\n\nPredict: %s\n\n%s\nasperity lesson %s --copy   puts its script "
-          "here, to be changed and run\n"
-          "asperity lesson %s --run    runs it as it is\n",
-          lesson.title.c_str(), lesson.minutes, in_lines(lesson.question, 0).c_str(),
-          in_lines(lesson.predict, 0).c_str(), lesson.explanation.c_str(), lesson.name.c_str(),
-          lesson.name.c_str());
-    return 0;
-  } catch (const Error& error) {
-    return refused(error);
+  if (command.name.empty()) {
+    if (command.copy || command.run)
+      throw Error(ErrorCode::bad_value, "no lesson was named",
+                  "name one, as in asperity lesson tilt; asperity lesson lists them");
+    return list(), 0;
   }
+  const lua::Lesson& lesson = lua::find_lesson(command.name);
+  if (command.copy) copy(lesson);
+  if (command.run) {
+    RunCommand run = command.options;
+    run.script = lesson.file;
+    run.text = std::string(lesson.script);
+    return cli::run(run);
+  }
+  if (!command.copy)
+    std::printf(
+        "%s (%d minutes)\n\nQuestion: %s\n\nPredict: %s\n\n%s\nasperity lesson %s --copy   puts its script "
+        "here, to be changed and run\n"
+        "asperity lesson %s --run    runs it as it is\n",
+        lesson.title.c_str(), lesson.minutes, in_lines(lesson.question, 0).c_str(),
+        in_lines(lesson.predict, 0).c_str(), lesson.explanation.c_str(), lesson.name.c_str(),
+        lesson.name.c_str());
+  return 0;
 }
 
 CommandReader declare_lesson(CLI::App& options) {
-  struct Given {
-    LessonCommand lesson;
-    std::string memory;
-  };
-  const auto given = std::make_shared<Given>();
-  LessonCommand& asked = given->lesson;
+  const auto given = std::make_shared<LessonCommand>();
+  LessonCommand& asked = *given;
   options.add_option("name", asked.name, "a lesson, by name or number; without it they are listed");
   CLI::Option* copied =
       options.add_flag("--copy", asked.copy, "put its script into this folder, to be changed and run");
   options.add_flag("--run", asked.run, "run it as it is")->excludes(copied);
-  add_run_options(options, asked.options, given->memory);
+  add_run_options(options, asked.options);
 
-  return [given]() -> CommandWork {
-    given->lesson.options.limit_memory = bytes_of(given->memory);
-    return [given] { return lesson(given->lesson); };
-  };
+  return [given]() -> CommandWork { return [given] { return lesson(*given); }; };
 }
 
 }  // namespace

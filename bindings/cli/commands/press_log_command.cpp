@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity press-log`: draws and replays a press log with scripts/press_log.lua.
+// `asperity press-log`, with scripts/press_log.lua.
 #include <CLI/CLI.hpp>
 
 #include <memory>
@@ -18,7 +18,6 @@ namespace {
 CommandReader declare_press_log(CLI::App& options) {
   struct Given {
     RunCommand run;
-    std::string log, time, memory;
     std::vector<std::pair<std::string, std::string>> words{
         {"log", ""}, {"area", ""}, {"skip", ""}, {"columns", ""}, {"turn_step", ""}, {"specimen", ""}};
   };
@@ -37,15 +36,14 @@ CommandReader declare_press_log(CLI::App& options) {
                      "a Lua script that returns the contact to press, or a function that is given the "
                      "protocol and returns one (default: two rough discs of Al-2011)");
   add_seed(options, given->run.seed);
-  options.add_option("--limit-time", given->time, "end the run after this long, e.g. 60s or \"2 min\"");
-  add_run_options(options, given->run, given->memory);
+  add_seconds(options, "--limit-time", given->run.limit_time,
+              "end the run after this long, e.g. 60s or \"2 min\"");
+  add_run_options(options, given->run);
   options.add_option("arguments", given->run.arguments,
                      "keys of lab.protocol.read as name=value, and cells=; put them after --");
   return [given, &options]() -> CommandWork {
     RunCommand& run = given->run;
     run.seed_given = options.count("--seed") > 0;
-    run.limit_time = seconds_of(given->time);
-    run.limit_memory = bytes_of(given->memory);
     run.script = "press_log.lua";
     run.text = std::string(lua::embedded_script("press_log"));
     std::vector<std::string> arguments;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity repl`: an interactive prompt, edited and completed on a terminal, unchanged from a pipe. Each
-// line runs at once and prints its value. The first written file creates a run directory, whose script.lua
-// has the lines without errors.
+// `asperity repl`: an interactive prompt, edited and completed on a terminal. Each line runs at once and
+// prints its value. The first written file creates a run directory, whose script.lua has the lines without
+// errors.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -13,20 +13,19 @@
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/commands/shared_options.hpp"
-#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/line_reader.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/editor/prompt.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/knob.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/run/result_memory.hpp"
+#include "engine/run/result_files.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
@@ -74,8 +73,10 @@ class Conversation {
 
   int converse() {
     if (reader_.terminal())
-      std::printf("asperity %s. help() explains, Tab completes, Ctrl-C stops a line, Ctrl-D ends.\n",
-                  lua::version_text().c_str());
+      std::printf(
+          "asperity %s. help() explains, Tab completes, who lists variables, Ctrl-C stops a line, exit "
+          "ends.\n",
+          lua::version_text().c_str());
     std::string line;
     for (int number = 1;; ++number) {
       const LineReader::Event event = reader_.read(bench_->prompt->continued() ? ">> " : "> ", line);
@@ -119,7 +120,7 @@ class Conversation {
     return command.limit_memory ? std::min(most, *command.limit_memory / 4) : most;
   }
 
-  // Repeats all lines with moved knobs. On failure, the old state stays.
+  // Repeats all lines with moved knobs; a failure leaves the old state.
   lua::Prompt::Outcome run_again(Watchdog& watchdog) {
     GivenKnobs knobs = knobs_;
     std::string what;
@@ -204,7 +205,7 @@ class Conversation {
       std::fprintf(stderr, "asperity: %s\n", failure(stopped).c_str());
     }
     if (terminated) stopped_ = true;
-    return !terminated;
+    return !terminated && outcome != lua::Prompt::Outcome::end;
   }
 
   // Clears a stop for the next line.
@@ -221,7 +222,7 @@ class Conversation {
            " a line was reached";
   }
 
-  // The position matters for a limit, not for Ctrl-C.
+  // Only after a limit, not after Ctrl-C.
   std::string failure(StopReason stopped) const {
     if (stopped == StopReason::none) return error_;
     return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + error_);
@@ -256,52 +257,39 @@ class Conversation {
   }
 
   const ReplCommand& command_;
-  LineReader reader_;  // first: blocks signals for later threads
+  LineReader reader_;  // first: blocks signals in later threads
   TerminalMonitor monitor_;
   std::optional<ResultMemory> memory_;
   std::shared_ptr<RunDirectory> run_;
   std::unique_ptr<Bench> bench_;
-  GivenKnobs knobs_, moves_;  // set; moved by the current line
+  GivenKnobs knobs_, moves_;  // set; moved by this line
   std::string error_;         // of the last line
   int lines_ = 0;
   bool lines_failed_ = false, stopped_ = false;
 };
 
 // Exit status: 0; from os.exit; without a terminal 1 after a failed line or expectation; 130 after a signal.
-int repl(const ReplCommand& command) {
-  try {
-    Conversation conversation(command);
-    return conversation.converse();
-  } catch (const std::exception& error) {
-    return refused(error);
-  }
-}
+int repl(const ReplCommand& command) { return Conversation(command).converse(); }
 
 CommandReader declare_repl(CLI::App& options) {
-  struct Given {
-    ReplCommand repl;
-    std::string time, memory;
-  };
-  const auto given = std::make_shared<Given>();
-  ReplCommand& asked = given->repl;
+  const auto given = std::make_shared<ReplCommand>();
+  ReplCommand& asked = *given;
   options.add_option("--out", asked.out,
                      "the run directory (default runs/prompt-<n>); made when the first file is written");
-  add_machine_options(options, asked.threads, given->memory);
+  add_machine_options(options, asked.threads, asked.limit_memory);
   add_seed(options, asked.seed);
-  options.add_option("--limit-time", given->time, "end a line after this long, e.g. 60s or \"2 min\"");
+  add_seconds(options, "--limit-time", asked.limit_time, "end a line after this long, e.g. 60s or \"2 min\"");
   options.add_flag("--no-history", asked.no_history,
                    "neither read nor keep the lines of other sessions, which are in "
                    "$XDG_STATE_HOME/asperity/history, or ~/.local/state");
   add_trust(options, asked.trust);
   options.footer(
-      "help() explains, Tab completes, show(surface) draws. Ctrl-C stops a line and not the session, Ctrl-D "
-      "ends it. From a pipe or a file the lines are read without prompts; exit status 1 where one failed.");
+      "help() explains, Tab completes, who lists the variables, show(surface) draws. Ctrl-C stops a line, "
+      "exit, "
+      "quit or Ctrl-D ends the session. From a pipe or a file the lines are read without prompts; exit "
+      "status 1 where one failed.");
 
-  return [given]() -> CommandWork {
-    given->repl.limit_time = seconds_of(given->time);
-    given->repl.limit_memory = bytes_of(given->memory);
-    return [given] { return repl(given->repl); };
-  };
+  return [given]() -> CommandWork { return [given] { return repl(*given); }; };
 }
 
 }  // namespace

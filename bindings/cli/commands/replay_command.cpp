@@ -14,13 +14,11 @@
 
 #include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/commands/stored_results.hpp"
-#include "bindings/cli/exit_status.hpp"
-#include "bindings/cli/muted.hpp"
+#include "bindings/cli/plain_streams.hpp"
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/across_versions.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
@@ -42,7 +40,7 @@ void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
   }
 }
 
-// `^`, `math` and contacts over ranks may differ between processors; engine results do not.
+// `^`, `math` and contacts over ranks may depend on the processor; engine results do not.
 void print_machines(const RecordedRun& recorded, const RecordedRun& again) {
   for (const std::string& line : differing_machines(recorded.machine, again.machine))
     std::printf("  recorded on %s\n", line.c_str());
@@ -50,19 +48,15 @@ void print_machines(const RecordedRun& recorded, const RecordedRun& again) {
 
 constexpr std::size_t most_shown = 10;
 
-void print_difference(const Difference& found, const char* first, const char* second) {
-  std::printf("  %s\n    %-8s  %s\n    %-8s  %s\n", found.where.c_str(), first, found.recorded.c_str(),
-              second, found.again.c_str());
-}
-
 void print_differences(const std::vector<Difference>& found, const char* first, const char* second) {
   for (std::size_t k = 0; k < std::min(found.size(), most_shown); ++k)
-    print_difference(found[k], first, second);
+    std::printf("  %s\n    %-8s  %s\n    %-8s  %s\n", found[k].where.c_str(), first,
+                found[k].recorded.c_str(), second, found[k].again.c_str());
   if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
 }
 
-std::string count_text(std::size_t count, const char* one, const char* many) {
-  return count == 1 ? one : std::to_string(count) + many;
+std::string differences_text(const std::vector<Difference>& found) {
+  return found.size() == 1 ? "one difference" : std::to_string(found.size()) + " differences";
 }
 
 // Byte by byte. For another minor version: a line with this version, and differences of results.
@@ -82,19 +76,18 @@ void show_variation(const RecordedRun& recorded, const std::filesystem::path& pl
                     const std::string& changed) {
   const std::vector<Difference> found = differences_from(recorded, read_run(place));
   std::printf("%s with %s: %s\n", recorded.root.c_str(), changed.c_str(),
-              found.empty() ? "every result is the same"
-                            : count_text(found.size(), "one difference", " differences").c_str());
+              found.empty() ? "every result is the same" : differences_text(found).c_str());
   print_differences(found, "recorded", "varied");
 }
 
-// Returns the exit status. `altered`: files differ from the manifest.
+// `altered`: files differ from the manifest.
 int compare(const RecordedRun& recorded, const std::filesystem::path& place, bool altered) {
   const RecordedRun again = read_run(place);
   const std::vector<Difference> found = differences_from(recorded, again);
   const bool replayed = same_minor_version(program_version(recorded), lua::version_text());
   const char* const root = recorded.root.c_str();
   if (!found.empty()) {
-    std::printf("%s: %s\n", root, count_text(found.size(), "one difference", " differences").c_str());
+    std::printf("%s: %s\n", root, differences_text(found).c_str());
     print_differences(found, "recorded", "now");
     print_versions(recorded, again);
     print_machines(recorded, again);
@@ -119,13 +112,13 @@ std::shared_ptr<lua::Variation> variation_of(const ReplayCommand& command) {
       throw Error(ErrorCode::bad_value,
                   "`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
                   "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
-                      " for what stays the same");
+                      " for unchanged results");
     variation->set(setting);
   }
   return variation;
 }
 
-// Returns the files of the record that differ from its manifest.
+// Returns the record's altered files.
 std::vector<std::string> print_alterations(const RecordedRun& recorded) {
   std::vector<std::string> altered = altered_outputs(recorded);
   if (!recorded.journal_fault.empty()) altered.push_back(recorded.journal_fault);
@@ -157,12 +150,8 @@ RunCommand repetition_of(const RecordedRun& recorded, const ReplayCommand& comma
 }
 
 CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> barriers) {
-  struct Given {
-    ReplayCommand replay;
-    std::string time, memory, disk;
-  };
-  const auto given = std::make_shared<Given>();
-  ReplayCommand& asked = given->replay;
+  const auto given = std::make_shared<ReplayCommand>();
+  ReplayCommand& asked = *given;
   options.add_option("run", asked.recorded, "the directory of the run")->required();
   options.add_option("--from", asked.from,
                      "take the results of heavy calls before this line of its journal from its store, and "
@@ -172,25 +161,20 @@ CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> ba
                   "key=value or call.key=value: another value where calls give this key (from --from on), "
                   "e.g. --set press.pressure=\"200 MPa\"; may be given again")
       ->allow_extra_args(false);
-  add_run_options(options, asked.run, given->memory);
+  add_run_options(options, asked.run);
   add_trust(options, asked.run.trust);
-  add_confinement(options, asked.run, given->disk);
-  options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
+  add_confinement(options, asked.run);
+  add_seconds(options, "--limit-time", asked.run.limit_time, "end it after this long, e.g. 60s or \"2 min\"");
   options.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
       "1 if anything differs. A run recorded by another minor version is repeated too: its rows and verdicts "
       "are compared to 1e-05 of their values, and the exit status is 3. The script's own output is dropped.");
 
   return [given, barriers]() -> CommandWork {
-    RunCommand& run = given->replay.run;
-    run.limit_time = seconds_of(given->time);
-    run.limit_disk = bytes_of(given->disk, "the limit of the disk");
-    run.confined = barriers.wanted(given->replay);
-    check_confinement(run);
-    run.limit_memory = bytes_of(given->memory);
-    return [given, barriers] {
-      return given->replay.run.confined ? barriers.carry_out(given->replay) : cli::replay(given->replay);
-    };
+    given->run.confined = barriers.wanted(*given);
+    check_confinement(given->run);
+    return
+        [given, barriers] { return given->run.confined ? barriers.carry_out(*given) : cli::replay(*given); };
   };
 }
 
@@ -205,17 +189,10 @@ Command replay_command(BehindBarriers<ReplayCommand> barriers) {
 }
 
 int replay(const ReplayCommand& command) {
-  RecordedRun recorded;
-  std::vector<std::string> altered;
-  RunCommand run;
-  try {
-    recorded = read_run(command.recorded);
-    require_repeatable(command.run, recorded, "replay");
-    altered = print_alterations(recorded);
-    run = repetition_of(recorded, command);
-  } catch (const Error& error) {
-    return refused(error);
-  }
+  const RecordedRun recorded = read_run(command.recorded);
+  require_repeatable(command.run, recorded, "replay");
+  const std::vector<std::string> altered = print_alterations(recorded);
+  const RunCommand run = repetition_of(recorded, command);
   lua::Variation* const variation = run.variation.get();
   std::filesystem::path place;
   const auto verdict = [&](int ended) {

@@ -11,15 +11,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
-#include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/commands/stored_results.hpp"
-#include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/disk_bound.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
-#include "bindings/cli/run_observer.hpp"
-#include "bindings/cli/shard.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
-#include "bindings/cli/unlinked_files.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/runtime/state.hpp"
@@ -27,8 +24,8 @@
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -39,7 +36,7 @@ namespace asperity::cli {
 
 namespace {
 
-// Charts need descriptors for fonts. No warning of the run, because it depends on the machine.
+// Charts need descriptors for fonts. Not a warning of the run: it depends on the machine.
 void tell_of_few_handles() {
   constexpr rlim_t enough = 32;
   rlimit handles{};
@@ -50,78 +47,67 @@ void tell_of_few_handles() {
                  static_cast<int>(handles.rlim_cur));
 }
 
-// "" if complete or if the reader closed the pipe.
+// "" also if the reader closed the pipe.
 std::string output_fault() {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   struct ::stat facts {};
   if (!lost || ::fstat(STDOUT_FILENO, &facts) != 0 || S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode))
     return {};
-  return "standard output could not be written to its end, so what the script printed is not all there; "
-         "check the disk";
+  return "standard output could not be written to its end, so printed lines are missing; check the disk";
 }
 
 std::string reason_text(StopReason reason, const RunCommand& command) {
-  switch (reason) {
-    case StopReason::interrupt:
-      return "interrupted";
-    case StopReason::time_limit:
-      return "the time limit of " + format_quantity(command.limit_time.value_or(0), dimension::time) +
-             " was reached";
-    case StopReason::memory_limit:
-      return "the memory limit of " +
-             format_short(static_cast<double>(command.limit_memory.value_or(0)) / 0x1p20) +
-             " MiB was reached (--limit-memory)";
-    case StopReason::none:
-      break;
-  }
+  if (reason == StopReason::interrupt) return "interrupted";
+  if (reason == StopReason::time_limit)
+    return "the time limit of " + format_quantity(command.limit_time.value_or(0), dimension::time) +
+           " was reached";
+  if (reason == StopReason::memory_limit)
+    return "the memory limit of " +
+           format_short(static_cast<double>(command.limit_memory.value_or(0)) / 0x1p20) +
+           " MiB was reached (--limit-memory)";
   return "";
 }
 
 CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers) {
-  struct Given {
-    RunCommand run;
-    std::string time, memory, store_limit, shard, one_case, disk;
-    std::vector<std::string> knobs;
-  };
-  const auto given = std::make_shared<Given>();
-  add_script_options(options, given->run, given->time)->required(false);
-  add_run_options(options, given->run, given->memory);
+  const auto given = std::make_shared<RunCommand>();
+  add_script_options(options, *given)->required(false);
+  add_run_options(options, *given);
   add_knobs(options, given->knobs);
-  add_trust(options, given->run.trust);
-  add_store_options(options, given->run, given->store_limit, given->shard, given->one_case);
-  add_confinement(options, given->run, given->disk);
+  add_trust(options, given->trust);
+  add_store_options(options, *given);
+  add_confinement(options, *given);
 
   return [given, &options, barriers]() -> CommandWork {
-    RunCommand& run = given->run;
+    RunCommand& run = *given;
     run.seed_given = options.count("--seed") > 0;
-    run.limit_time = seconds_of(given->time);
-    run.limit_memory = bytes_of(given->memory);
-    run.knobs = knobs_of(given->knobs);
-    run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit, "the limit of the store");
-    if (!given->shard.empty()) run.shard = parse_shard(given->shard);
-    if (!given->one_case.empty()) run.one_case = parse_case(given->one_case);
     if ((run.shard || run.one_case || run.merge_only) && run.store_limit == 0)
       throw Error(ErrorCode::bad_value,
-                  "`--shard`, `--case` and `--merge-only` share a store, and `--store-limit 0` keeps nothing",
+                  "`--shard`, `--case` and `--merge-only` need a store, and `--store-limit 0` stores nothing",
                   "leave one of them out");
     if (run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
                   "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
-    run.limit_disk = bytes_of(given->disk, "the limit of the disk");
     run.confined = barriers.wanted(run);
     check_confinement(run);
     if (run.confined && (run.one_case || run.merge_only))
       throw Error(ErrorCode::bad_value, "a confined run takes neither `--case` nor `--merge-only`",
                   "share its cases by --shard, and merge them by a run without it");
-    return [given, barriers] {
-      return given->run.confined ? barriers.carry_out(given->run) : cli::run(given->run);
-    };
+    return [given, barriers] { return given->confined ? barriers.carry_out(*given) : cli::run(*given); };
   };
 }
 
-// With --case, only the store keeps a result.
+// With --case, only the store keeps results.
 void remove_case_folder(const RunCommand& command) {
   if (command.case_folder) command.case_folder->remove();
+}
+
+std::string without_calls(const std::string& why) {
+  const std::string sentence = without_traceback(why), calls = why.substr(sentence.size());
+  std::istringstream lines(calls);
+  bool functions = false;
+  for (std::string line; std::getline(lines, line);)
+    functions |= line.starts_with('\t') && !line.starts_with("\t[C]") && !line.ends_with("in main chunk");
+  return sentence + (functions ? "\n  --trace shows the calls that led there" : "");
 }
 
 RunSetup setup_of(const RunCommand& command, const std::string& text) {
@@ -133,7 +119,7 @@ RunSetup setup_of(const RunCommand& command, const std::string& text) {
   setup.anew = command.anew;
   setup.journal_lost = command.journal_lost;
   setup.lock = command.lock;
-  // Files of other ranks than 0 are deleted at the end.
+  // Other ranks' files are deleted at the end.
   setup.scratch = command.one_case || (command.ranks != nullptr && !command.ranks->leads());
   setup.store = command.store.value_or("");
   if (command.shard) setup.shard = command.shard->text();
@@ -147,7 +133,7 @@ RunSetup setup_of(const RunCommand& command, const std::string& text) {
   return setup;
 }
 
-// The steps of a run in a directory, in the order of their declaration.
+// Steps of a run in a directory, in order of declaration.
 class DirectoryRun {
  public:
   explicit DirectoryRun(const RunCommand& command) : command_(command), observer_(command.observer) {}
@@ -158,7 +144,7 @@ class DirectoryRun {
     stored_ = result_files(command_);
     run_ = std::make_shared<RunDirectory>(setup);
     if (!command_.store) stored_.folder = run_->store();
-    // Now, because the moving aside of an earlier run may have moved this folder, too.
+    // Late: moving an earlier run aside may move this folder.
     if (command_.store) make_folders(*command_.store);
     stored_.needed = run_->needed_to_resume();
   }
@@ -167,7 +153,7 @@ class DirectoryRun {
     if (const std::string notice = run_->lock_notice(); !notice.empty() && observer_ == nullptr)
       std::fprintf(stderr, "asperity: %s\n", notice.c_str());
     for (const std::string& damage : command_.damages)
-      std::fprintf(stderr, "asperity: %s; the run is made again from its script and its store\n",
+      std::fprintf(stderr, "asperity: %s; the run is repeated from its script and its store\n",
                    damage.c_str());
     if (observer_ == nullptr) tell_of_few_handles();
   }
@@ -200,8 +186,8 @@ class DirectoryRun {
     watchdog_.emplace(command_.limit_time, [this](StopReason reason) { end_at_once(reason); });
     if (command_.limit_disk) unlinked_.emplace(*command_.limit_disk);
     if (command_.limit_memory) lua::limit_memory(*command_.limit_memory);
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not lose the record
-    std::signal(SIGXFSZ, SIG_IGN);  // writing then fails as on a full disk
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe keeps the record
+    std::signal(SIGXFSZ, SIG_IGN);  // fails as on a full disk
   }
 
   void carry_out(const std::function<std::string(RunContext&)>& work) {
@@ -214,7 +200,7 @@ class DirectoryRun {
   }
 
   void check_limits() {
-    // The limit was exceeded, even if the script caught the error.
+    // Also if the script caught the error.
     if (command_.limit_memory && lua::memory_limit_met()) {
       stop_flag().raise(StopReason::memory_limit);
       fail(status_ == done ? "the script went on with less" : why_);
@@ -223,7 +209,7 @@ class DirectoryRun {
     if (stopped_ == StopReason::none) return;
     status_ = exit_status(stopped_);
     if (stopped_ == StopReason::interrupt) ended_ = RunStatus::interrupted;
-    // The position matters for a limit, not for Ctrl-C.
+    // Only after a limit, not after Ctrl-C.
     const std::string met_at = stopped_ == StopReason::interrupt || why_.empty() ? "" : "\n" + why_;
     why_ = reason_text(stopped_, command_) + met_at;
   }
@@ -235,7 +221,8 @@ class DirectoryRun {
 
   // Returns the exit status.
   int close() {
-    if (!why_.empty() && observer_ == nullptr) std::fprintf(stderr, "asperity: %s\n", why_.c_str());
+    if (!why_.empty() && observer_ == nullptr)
+      std::fprintf(stderr, "asperity: %s\n", (command_.trace ? why_ : without_calls(why_)).c_str());
     if (command_.ranks != nullptr) command_.ranks->note_failure(why_);
     try {
       if (status_ == done && run_->expectations().failed() > 0) fail(run_->expectations().summary());
@@ -268,7 +255,7 @@ class DirectoryRun {
     if (observer_ != nullptr)
       observer_->ended(exit_status(reason), reason, why);
     else
-      std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run_->path().c_str());
+      std::fprintf(stderr, "asperity: %s; its finished part is in %s\n", why.c_str(), run_->path().c_str());
     remove_case_folder(command_);
   }
 
@@ -311,7 +298,7 @@ class DirectoryRun {
   std::string why_;
 };
 
-// The digest of the script, its arguments and its knobs.
+// Digest of script, arguments and knobs.
 std::string script_digest(const RunContext& context) {
   Digester script;
   script.add(context.text);
@@ -369,7 +356,7 @@ bool shares_cases(const RunCommand& command) {
   return command.shard || command.one_case || command.merge_only;
 }
 
-// The command with its directory, or of the resumed run; none if there is nothing to resume.
+// With its directory, or of the resumed run; none without a run to resume.
 std::optional<RunCommand> prepared(const RunCommand& asked, bool is_rank, bool leads) {
   std::optional<RunCommand> command = asked.resume ? taken_up(asked, leads) : asked;
   if (command && !asked.resume && asked.one_case && !is_rank) {
@@ -378,13 +365,12 @@ std::optional<RunCommand> prepared(const RunCommand& asked, bool is_rank, bool l
   }
   if (command) return command;
   std::fprintf(stderr,
-               "asperity: %s came to its end, and every file is as it was recorded; there is nothing "
-               "to resume\n",
+               "asperity: %s is complete, and every file is as recorded; there is nothing to resume\n",
                asked.resume->c_str());
   const std::vector<std::string> altered = altered_inputs(read_run(*asked.resume, true));
   for (const std::string& sentence : altered) std::fprintf(stderr, "%s\n", sentence.c_str());
   if (!altered.empty())
-    std::fprintf(stderr, "`asperity replay %s` says what follows from that\n", asked.resume->c_str());
+    std::fprintf(stderr, "`asperity replay %s` shows the differences\n", asked.resume->c_str());
   return {};
 }
 
@@ -428,15 +414,6 @@ Command run_command(BehindBarriers<RunCommand> barriers) {
           .declare = [barriers](CLI::App& options) { return declare_run(options, barriers); }};
 }
 
-std::string read_script(const std::string& path) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem))
-    throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
-  if (::access(path.c_str(), R_OK) != 0)
-    throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
-  return text_of_file(path);
-}
-
 int execute(lua_State* L, const RunCommand& command, const std::string& text, int results) {
   bool failed_inside = false;
   const std::vector<std::string>& arguments = command.arguments;
@@ -451,7 +428,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
                       name.c_str());
       return 1;
     }
-    // Without trailing blanks, Lua reports an unfinished statement at the last line with text.
+    // Lua reports an unfinished statement at the last line with text.
     const std::size_t end = std::max(skip, text.find_last_not_of(" \t\r\n") + 1);
     if (luaL_loadbufferx(state, text.data() + skip, end - skip, lua_tostring(state, -1), "t") != LUA_OK)
       return 1;
@@ -467,6 +444,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
     luaL_checkstack(state, static_cast<int>(arguments.size()) + 4, "too many arguments");
     for (const std::string& argument : arguments) lua_pushlstring(state, argument.data(), argument.size());
     if (lua_pcall(state, static_cast<int>(arguments.size()), results, 1) != LUA_OK) return 1;
+    lua_gc(state, LUA_GCCOLLECT);  // unused iterators warn
     failed_inside = false;
     return results;
   };
@@ -521,9 +499,8 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   const lua::SharedStore shared = shared_store(context);
   if (context.command.store) session.shared = &shared;
   if (RunObserver* observer = context.command.observer; observer != nullptr && observer->looks_at_results())
-    session.onlooker = [observer, run = context.run.get()](const std::string& call,
-                                                           const lua::Values& results) {
-      observer->found(call, run->journal().count(), results);
+    session.onlooker = [observer](const std::string& call, const lua::Values& results) {
+      observer->found(call, results);
     };
   session.ranks = context.command.ranks;
   session.exit_hook = [&](int code) { exit_script(context, session, code, at_exit); };
@@ -534,20 +511,13 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
 }
 
 int run(const RunCommand& asked) {
-  std::optional<LaunchedRank> launched;
-  std::optional<RunCommand> command;
-  try {
-    launched = launched_rank(shares_cases(asked));
-    command = prepared(asked, launched.has_value(), !launched || launched->rank == 0);
-  } catch (const Error& error) {
-    return refused(error);
-  }
+  const std::optional<LaunchedRank> launched = launched_rank(shares_cases(asked));
+  std::optional<RunCommand> command = prepared(asked, launched.has_value(), !launched || launched->rank == 0);
   if (!command) return done;
   const auto leave = [&command = *command](int code) {
     remove_case_folder(command);
     if (!command.one_case || code != done) return code;
-    std::fprintf(stderr,
-                 "asperity: %s came to its end and has no case %d.%zu; `asperity cases` lists its cases\n",
+    std::fprintf(stderr, "asperity: %s has ended and has no case %d.%zu; `asperity cases` lists its cases\n",
                  command.script.c_str(), command.one_case->ensemble, command.one_case->number);
     return bad_usage;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity status STORE`: stored and missing cases of ensembles, from rosters in the store
-// (lua/ensemble/case_roster.hpp), without the script.
+// `asperity status STORE`: stored and missing cases, from rosters in the store
+// (lua/ensemble/case_roster.hpp).
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "bindings/cli/commands/command.hpp"
-#include "bindings/cli/exit_status.hpp"
 #include "bindings/lua/ensemble/case_roster.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/program_identity.hpp"
@@ -21,8 +20,8 @@ namespace asperity::cli {
 
 namespace {
 
-// Exit status: 0 complete; 1 a case failed; 3 cases missing. Other builds' rosters count only if this build
-// has none.
+// Exit status: 0 complete; 1 a case failed; 3 cases missing. Rosters of other builds count only without one
+// of this build.
 int show_status(const std::string& store) {
   std::error_code problem;
   if (!std::filesystem::is_directory(store, problem)) {
@@ -45,7 +44,7 @@ int show_status(const std::string& store) {
                 count - report.missing.size() - report.failed.size(), count, report.failed.size(),
                 report.missing.size());
     std::printf("  build    %s%s\n", roster.build.c_str(),
-                roster.build == own ? "" : ", another one than this, which does not take its results");
+                roster.build == own ? "" : ", another one; this build does not use its results");
     for (const auto& [k, why] : report.failed)
       std::printf("  failed   %zu\t%s: %s\n", k + 1, roster.cases[k].name.c_str(), why.c_str());
     if (!report.missing.empty())

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/commands/stored_results.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/shard.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/program_identity.hpp"
@@ -46,7 +43,7 @@ RunCommand begun_there(RunCommand command) {
   return command;
 }
 
-// After a crash during the moving aside of an earlier run.
+// After a crash while moving an earlier run aside.
 bool holds_earlier_run(const std::filesystem::path& root) {
   std::error_code problem;
   if (std::filesystem::exists(std::filesystem::symlink_status(root / run_names::manifest, problem)))
@@ -84,8 +81,7 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   return changed;
 }
 
-// A resumed run keeps its share and store. A confined run takes no folder from a record, which may come from
-// elsewhere.
+// A resumed run keeps its share and store. A confined run takes no folder from a record of unknown origin.
 void take_share(RunCommand& command, const RecordedRun& recorded) {
   if (recorded.store.empty()) return;
   if (!command.barriers.is_null() && !command.store)
@@ -107,11 +103,11 @@ void require_same_version(const RecordedRun& recorded) {
   if (recorded.status == "done")
     throw Error(ErrorCode::bad_value,
                 joined(damages_of(recorded), "; ") + "; " + run + " was recorded by " + by +
-                    ", and this is " + lua::version_text() + ", which may not make the same bytes again",
-                "mend it with the version that recorded it, or " + begins_anew);
+                    ", and this is " + lua::version_text() + ", which may give other bytes",
+                "restore it with the version that recorded it, or " + begins_anew);
   throw Error(ErrorCode::bad_value,
               run + " was begun by " + by + ", and this is " + lua::version_text() +
-                  ": two versions in one record could not be told apart",
+                  ": one record cannot hold two versions",
               "go on with the version that began it, or " + begins_anew);
 }
 
@@ -120,11 +116,11 @@ void require_unchanged(const std::vector<std::string>& changed, const std::strin
   throw Error(ErrorCode::bad_value,
               joined(changed, " and ") + " of " + asperity::quoted(run) +
                   (changed.size() > 1 ? " are" : " is") + " not the one given now",
-              "leave it out to go on as recorded, or add `--reuse " + run +
-                  "` to begin anew there with the results that are still the same");
+              "leave it out to resume as recorded, or add `--reuse " + run +
+                  "` to begin anew there with the unchanged results");
 }
 
-// Damages of a run that is continued, and whether its journal is lost. Returns false for a complete run.
+// Returns false for a complete run.
 bool note_damages(RunCommand& command, const RecordedRun& recorded) {
   const std::filesystem::path journal = recorded.root / run_names::journal;
   if (recorded.status == "done") {
@@ -132,7 +128,7 @@ bool note_damages(RunCommand& command, const RecordedRun& recorded) {
     command.journal_lost = !recorded.journal_fault.empty();
     return !command.damages.empty();
   }
-  // Failed cases may succeed now: rebuild the journal from script and store.
+  // Failed cases may succeed now: a new journal from script and store.
   const bool rebuilt = !recorded.shard.empty() || (recorded.status == "failed" && !recorded.store.empty());
   const bool damaged =
       !rebuilt &&
@@ -148,58 +144,17 @@ bool note_damages(RunCommand& command, const RecordedRun& recorded) {
 
 }  // namespace
 
-void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
-                       std::string& one_case) {
-  CLI::Option* resume =
-      options.add_option("--resume", run.resume,
-                         "go on with the run in this directory where it was cut off; its script, arguments "
-                         "and seed are its own (a directory that is not there yet is begun)");
-  resume->excludes(options.get_option("--out"));
-  options
-      .add_option("--reuse", run.reuse,
-                  "take the results of heavy calls that are the same from this run; may be given again")
-      ->allow_extra_args(false);  // the next word may be the script
-  options.add_option("--store-limit", limit,
-                     "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
-  options.add_option(
-      "--store", run.store,
-      "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
-      "machines, may share it at the same time (no limit unless --store-limit is given)");
-  CLI::Option* share = options.add_option(
-      "--shard", shard,
-      "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
-      "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
-      "ensemble once all its cases are there, and else ends. A run without --shard puts all together");
-  CLI::Option* one = options.add_option(
-      "--case", one_case,
-      "compute case 17, or case 17 of the second ensemble (2.17), into the folder given by "
-      "--store, and leave no run directory. Exit status: 0 it is stored, 1 it failed, 3 "
-      "cases of an earlier ensemble are missing. `asperity cases` lists the numbers");
-  CLI::Option* merge =
-      options.add_flag("--merge-only", run.merge_only,
-                       "compute no case: take all from the folder given by --store, or end with exit "
-                       "status 3 and the list of the missing cases");
-  for (CLI::Option* option : {share, one, merge})
-    option->needs(options.get_option("--store"))->excludes(options.get_option("--trust"));
-  for (CLI::Option* other :
-       {share, merge, resume, options.get_option("--out"), options.get_option("--reuse")})
-    one->excludes(other);
-  merge->excludes(share);
-}
-
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
   if (recorded.manifest.find("prompt") != nullptr)
-    throw Error(ErrorCode::bad_value,
-                asperity::quoted(recorded.root.string()) +
-                    " is a session of the prompt, whose journal begins with its first file",
-                "its lines run again by `asperity run " + (recorded.root / run_names::script).string() + "`");
-  if (command.trust == recorded.trusted) return;
-  if (recorded.trusted)
     throw Error(
         ErrorCode::bad_value,
-        asperity::quoted(recorded.root.string()) +
-            " was recorded with `--trust`, which gives its script the whole of Lua and files anywhere",
-        std::string("add `--trust` to ") + purpose + " it so");
+        asperity::quoted(recorded.root.string()) + " is a session of the prompt, without a whole journal",
+        "run its lines again by `asperity run " + (recorded.root / run_names::script).string() + "`");
+  if (command.trust == recorded.trusted) return;
+  if (recorded.trusted)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(recorded.root.string()) + " was recorded with `--trust`",
+                std::string("add `--trust` to ") + purpose + " it so");
   throw Error(ErrorCode::bad_value,
               asperity::quoted(recorded.root.string()) + " was recorded without `--trust`",
               std::string("leave `--trust` out to ") + purpose + " it as it was");

@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of this run and of earlier runs: `--resume`, `--reuse` and `--store-limit` of `asperity run`,
-// `--from` of `asperity replay`.
+// Results of earlier runs: `--resume`, `--reuse` and `--store-limit` of `asperity run`, `--from` of `asperity
+// replay`.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/commands/shared_options.hpp"
 #include "engine/run/journal.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/result_files.hpp"
 
 namespace asperity::cli {
 
-// `--resume`, `--reuse`, `--store` and the options of a shared store. `limit`, `shard` and `one_case` are
-// read after parsing.
-void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard,
-                       std::string& one_case);
-
 // The command that continues the run in `command.resume` with its script, arguments, seed, store and share.
-// Without a manifest, the command begins a new run. None if the run is done and undamaged; a damaged run is
-// repeated, with its damages named. `leads`: takes the directory's lock, unless held. Throws Error for
+// Without a manifest, a new run. None if the run is done and undamaged; a damaged run is repeated, with its
+// damages named. `leads`: takes the directory's lock, unless held. Throws Error for
 // - another script, arguments or seed, without `reuse`;
 // - an unfinished or damaged run by another version, without `reuse`;
 // - another share of the cases, or another `trust`;

@@ -118,7 +118,7 @@ __attribute__((visibility("default"))) int asperity_edit_read(void* pointer, con
   editor.prompt = prompt;
   editor.given_up = false;
   int count = 0;
-  // Before the prompt: an early Ctrl-D must mean the end of input.
+  // Early: Ctrl-D must mean the end of input.
   el_set(editor.line, EL_PREP_TERM, 1);
   const char* got = el_gets(editor.line, &count);
   if (editor.given_up) {

@@ -1,26 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The states of a contact as native Lua values.
 #pragma once
 
 #include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"
-#include "bindings/lua/surface/field_class.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/contact/certificate.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/state.hpp"
+#include "engine/core/cost.hpp"
 #include "engine/core/grid.hpp"
 
 namespace asperity::lua {
 
-// Fields common to all certificates; adhesive contacts add one.
+// Common to all certificates; adhesive contacts add one.
 std::vector<RecordField<Certificate>> certificate_fields();
 
 template <>
-const Class& class_of<asperity::State>();
+Class make_class<asperity::State>();
 
 // The result of contact:explain (plan.cpp).
 template <>
-const Class& class_of<Plan>();
+Class make_class<Plan>();
+
+// st.error; computes its parts on demand.
+struct StateError {
+  asperity::State state;
+};
+
+// st.error.algebraic.
+struct StateBounds {
+  asperity::State state;
+};
+
+template <>
+Class make_class<StateError>();
+template <>
+Class make_class<StateBounds>();
+
+// st.error.discretisation: estimates from the same press on coarser grids, read with the first quantity.
+struct DiscretisationError {
+  asperity::State state;
+};
+
+template <>
+Class make_class<DiscretisationError>();
+
+extern const RecordType<ChosenAccuracy> chosen_accuracy_type;
+extern const RecordType<TriedGrid> tried_grid_type;
+
+// Cells, tolerance, precision, reason and trials. Nil without a requested error.
+Value chosen_record(const asperity::State& state);
 
 }  // namespace asperity::lua

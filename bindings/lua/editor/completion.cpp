@@ -6,11 +6,16 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <tuple>
 
 #include "bindings/lua/editor/help.hpp"
+#include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/embedded.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/runtime/lua_names.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/base_library.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/surface/material.hpp"
 
@@ -22,7 +27,7 @@ constexpr std::size_t none = ScriptTypes::none;
 
 Candidate of_function(const Function& f) { return {f.name, "method", signature(f), f.sentence}; }
 
-// The expected value: an option, a parameter of a function, or the first argument of a Lua built-in.
+// An option, a parameter of a function, or the first argument of a Lua built-in.
 struct Role {
   const OptionInfo* option = nullptr;
   const Parameter* parameter = nullptr;
@@ -194,19 +199,13 @@ class Completer {
       for (const Function& f : module.functions) add(of_function(f));
       for (const Constant& c : module.constants) add({c.name, "value", c.type, c.sentence});
       for (const Module* child : modules())
-        if (child->path.starts_with(module.path + ".") &&
-            child->path.find('.', module.path.size() + 1) == std::string::npos)
-          add({child->path.substr(module.path.size() + 1), "module",
-               child->call ? signature(*child->call) : "", child->sentence});
+        if (const std::string_view name = name_within(module, *child); !name.empty())
+          add({std::string(name), "module", child->call ? signature(*child->call) : "", child->sentence});
     } else if (const auto* type = of.as<const Class*>()) {
-      if (!methods_only)
-        for (const Getter& field : (*type)->fields)
-          add({field.name, "value", describe_field(field), field.sentence});
+      if (!methods_only) fields((*type)->fields);
       for (const Function& method : (*type)->methods) add(of_function(method));
     } else if (const auto* record = of.as<const RecordInfo*>()) {
-      if (!methods_only)
-        for (const Getter& field : (*record)->fields)
-          add({field.name, "value", describe_field(field), field.sentence});
+      if (!methods_only) fields((*record)->fields);
     } else if (const auto* list = of.as<ScriptType::List>(); list != nullptr && list->fields != nullptr) {
       if (!methods_only)
         for (const auto& [name, field] : *list->fields) add({name, "value", type_text(field), ""});
@@ -218,6 +217,10 @@ class Completer {
     } else if (of.as<ScriptType::Text>() != nullptr && methods_only) {
       of_library("string");
     }
+  }
+
+  void fields(const std::vector<Getter>& list) {
+    for (const Getter& field : list) add({field.name, "value", describe_field(field), field.sentence});
   }
 
   static std::string kind_of(const ScriptType& type) {
@@ -249,7 +252,6 @@ class Completer {
       }
   }
 
-  // Keys of the same table after the cursor.
   void keys_after(std::set<std::string, std::less<>>& given) const {
     constexpr std::size_t far_enough = 4000;  // bytes
     const std::string_view behind = rest_.substr(0, far_enough);
@@ -265,7 +267,7 @@ class Completer {
     }
   }
 
-  // Words of a type such as "\"free\"|\"periodic\"".
+  // "\"free\"|\"periodic\""
   static std::vector<std::string> words_in(std::string_view type) {
     std::vector<std::string> words;
     for (std::size_t at = type.find('"'); at != std::string_view::npos; at = type.find('"', at)) {
@@ -315,7 +317,7 @@ class Completer {
     if (role.parameter != nullptr) quantity_words(dimension_of(role.parameter->type), "");
   }
 
-  // For a type such as "a pressure[]".
+  // For example of "a pressure[]".
   static Dimension dimension_of(std::string_view type) {
     type = type.substr(0, std::min({type.find('['), type.find('?'), type.size()}));
     for (const Dimension known : {dimension::length, dimension::area, dimension::mass, dimension::time,
@@ -324,7 +326,7 @@ class Completer {
     return dimension::number;
   }
 
-  // Example for an empty text, unit after a number.
+  // An example, or a unit after a number.
   void quantity_words(Dimension wanted, const std::string& default_text) {
     if (wanted == dimension::number) return;
     const std::string_view content = text_.substr(result_.from);
@@ -388,10 +390,53 @@ class Completer {
 
 }  // namespace
 
-Completion complete(std::string_view text, std::size_t position) { return complete(text, position, {}); }
-
 Completion complete(std::string_view text, std::size_t position, const std::vector<LiveGlobal>& live) {
   return Completer(text, std::min(position, text.size()), live).complete();
+}
+
+namespace {
+
+// Refusals of the sandbox have an upvalue `what`.
+bool is_refused(lua_State* L, int index) {
+  if (!is_sandbox_function(L, index)) return false;
+  bool refused = false;
+  for (int k = 1; const char* name = lua_getupvalue(L, index, k); ++k) {
+    refused = refused || std::string_view(name) == "what";
+    lua_pop(L, 1);
+  }
+  return refused;
+}
+
+void list_table(lua_State* L, const Argument& table, const std::string& library,
+                std::vector<LuaName>& names) {
+  table.each([&](const Argument& key, const Argument& value) {
+    if (!key.is_text() || key.text().starts_with("_")) return;
+    const bool function = lua_isfunction(L, value.index());
+    if (function && is_refused(L, value.index())) return;
+    const std::string name(key.text());
+    names.push_back({library, name, function});
+    if (library.empty() && lua_istable(L, value.index()) && name != "package")
+      list_table(L, value, name, names);
+  });
+}
+
+std::vector<LuaName> read_names() {
+  Session session(Monitor::silent());
+  const State state = make_state(session, "");
+  std::vector<LuaName> names;
+  lua_rawgeti(state.get(), LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+  list_table(state.get(), Argument(state.get(), lua_gettop(state.get())), "", names);
+  std::sort(names.begin(), names.end(), [](const LuaName& a, const LuaName& b) {
+    return std::tie(a.library, a.name) < std::tie(b.library, b.name);
+  });
+  return names;
+}
+
+}  // namespace
+
+const std::vector<LuaName>& lua_names() {
+  static const std::vector<LuaName> names = read_names();
+  return names;
 }
 
 }  // namespace asperity::lua

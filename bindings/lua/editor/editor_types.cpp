@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LuaCATS types for editors: a class for each class, record, module and block of keys.
+// LuaCATS types: a class for each class, record, module and block of keys.
 #include <algorithm>
 
 #include "bindings/lua/editor/help.hpp"
@@ -71,7 +71,7 @@ void cats_function(std::string& page, const Function& function, const std::strin
     names.push_back(p.name);
   }
   if (function.options != nullptr) {
-    page += "---@param options" + std::string(function.options_optional ? "?" : "") + " " +
+    page += "---@param options" + std::string(function.options.optional ? "?" : "") + " " +
             block_class(function) + "\n";
     names.push_back("options");
   }

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <set>
+#include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -31,8 +35,8 @@ std::string signature(const Function& function) {
     for (const OptionInfo* option : function.options->options())
       keys += (keys.empty() ? "" : ", ") + option->name + "=" + option->default_text;
     if (parts.empty()) return text + "{ " + keys + " }";
-    parts.push_back((function.options_optional ? "[{ " : "{ ") + keys +
-                    (function.options_optional ? " }]" : " }"));
+    parts.push_back((function.options.optional ? "[{ " : "{ ") + keys +
+                    (function.options.optional ? " }]" : " }"));
   }
   return text + "(" + joined(parts, ", ") + ")";
 }
@@ -58,32 +62,58 @@ namespace {
 struct NamedOption {
   std::string name;
   const OptionInfo* option;
+  std::string call;
 };
-std::vector<NamedOption> all_options(const BlockInfo& block, const std::string& prefix = "") {
-  std::vector<NamedOption> result;
+
+void add_options(const BlockInfo& block, const std::string& prefix, const std::string& call,
+                 std::vector<NamedOption>& found) {
   for (const OptionInfo* option : block.options()) {
-    result.push_back({prefix + option->name, option});
-    if (option->inner == nullptr) continue;
-    for (NamedOption& inner : all_options(*option->inner, prefix + option->name + "."))
-      result.push_back(std::move(inner));
+    found.push_back({prefix + option->name, option, call});
+    if (option->inner != nullptr) add_options(*option->inner, prefix + option->name + ".", call, found);
   }
-  return result;
+}
+
+std::vector<NamedOption> options_of(const Function& function) {
+  std::vector<NamedOption> found;
+  if (function.options != nullptr) add_options(*function.options, "", qualified_name(function), found);
+  return found;
 }
 
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
 }
 
-std::string fields_help(const std::vector<Getter>& fields, std::size_t width = 0) {
-  for (const Getter& field : fields) width = std::max(width, field.name.size());
+// A line of help or reference.
+struct Row {
+  std::string name, accepts, meaning;
+};
+
+std::vector<Row> rows_of(const std::vector<Getter>& fields) {
+  std::vector<Row> rows;
+  for (const Getter& field : fields) rows.push_back({field.name, describe_field(field), field.sentence});
+  return rows;
+}
+
+// Parameters and options.
+std::vector<Row> rows_of(const Function& function) {
+  std::vector<Row> rows;
+  for (const Parameter& p : function.parameters) rows.push_back({p.name, p.type, p.sentence});
+  for (const auto& [name, option, call] : options_of(function))
+    rows.push_back({name, describe_option(*option), option->sentence});
+  return rows;
+}
+
+std::string rows_help(const std::vector<Row>& rows, std::size_t width = 0) {
+  for (const Row& row : rows) width = std::max(width, row.name.size());
   std::string text;
-  for (const Getter& field : fields)
-    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + describe_field(field) + ")\n";
+  for (const Row& row : rows)
+    text += "  " + padded(row.name, width) + "  " + row.meaning +
+            (row.accepts.empty() ? "" : " (" + row.accepts + ")") + "\n";
   return text;
 }
 
 std::string record_help(const RecordInfo& type) {
-  return type.name + ": " + type.sentence + "\n" + fields_help(type.fields);
+  return type.name + ": " + type.sentence + "\n" + rows_help(rows_of(type.fields));
 }
 
 // Includes records of fields.
@@ -121,7 +151,7 @@ std::vector<std::string> givers_of(const RecordInfo& type) {
   return givers;
 }
 
-// Title, then per row its name and the other cells with their headings.
+// Title; per row its name and the other cells with headings.
 std::string listing_help(const Listing& listing) {
   std::string text = "\n" + listing.title + ":\n";
   for (const std::vector<std::string>& row : listing.rows) {
@@ -136,17 +166,7 @@ std::string function_help(const Function& function) {
   std::string text = signature(function);
   if (!function.returns.empty()) text += "  ->  " + function.returns;
   text += "\n\n" + function.sentence + "\n";
-  std::size_t width = 0;
-  for (const Parameter& p : function.parameters) width = std::max(width, p.name.size());
-  if (function.options != nullptr)
-    for (const NamedOption& named : all_options(*function.options))
-      width = std::max(width, named.name.size());
-  if (width > 0) text += "\n";
-  for (const Parameter& p : function.parameters)
-    text += "  " + padded(p.name, width) + "  " + p.sentence + " (" + p.type + ")\n";
-  if (function.options != nullptr)
-    for (const auto& [name, option] : all_options(*function.options))
-      text += "  " + padded(name, width) + "  " + option->sentence + " (" + describe_option(*option) + ")\n";
+  if (const std::vector<Row> rows = rows_of(function); !rows.empty()) text += "\n" + rows_help(rows);
   text += records_help(function.returns);
   if (function.listing != nullptr) text += listing_help(function.listing());
   if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
@@ -157,7 +177,7 @@ std::string class_help(const Class& type) {
   std::string text = type.name + ": " + type.sentence + "\n";
   std::size_t width = 0;
   for (const std::string& name : type.names()) width = std::max(width, name.size());
-  if (!type.fields.empty()) text += "\nFields:\n" + fields_help(type.fields, width);
+  if (!type.fields.empty()) text += "\nFields:\n" + rows_help(rows_of(type.fields), width);
   if (!type.methods.empty()) text += "\nMethods:\n";
   for (const Function& method : type.methods)
     text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
@@ -170,18 +190,14 @@ std::string class_help(const Class& type) {
 
 std::string module_help(const Module& module) {
   std::string text = module.path + ": " + module.sentence + "\n\n";
-  std::size_t width = 0;
-  for (const Function& f : module.functions) width = std::max(width, f.name.size());
-  for (const Constant& c : module.constants) width = std::max(width, c.name.size());
   if (module.call) text += function_help(*module.call) + "\n";
-  for (const Function& f : module.functions) text += "  " + padded(f.name, width) + "  " + f.sentence + "\n";
-  for (const Constant& c : module.constants) text += "  " + padded(c.name, width) + "  " + c.sentence + "\n";
+  std::vector<Row> rows;
+  for (const Function& f : module.functions) rows.push_back({f.name, "", f.sentence});
+  for (const Constant& c : module.constants) rows.push_back({c.name, "", c.sentence});
   for (const Module* child : modules())
-    if (child->path != module.path && child->path.starts_with(module.path + ".") &&
-        child->path.find('.', module.path.size() + 1) == std::string::npos)
-      text +=
-          "  " + padded(child->path.substr(module.path.size() + 1), width) + "  " + child->sentence + "\n";
-  return text;
+    if (const std::string_view name = name_within(module, *child); !name.empty())
+      rows.push_back({std::string(name), "", child->sentence});
+  return text + rows_help(rows);
 }
 
 std::string topics_help() {
@@ -205,8 +221,8 @@ struct Topic {
   std::string name;
   std::string text;
   std::string sentence;     // of the text
-  bool exact_name = false;  // case-sensitive: "tilt" does not mean `Tilt`
-  bool of_record = false;   // field of a result, rarely searched by its bare name
+  bool exact_name = false;  // "tilt" does not mean `Tilt`
+  bool of_record = false;   // rarely searched by its bare name
 };
 
 std::vector<Topic> collect_topics() {
@@ -248,17 +264,17 @@ const std::vector<Topic>& all_topics() {
   return topics;
 }
 
-std::vector<const Function*> functions_with_options() {
-  std::vector<const Function*> all;
-  const auto look_at = [&](const Function& f) {
-    if (f.options != nullptr) all.push_back(&f);
-  };
-  for (const Module* module : modules()) {
-    if (module->call) look_at(*module->call);
-    for (const Function& f : module->functions) look_at(f);
-  }
-  for (const Class* type : classes())
-    for (const Function& f : type->methods) look_at(f);
+const std::vector<NamedOption>& all_options() {
+  static const std::vector<NamedOption> all = [] {
+    std::vector<NamedOption> found;
+    for (const Module* module : modules()) {
+      if (module->call) append(found, options_of(*module->call));
+      for (const Function& f : module->functions) append(found, options_of(f));
+    }
+    for (const Class* type : classes())
+      for (const Function& f : type->methods) append(found, options_of(f));
+    return found;
+  }();
   return all;
 }
 
@@ -268,14 +284,12 @@ bool same_word(std::string_view a, std::string_view b) {
   });
 }
 
-// Keys of this name and their calls, or "".
 std::string keys_help(const std::string& name) {
   std::string text;
-  for (const Function* function : functions_with_options())
-    for (const auto& [path, option] : all_options(*function->options))
-      if (same_word(path, name) || same_word(last_name(path), name))
-        text += "Key `" + path + "` of " + qualified_name(*function) + ": " + option->sentence + " (" +
-                describe_option(*option) + ")\n";
+  for (const auto& [path, option, call] : all_options())
+    if (same_word(path, name) || same_word(last_name(path), name))
+      text +=
+          "Key `" + path + "` of " + call + ": " + option->sentence + " (" + describe_option(*option) + ")\n";
   return text;
 }
 
@@ -290,8 +304,8 @@ bool has_word(std::string_view sentence, std::string_view word) {
   return false;
 }
 
-// Matches in names, then in sentences; "" for none and for a single letter. `beside`: exact names are already
-// shown.
+// Matches in names, then in sentences; "" for none and for a single letter. `beside`: exact names are shown
+// already.
 std::string hits_help(const std::string& asked, const std::vector<Topic>& topics, bool beside) {
   const std::string word = lower_case(asked);
   if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
@@ -305,10 +319,8 @@ std::string hits_help(const std::string& asked, const std::vector<Topic>& topics
       by_sentence.push_back(name + ": " + sentence);
   };
   for (const Topic& topic : topics) look(topic.name, last_name(topic.name), topic.sentence, "");
-  for (const Function* function : functions_with_options())
-    for (const auto& [path, option] : all_options(*function->options))
-      look("key `" + path + "` of " + qualified_name(*function), last_name(path), option->sentence,
-           option->type);
+  for (const auto& [path, option, call] : all_options())
+    look("key `" + path + "` of " + call, last_name(path), option->sentence, option->type);
   const std::size_t found = by_name.size() + by_sentence.size();
   if (found == 0) return "";
   by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
@@ -318,6 +330,49 @@ std::string hits_help(const std::string& asked, const std::vector<Topic>& topics
   for (std::size_t k = 0; k < std::min(found, most); ++k) text += "  " + by_name[k] + "\n";
   if (found > most) text += "  and " + std::to_string(found - most) + " more\n";
   return text;
+}
+
+// Words without empty ones, as stems: "turning" is "turn".
+std::vector<std::string> stems_of(const std::string& question) {
+  static const std::set<std::string> empty_words = {
+      "a",   "an",  "and", "are", "at",   "can",  "do",    "does",  "for",  "from", "get", "have",
+      "how", "i",   "in",  "is",  "it",   "me",   "my",    "of",    "on",   "or",   "the", "this",
+      "to",  "use", "up",  "we",  "what", "when", "where", "which", "with", "you"};
+  std::vector<std::string> stems;
+  std::istringstream stream(lower_case(question));
+  for (std::string word; stream >> word;) {
+    std::erase_if(word, [](char c) { return !is_letter(c); });
+    if (word.empty() || empty_words.contains(word)) continue;
+    for (const std::string_view ending : {"ing", "ed", "es", "s"})
+      if (word.size() > ending.size() + 2 && word.ends_with(ending)) {
+        word.resize(word.size() - ending.size());
+        break;
+      }
+    stems.push_back(word);
+  }
+  return stems;
+}
+
+// Topics with the rarest words; "" for a single word.
+std::string question_help(const std::string& asked, const std::vector<Topic>& topics) {
+  if (asked.find(' ') == std::string::npos) return "";
+  std::vector<std::pair<double, std::size_t>> scores;
+  for (std::size_t k = 0; k < topics.size(); ++k) scores.emplace_back(0, k);
+  for (const std::string& stem : stems_of(asked)) {
+    std::vector<std::size_t> hits;
+    for (std::size_t k = 0; k < topics.size(); ++k)
+      if (has_word(lower_case(topics[k].name + " " + topics[k].sentence), stem)) hits.push_back(k);
+    for (const std::size_t k : hits) {
+      const bool by_name = has_word(lower_case(last_name(topics[k].name)), stem);
+      scores[k].first -= (by_name ? 2 : 1) / std::sqrt(static_cast<double>(hits.size()));
+    }
+  }
+  std::ranges::sort(scores);
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, scores.size()) && scores[k].first < 0; ++k)
+    text += "  " + topics[scores[k].second].name + ": " + topics[scores[k].second].sentence + "\n";
+  return text.empty() ? text : "nearest to " + quoted(asked) + " are\n" + text;
 }
 
 // --- the reference page
@@ -342,42 +397,32 @@ void listing_reference(std::string& page, const Listing& listing) {
   page += "\n";
 }
 
+void rows_reference(std::string& page, const char* heading, const std::vector<Row>& rows) {
+  if (rows.empty()) return;
+  page += std::string(heading) + "|---|---|---|\n";
+  for (const Row& row : rows) page += table_row({"`" + row.name + "`", row.accepts, row.meaning});
+  page += "\n";
+}
+
 void function_reference(std::string& page, const Function& function) {
   page += "### `" + qualified_name(function) + "`\n\n" + function.sentence + "\n\n";
   page += "```lua\n" + signature(function) + (function.returns.empty() ? "" : "  --> " + function.returns) +
           "\n```\n\n";
-  if (!function.parameters.empty() || function.options != nullptr) {
-    page += "| name | accepts | meaning |\n|---|---|---|\n";
-    for (const Parameter& p : function.parameters)
-      page += "| `" + p.name + "` | " + cell(p.type) + " | " + cell(p.sentence) + " |\n";
-    if (function.options != nullptr)
-      for (const auto& [name, option] : all_options(*function.options))
-        page +=
-            "| `" + name + "` | " + cell(describe_option(*option)) + " | " + cell(option->sentence) + " |\n";
-    page += "\n";
-  }
+  rows_reference(page, "| name | accepts | meaning |\n", rows_of(function));
   if (function.listing != nullptr) listing_reference(page, function.listing());
   if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
-}
-
-void fields_reference(std::string& page, const std::vector<Getter>& fields) {
-  if (fields.empty()) return;
-  page += "| field | type | meaning |\n|---|---|---|\n";
-  for (const Getter& field : fields)
-    page += "| `" + field.name + "` | " + cell(describe_field(field)) + " | " + cell(field.sentence) + " |\n";
-  page += "\n";
 }
 
 void operators_reference(std::string& page, const std::vector<Operator>& operators) {
   if (operators.empty()) return;
   page += "| operator | gives | meaning | example |\n|---|---|---|---|\n";
   for (const Operator& operation : operators)
-    page += "| `" + operation.form + "` | " + cell(operation.returns) + " | " + cell(operation.sentence) +
-            " | `" + operation.example + "` |\n";
+    page += table_row(
+        {"`" + operation.form + "`", operation.returns, operation.sentence, "`" + operation.example + "`"});
   page += "\n";
 }
 
-// A record type appears with its first module or class.
+// With its first module or class.
 void records_reference(std::string& page, const std::vector<const RecordInfo*>& results,
                        std::vector<const RecordInfo*>& told) {
   for (const RecordInfo* type : results) {
@@ -386,7 +431,7 @@ void records_reference(std::string& page, const std::vector<const RecordInfo*>& 
     std::vector<std::string> givers;
     for (const std::string& giver : givers_of(*type)) givers.push_back("`" + giver + "`");
     page += "### " + type->name + "\n\n" + type->sentence + " Given by " + joined(givers, " and ") + ".\n\n";
-    fields_reference(page, type->fields);
+    rows_reference(page, "| field | type | meaning |\n", rows_of(type->fields));
   }
 }
 
@@ -395,13 +440,12 @@ void records_reference(std::string& page, const std::vector<const RecordInfo*>& 
 std::string help_text(const std::string& topic) {
   if (topic.empty()) return topics_help();
   const std::vector<Topic>& topics = all_topics();
-  // Case separates `Surface` (value) from `surface` (module).
+  // `Surface` is a value, `surface` a module.
   for (const std::string& name : {topic, "lab." + topic})
     for (const Topic& t : topics)
       if (t.name == name) return t.text;
   for (const Topic& t : topics)
     if (!t.exact_name && (same_word(t.name, topic) || same_word(t.name, "lab." + topic))) return t.text;
-  // A bare name such as `roughness` can have several meanings.
   std::string found;
   bool fields_alone = true;
   for (const Topic& t : topics)
@@ -417,15 +461,15 @@ std::string help_text(const std::string& topic) {
   if (const std::string hits = hits_help(topic, topics, !found.empty()); !hits.empty())
     return found + (found.empty() ? "" : "\n") + hits;
   if (!found.empty()) return found;
+  if (const std::string nearest = question_help(topic, topics); !nearest.empty()) return nearest;
   std::vector<std::string> names;
-  for (const Function* function : functions_with_options())
-    for (const NamedOption& named : all_options(*function->options)) names.push_back(last_name(named.name));
+  for (const NamedOption& key : all_options()) names.push_back(last_name(key.name));
   for (const Topic& t : topics) {
     names.push_back(t.name);
     names.push_back(last_name(t.name));
   }
   throw Error(ErrorCode::unknown_name, "there is no help on " + quoted(topic) + did_you_mean(topic, names),
-              "help without a topic lists what there is");
+              "help without a topic lists all topics");
 }
 
 std::vector<std::string> help_topics() {
@@ -475,11 +519,11 @@ std::string reference_page() {
       "Every function, value and key of the language, from the same entries that drive the program.\n"
       "The same inputs give the same bits on every x86-64 processor, in every build and for any number of "
       "threads.\n"
-      "Excepted are contacts spread over several ranks (`lab.spread`), whose transforms choose by the "
-      "processor, and\n"
-      "what a script itself computes by `^` and by `math`, which is the C library's; where they differ,\n"
-      "`asperity replay` names processor, C library and build. `pairs` and `next` go in one order: numbers,\n"
-      "strings by their bytes, booleans.\n"
+      "Two kinds of results are excepted: of contacts spread over several ranks (`lab.spread`), whose\n"
+      "transforms depend on the processor, and of `^` and `math` in a script, which come from the C "
+      "library.\n"
+      "If results differ, `asperity replay` names processor, C library and build. `pairs` and `next` follow\n"
+      "one order: numbers, strings by their bytes, booleans.\n"
       "A quantity is a plain SI number or a string with a unit, `\"250 um\"`. Every entry has an example "
       "that runs\n"
       "after these lines:\n\n```lua\n" +
@@ -499,10 +543,18 @@ std::string reference_page() {
   }
   for (const Class* type : classes()) {
     page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
-    fields_reference(page, type->fields);
+    rows_reference(page, "| field | type | meaning |\n", rows_of(type->fields));
     if (!type->drawing.empty()) page += "```text\n" + type->drawing + "```\n\n";
     operators_reference(page, type->operators);
-    for (const Function& f : type->methods) function_reference(page, f);
+    // Notebooks share most methods with tables.
+    const Class& table = *find_class("Table");
+    const auto shared = [&](const Function& f) {
+      return type != &table &&
+             std::ranges::find(table.methods, f.body, &Function::body) != table.methods.end();
+    };
+    for (const Function& f : type->methods)
+      if (!shared(f)) function_reference(page, f);
+    if (std::ranges::any_of(type->methods, shared)) page += "All methods of [Table](#table).\n\n";
     records_reference(page, type->results, told);
   }
   while (page.ends_with("\n\n")) page.pop_back();

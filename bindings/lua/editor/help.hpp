@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Help, the reference page and LuaCATS types, all from the registry entries behind the calls.
+// Help, reference page and LuaCATS types from the registry.
 #pragma once
 
 #include <string>
@@ -15,13 +15,12 @@ std::string help_text(const std::string& topic);
 // Full names for help_text().
 std::vector<std::string> help_topics();
 
-// One line each: "lab.surface.flat{ cells=, size= }"; "a length above 0, default \"1 um\""; "number, Pa".
+// "lab.surface.flat{ cells=, size= }"; "a length above 0, default \"1 um\""; "number, Pa".
 std::string signature(const Function& function);
 std::string describe_option(const OptionInfo& option);
 std::string describe_field(const Getter& field);
 
-// Defines values for the examples; each example runs after it in its own run
-// (tests/bindings/examples_test.cpp).
+// Values for the examples; each runs after it in its own run (tests/bindings/examples_test.cpp).
 const std::string& example_preamble();
 // docs/reference.md
 std::string reference_page();

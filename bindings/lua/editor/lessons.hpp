@@ -19,7 +19,7 @@ struct Lesson {
   std::string predict;
   int minutes = 0;
   std::string explanation;  // Markdown
-  std::string text;         // question, prediction and explanation; Markdown
+  std::string text;         // Markdown: question, prediction, explanation
   std::string_view script;
 };
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/editor/prompt.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
+#include "bindings/lua/editor/completion.hpp"
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/runtime/lua_names.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
 
@@ -16,7 +19,7 @@ namespace asperity::lua {
 
 namespace {
 
-const char kept_key = 0;  // registry key of the globals before the line
+const char kept_key = 0;  // registry key of the former globals
 
 constexpr const char* chunk_name = "=prompt";
 
@@ -77,7 +80,7 @@ std::string without_idle_traceback(std::string message) {
   return message;
 }
 
-// Start of the final `.field` after a call, else 0.
+// Start of a final `.field` after a call, else 0.
 std::size_t owner_of_field(const std::string& text) {
   const ScriptTypes script(text, read_tokens(text).list, {});
   const std::size_t end = script.size();
@@ -91,7 +94,7 @@ std::string field_at_end(const std::string& text) {
   return text.substr(tokens.back().begin, tokens.back().end - tokens.back().begin);
 }
 
-// Nothing may follow `return` in the script of the session.
+// In a script, nothing may follow `return`.
 std::string without_return(std::string text) {
   const std::vector<Token> tokens = read_tokens(text).list;
   constexpr std::string_view word = "return";
@@ -163,12 +166,16 @@ Prompt::Outcome Prompt::take(std::string_view line, int number) {
   const std::string text =
       without_return(waiting_.empty() ? std::string(line) : waiting_ + "\n" + std::string(line));
   const Argument::StackGuard guard(L);
-  const std::string before(static_cast<std::size_t>(first_line_ - 1), '\n');
-  if (one_line(text).empty()) {
+  const std::string before(static_cast<std::size_t>(first_line_ - 1), '\n'), command = one_line(text);
+  const bool lists = command == "who" || command == "who()";
+  if (command.empty() || lists) {
     waiting_.clear();
+    if (lists) show_text(bench_text());
     return Outcome::done;
   }
-  // A second value, the owner of a call's field, gives the unit.
+  if (command == "exit" || command == "exit()" || command == "quit" || command == "quit()")
+    return Outcome::end;
+  // The owner of a call's field gives the unit.
   const std::size_t owner = owner_of_field(text);
   const std::string with_owner = owner == 0 ? ""
                                             : "local result = " + text.substr(0, owner) + " return result" +
@@ -238,7 +245,7 @@ void Prompt::remember(const std::string& text, bool is_expression) {
   const std::string line = words(text);
   const bool moves = script.word(0) == "lab" && script.is(1, ".") && script.word(2) == "knob" &&
                      script.is(3, ".") && script.word(4) == "set";
-  if (moves) return;  // the script is rerun and notes the change
+  if (moves) return;  // the rerun notes the change
   const bool about_itself = script.word(0) == "help" || script.word(0) == "show";
   const bool call =
       script.is(end - 1, ")") || script.is(end - 1, "}") || script.token(end - 1).kind == Token::Kind::text;
@@ -265,6 +272,27 @@ void Prompt::show_text(std::string text) const {
   std::fflush(output);
 }
 
+std::string Prompt::bench_text() const {
+  const Argument::StackGuard guard(L);
+  std::vector<std::pair<std::string, std::string>> rows;
+  lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+  Argument(L, lua_gettop(L)).each([&](const Argument& key, const Argument& value) {
+    const std::string name = key.is_text() ? std::string(key.text()) : "_";
+    const bool own = std::ranges::any_of(lua_names(), [&](const LuaName& of) { return of.name == name; });
+    if (!own && !name.starts_with("_") && name != "lab" && name != "show")
+      rows.emplace_back(name, shown_line(L, value.index()));
+  });
+  if (rows.empty())
+    return "nothing is on the bench; name a result, as in s = lab.surface.flat{ cells=64, size=1 }";
+  std::ranges::sort(rows);
+  std::size_t width = 0;
+  for (const auto& [name, text] : rows) width = std::max(width, name.size());
+  std::string list;
+  for (const auto& [name, text] : rows)
+    list += name + std::string(width - name.size() + 2, ' ') + text.substr(0, text.find('\n')) + "\n";
+  return list;
+}
+
 // With the unit of the owner's field, if any.
 std::string Prompt::with_unit_of(int owner, std::string_view field, int index) const {
   std::optional<Dimension> dimension;
@@ -279,14 +307,14 @@ std::string Prompt::with_unit_of(int owner, std::string_view field, int index) c
   return quantity ? shown_quantity(lua_tonumber(L, index), *dimension) : shown_line(L, index);
 }
 
-// Numbers have no unit; their fields do.
+// A field has a unit, its number none.
 std::string Prompt::with_unit(const std::string& expression, int index) const {
   if (lua_type(L, index) != LUA_TNUMBER) return shown_line(L, index);
   const ScriptTypes script(expression, read_tokens(expression).list, {});
   const std::size_t end = script.size();
   const auto is_name = [&](std::size_t k) { return k < end && script.token(k).kind == Token::Kind::name; };
   if (end < 3 || !is_name(end - 1) || !script.is(end - 2, ".")) return shown_line(L, index);
-  // Names and dots only: other expressions would repeat a call.
+  // Other expressions would repeat a call.
   for (std::size_t k = 0; k < end; ++k)
     if (end % 2 == 0 || (k % 2 == 0 ? !is_name(k) : !script.is(k, "."))) return shown_line(L, index);
   const Argument::StackGuard guard(L);
@@ -356,7 +384,7 @@ void Prompt::keep_globals() {
 
 void Prompt::restore_globals() {
   auto action = [](lua_State* state) { return restore_action(state); };
-  // The hook that stopped the line would stop this call; Ctrl-C can set the hook again.
+  // The hook that stopped the line would stop this call; Ctrl-C may set it again.
   constexpr int tries = 5;
   for (int k = 0; k < tries; ++k) {
     lua_sethook(L, nullptr, 0, 0);

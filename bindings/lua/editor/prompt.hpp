@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An interactive session in one Lua state. An expression prints its value; an incomplete statement waits for
 // more lines; a top-level `local` becomes a global. A failing line restores all variables, not the contents
-// of tables, and clears the hook. Lines are text: no terminal code.
+// of tables, and clears the hook. No terminal codes.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ class Prompt {
   // Sets globals `lab` and `show`. Throws Error{out_of_memory}.
   explicit Prompt(lua_State* state);
 
-  enum class Outcome { done, more, failed };
-  // `number`: line number in the input. `more`: the statement is incomplete. `failed`: see error(); the next
-  // line may follow.
+  enum class Outcome { done, more, failed, end };
+  // `number`: of the input line. `more`: the statement is incomplete. `failed`: see error(); the next line
+  // may follow. `end`: the line is `exit` or `quit`. `who` lists the variables.
   Outcome take(std::string_view line, int number = 1);
-  // Runs the script() of an earlier prompt and appends `why` as a comment. Never `more`.
+  // Runs an earlier prompt's script() and appends `why` as a comment. Never `more`.
   Outcome run_again(const std::string& script, const std::string& why);
-  // With a traceback, if functions were running.
+  // With traceback inside functions.
   const std::string& error() const { return error_; }
 
   bool continued() const { return !waiting_.empty(); }
@@ -41,6 +41,7 @@ class Prompt {
   void remember(const std::string& text, bool is_expression);
   void show_results(int first, const std::string& text);
   void show_text(std::string text) const;
+  std::string bench_text() const;
   std::string with_unit(const std::string& expression, int index) const;
   std::string with_unit_of(int owner, std::string_view field, int index) const;
   std::vector<LiveGlobal> live_globals() const;
@@ -54,17 +55,15 @@ class Prompt {
   std::string script_ = "lab = require \"asperity\"\n";
 };
 
-// Top-level `local x = 1` becomes `x = 1`, `local x` becomes `x = nil`, on the same lines.
+// `local x = 1` becomes `x = 1`, `local x` becomes `x = nil`, on the same lines.
 std::string with_lasting_locals(const std::string& text);
 
 // Raises a Lua error without memory.
 void push_show(lua_State* L);
 
-// --- values as text (shown_line.cpp)
+// --- values as text (show.cpp)
 
-// Never raises.
-std::string shown_line(lua_State* L, int index);
-// For example "814.7 pm (8.147e-10 m)".
+// "814.7 pm (8.147e-10 m)"
 std::string shown_quantity(double value, Dimension dimension);
 
 }  // namespace asperity::lua

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "bindings/lua/registry/registry.hpp"
 
@@ -10,9 +11,137 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr int deepest_brackets = 40;  // brackets in brackets; deeper values are unknown
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_name(char c) { return begins_name(c) || is_digit(c); }
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// The word that closes a bracket or block; empty for other words.
+class Lexer {
+ public:
+  explicit Lexer(std::string_view text) : text_(text) {}
+
+  ScriptTokens read() {
+    if (text_.starts_with("#")) at_ = line_end(0);
+    while (at_ < text_.size()) step();
+    return std::move(tokens_);
+  }
+
+ private:
+  char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  std::size_t line_end(std::size_t from) const { return std::min(text_.find('\n', from), text_.size()); }
+
+  // Number of `=` in the long bracket at `from`, or -1.
+  int long_bracket(std::size_t from) const {
+    if (from >= text_.size() || text_[from] != '[') return -1;
+    std::size_t k = from + 1;
+    while (k < text_.size() && text_[k] == '=') ++k;
+    return k < text_.size() && text_[k] == '[' ? static_cast<int>(k - from - 1) : -1;
+  }
+
+  // End of the closing bracket, or npos.
+  std::size_t past_long(std::size_t from, int level) const {
+    const std::string closing = "]" + std::string(static_cast<std::size_t>(level), '=') + "]";
+    const std::size_t end = text_.find(closing, from);
+    return end == std::string_view::npos ? end : end + closing.size();
+  }
+
+  void add(Token::Kind kind, std::size_t end) {
+    tokens_.list.push_back({kind, at_, end});
+    at_ = end;
+  }
+
+  void step() {
+    const char c = peek();
+    if (is_space(c)) {
+      ++at_;
+    } else if (c == '-' && peek(1) == '-') {
+      comment();
+    } else if (begins_name(c)) {
+      std::size_t end = at_;
+      while (end < text_.size() && is_name(text_[end])) ++end;
+      const bool keyword = is_keyword(text_.substr(at_, end - at_));
+      add(keyword ? Token::Kind::keyword : Token::Kind::name, end);
+    } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
+      std::size_t end = at_;
+      while (end < text_.size() && (is_name(text_[end]) || text_[end] == '.')) {
+        const char last = text_[end++];
+        const bool exponent = last == 'e' || last == 'E' || last == 'p' || last == 'P';
+        if (exponent && end < text_.size() && (text_[end] == '-' || text_[end] == '+')) ++end;
+      }
+      add(Token::Kind::number, end);
+    } else if (c == '"' || c == '\'') {
+      quoted_text(c);
+    } else if (const int level = long_bracket(at_); level >= 0) {
+      const std::size_t content = at_ + static_cast<std::size_t>(level) + 2;
+      const std::size_t end = past_long(content, level);
+      add(Token::Kind::text, std::min(end, text_.size()));
+      tokens_.list.back().content = content;
+      tokens_.list.back().open = end == std::string_view::npos;
+    } else {
+      add(Token::Kind::sign, at_ + sign_length());
+    }
+  }
+
+  void comment() {
+    if (const int level = long_bracket(at_ + 2); level >= 0) {
+      const std::size_t end = past_long(at_ + 4 + static_cast<std::size_t>(level), level);
+      tokens_.ends_in_comment = end == std::string_view::npos;
+      at_ = std::min(end, text_.size());
+    } else {
+      at_ = line_end(at_);
+      tokens_.ends_in_comment = at_ == text_.size();
+    }
+  }
+
+  void quoted_text(char quote) {
+    std::size_t end = at_ + 1;
+    bool closed = false;
+    while (end < text_.size() && text_[end] != '\n') {
+      const char c = text_[end++];
+      if (c == quote) {
+        closed = true;
+        break;
+      }
+      if (c == '\\' && end < text_.size()) ++end;
+    }
+    const std::size_t begin = at_;
+    add(Token::Kind::text, std::min(end, text_.size()));
+    tokens_.list.back().content = begin + 1;
+    tokens_.list.back().open = !closed && at_ == text_.size();
+  }
+
+  std::size_t sign_length() const {
+    if (text_.substr(at_, 3) == "...") return 3;
+    for (const std::string_view two : {"..", "==", "~=", "<=", ">=", "//", "::", "<<", ">>"})
+      if (text_.substr(at_, 2) == two) return 2;
+    return 1;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  ScriptTokens tokens_;
+};
+
+}  // namespace
+
+const std::vector<std::string_view>& keywords() {
+  static const std::vector<std::string_view> words = {
+      "and", "break", "do",  "else", "elseif", "end",    "false",  "for",  "function", "goto",  "if",
+      "in",  "local", "nil", "not",  "or",     "repeat", "return", "then", "true",     "until", "while"};
+  return words;
+}
+
+bool is_keyword(std::string_view word) {
+  return std::binary_search(keywords().begin(), keywords().end(), word);
+}
+
+ScriptTokens read_tokens(std::string_view script) { return Lexer(script).read(); }
+
+namespace {
+
+constexpr int deepest_brackets = 40;  // deeper values are unknown
+
+// Empty for words that open nothing.
 std::string_view closing_of(std::string_view word) {
   static constexpr std::pair<std::string_view, std::string_view> pairs[] = {
       {"(", ")"},    {"[", "]"},    {"{", "}"},         {"function", "end"},
@@ -33,15 +162,10 @@ bool is_binary(std::string_view sign) {
   return std::find(signs.begin(), signs.end(), sign) != signs.end();
 }
 
-// "State", "ProtocolEvent and State?": one type a turn.
+// "State", "ProtocolEvent and State?": one type per turn.
 ScriptTypeList types_of_turn(std::string_view text) {
-  constexpr std::string_view separator = " and ";
   ScriptTypeList types;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(separator), text.size());
-    types.push_back(script_type(text.substr(0, end)));
-    text.remove_prefix(std::min(end + separator.size(), text.size()));
-  }
+  for (const std::string_view type : parts_of(text, " and ")) types.push_back(script_type(type));
   return types;
 }
 
@@ -51,7 +175,7 @@ ScriptTypeList results_of(const Function& function) {
   return types;
 }
 
-// The operator of a native value on either side; "" is the sign before a value.
+// For a native value on either side; "" is a sign before a value.
 const Operator* operator_of(const ScriptType& left, const ScriptType& right, std::string_view sign) {
   const std::string_view event = sign == "+"   ? "__add"
                                  : sign == "-" ? "__sub"
@@ -176,8 +300,8 @@ bool ScriptTypes::is(std::size_t k, std::string_view word_or_sign) const {
 }
 
 void ScriptTypes::match_brackets() {
-  std::vector<std::pair<std::size_t, std::string_view>> open;  // the token, and the word that closes it
-  std::map<std::string_view, std::size_t> awaited;             // how many of the open ones a word would close
+  std::vector<std::pair<std::size_t, std::string_view>> open;  // token, and its closing word
+  std::map<std::string_view, std::size_t> awaited;             // open blocks by closing word
   for (std::size_t k = 0; k < size(); ++k) {
     around_[k] = open.empty() ? none : open.back().first;
     const Token::Kind kind = tokens_[k].kind;
@@ -187,7 +311,7 @@ void ScriptTypes::match_brackets() {
       open.emplace_back(k, closing);
       ++awaited[closing];
     } else if (closes(here) && awaited[here] > 0) {
-      // Brackets left open inside end here too. A sign that closes nothing is skipped.
+      // Brackets left open inside end here too. Unmatched signs are skipped.
       while (open.back().second != here) {
         ++steps_;
         --awaited[open.back().second];
@@ -205,7 +329,7 @@ void ScriptTypes::match_brackets() {
 // `a, b = values`, `local a <const>, b = values`, `for a, b in values do`, `for a = values do`, `function
 // f(a, b)`.
 void ScriptTypes::read_assignments() {
-  std::size_t first = none;  // of the list of names that ends here
+  std::size_t first = none;  // of the list of names
   for (std::size_t k = 0; k < size(); ++k) {
     ++steps_;
     if (is(k, "function")) {
@@ -250,7 +374,7 @@ void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
   for (;;) {
     const std::size_t from = k;
     ScriptTypeList found = value(k, size(), 0);
-    // The reader is inside these values: the names do not exist yet.
+    // Inside these values the names do not exist yet.
     if (k == from || (k == size() && is(k - 1, "=")) ||
         (k == size() && open_at_end_ != none && open_at_end_ >= values))
       return;
@@ -272,8 +396,7 @@ void ScriptTypes::assign(std::size_t first, std::size_t values, bool loop) {
   }
 }
 
-// The type of an operator's result is that of the native value on either side; `or` gives the first known
-// one.
+// An operator's type comes from the native value on either side; `or` gives the first known type.
 ScriptTypeList ScriptTypes::value(std::size_t& k, std::size_t stop, int depth) const {
   if (depth >= deepest_brackets) return {};
   ScriptTypeList types = operand(k, stop, depth);
@@ -399,7 +522,7 @@ std::size_t ScriptTypes::chain_begin(std::size_t last) const {
       k -= 2;
       continue;
     }
-    // A group or text after a name or another group is an argument; otherwise the chain begins here.
+    // After a name or another group an argument, else the begin of a chain.
     const bool argument = k > 0 && (is_name(k - 1) || is(k - 1, ")") || is(k - 1, "]") || is(k - 1, "}"));
     if (!argument) return k;
     --k;
@@ -416,7 +539,7 @@ ScriptType ScriptTypes::chain_ending_at(std::size_t last) const {
 
 ScriptType ScriptTypes::name_type(std::string_view name) const {
   if (const auto place = names_.find(name); place != names_.end()) return place->second;
-  // A script that has not yet required the laboratory means it all the same.
+  // Also in a script without `require`.
   if (name == "lab") return script_type("lab");
   for (const std::string_view library :
        {"string", "table", "math", "os", "io", "coroutine", "utf8", "require", "ipairs", "pairs", "assert",

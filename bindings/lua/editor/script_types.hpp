@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The types of names in an unfinished script, from its text and the registry: after `local c =
 // lab.contact{...}` the name c is a Contact, inside `for st in c:sweep{...} do` the name st is a State. The
-// last assignment above the reader decides, in whichever block it is. Fields of the script's own tables and
-// results of its own functions have no known type. Nothing is run. Linear in the length of the text.
+// last assignment above the cursor counts, in any block. The script's own tables and functions have no known
+// types. Runs no code. Linear in the length of the text.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,10 +13,30 @@
 #include <variant>
 #include <vector>
 
-#include "bindings/lua/editor/script_tokens.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 
 namespace asperity::lua {
+
+// Tokens of an unfinished Lua script with positions, without comments. An unclosed string ends with its line
+// or the text.
+struct Token {
+  enum class Kind { name, keyword, number, text, sign };
+  Kind kind;
+  std::size_t begin, end;   // bytes, with quotes
+  bool open = false;        // unclosed string
+  std::size_t content = 0;  // of a string: first inner byte
+};
+
+struct ScriptTokens {
+  std::vector<Token> list;
+  bool ends_in_comment = false;
+};
+
+ScriptTokens read_tokens(std::string_view script);
+
+bool is_keyword(std::string_view word);
+// Sorted.
+const std::vector<std::string_view>& keywords();
 
 struct ScriptType;
 using ScriptTypeList = std::vector<ScriptType>;
@@ -28,9 +49,9 @@ struct ScriptType {
   using Fields = std::map<std::string, ScriptType, std::less<>>;
   struct List {
     std::shared_ptr<const ScriptType> element;
-    std::shared_ptr<const Fields> fields{};  // named fields of the list; may be null
+    std::shared_ptr<const Fields> fields{};  // of the list; may be null
   };
-  // A record whose fields have any name and one type: costs by effect.
+  // Fields with any name and one type: costs by effect.
   struct Map {
     std::shared_ptr<const ScriptType> element;
   };
@@ -41,7 +62,7 @@ struct ScriptType {
   struct Table {
     std::shared_ptr<const Fields> fields;
   };
-  // A part of Lua's own library: "math", or a function in it: "math.floor", "ipairs".
+  // "math", "math.floor", "ipairs".
   struct Library {
     std::string path;
   };
@@ -61,7 +82,7 @@ ScriptType script_type(std::string_view text);
 // For people: "a Surface", "a list of Profile", "function"; "" for the unknown.
 std::string type_text(const ScriptType& type);
 
-// A global of a running Lua state; `type` as script_type() reads it.
+// A global of a running Lua state; `type` for script_type().
 struct LiveGlobal {
   std::string name;
   std::string type;
@@ -71,7 +92,7 @@ struct LiveGlobal {
 // Keeps a view of the text.
 class ScriptTypes {
  public:
-  // `tokens` are those before the reader.
+  // `tokens`: up to the cursor.
   ScriptTypes(std::string_view text, std::vector<Token> tokens, const std::vector<LiveGlobal>& live);
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -90,15 +111,15 @@ class ScriptTypes {
   // The token that closes the bracket or block opened at k, or that opens the one closed at k.
   std::size_t partner(std::size_t k) const { return partner_[k]; }
 
-  // The type of the chain of names, calls and indices that ends with token k: `lab.surface.flat{...}`.
+  // The type of a chain of names, calls and indices such as `lab.surface.flat{...}`.
   ScriptType chain_ending_at(std::size_t k) const;
-  // The first token of that chain; none if no chain ends there.
+  // The chain's first token, or none.
   std::size_t chain_begin(std::size_t last) const;
   ScriptType name_type(std::string_view name) const;
-  // All names that the script or the live state has set, in order.
+  // Set by the script or the live state, in order.
   const std::map<std::string_view, ScriptType>& names() const { return names_; }
 
-  // The number of tokens read so far, a measure of the time.
+  // Tokens read so far: a measure of time.
   std::size_t steps() const { return steps_; }
 
  private:

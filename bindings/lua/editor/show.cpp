@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// show(value): maps of surfaces and fields, charts of profiles and notebook columns, in the terminal or in a
-// file.
+// show(value): maps and charts, in the terminal or in a file.
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "bindings/lua/editor/prompt.hpp"
+#include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/library.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "bindings/lua/surface/field_class.hpp"
 #include "bindings/lua/surface/surface.hpp"
+#include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
-#include "engine/plot/picture_profile.hpp"
+#include "engine/plot/picture.hpp"
 #include "engine/plot/text_picture.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -34,7 +40,7 @@ std::optional<std::string> file_given(const Call& call) {
 void show_map(const Call& call, const Grid& grid, const Field& values, const std::string& label,
               Dimension dimension) {
   const std::optional<std::string> file = file_given(call);
-  PictureOptions options = file ? PictureOptions{} : call.options(picture_block(), 2);
+  PictureOptions options = file ? PictureOptions{} : call.options(picture_block, 2);
   options.label = options.label == PictureOptions{}.label ? label : options.label;
   options.unit = si_unit(dimension);
   if (options.palette == PictureOptions{}.palette) options.palette = palette_of_field(label);
@@ -91,15 +97,14 @@ void show_numbers(const Call& call, const Argument& table) {
   chart.x.label = "number";
   chart.y.label = "value";
   ChartSeries& line = chart.series.emplace_back();
-  for (std::int64_t k = 1; k <= table.length(); ++k)
-    table.element(k, [&](const Argument& value) {
-      if (!value.is_number())
-        throw Error(ErrorCode::bad_value,
-                    "element " + std::to_string(k) + " of the list is " + value.describe(),
-                    "give a list of numbers");
-      line.x.push_back(static_cast<double>(k));
-      line.y.push_back(value.number());
-    });
+  table.elements([&](const Argument& value, std::int64_t k) {
+    if (!value.is_number())
+      throw Error(ErrorCode::bad_value,
+                  "element " + std::to_string(k) + " of the list is " + value.describe(),
+                  "give a list of numbers");
+    line.x.push_back(static_cast<double>(k));
+    line.y.push_back(value.number());
+  });
   show_chart(call, chart);
 }
 
@@ -142,5 +147,11 @@ int outer_show(lua_State* L) {
 }  // namespace
 
 void push_show(lua_State* L) { lua_pushcfunction(L, outer_show); }
+
+std::string shown_quantity(double value, Dimension dimension) {
+  const std::string readable = format_quantity(value, dimension);
+  const std::string plain = format_short(value + 0.0, 8) + " " + si_unit(dimension);
+  return readable == plain ? readable : readable + " (" + plain + ")";
+}
 
 }  // namespace asperity::lua

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Script function calls as cases of an implicit ensemble: arguments in, answer in the row.
+// Script function calls as cases of an implicit ensemble.
 #include "bindings/lua/registry/call_batch.hpp"
 
 #include <array>
@@ -17,7 +17,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/knob.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
@@ -43,8 +43,8 @@ class BatchedCases final : public ScriptedCases {
 
   const std::string& reason(std::size_t k) const { return reasons_[k]; }
   std::string name(std::size_t k) const override { return "call " + std::to_string(k + 1); }
-  // Calls start in order, and later calls are skipped, so that the first failure, which the caller reports,
-  // is the same for any number of threads.
+  // Calls start in order, and later calls are skipped: the reported first failure is the same for any number
+  // of threads.
   Finished compute(std::size_t k) override {
     if (k > first_failed_) return std::make_unique<CaseResult>();
     Finished found = ScriptedCases::compute(k);
@@ -57,25 +57,8 @@ class BatchedCases final : public ScriptedCases {
   }
 
  private:
-  std::vector<std::string> reasons_;  // each written by its call's thread
+  std::vector<std::string> reasons_;  // one writer each
   std::atomic<std::size_t> first_failed_ = std::numeric_limits<std::size_t>::max();
-};
-
-// Progress as a number of calls.
-class BatchMonitor final : public Monitor {
- public:
-  BatchMonitor(Monitor& outer, std::size_t count, const std::function<void(std::size_t)>& done)
-      : outer_(outer), count_(count), done_(done) {}
-  void progress(std::string_view, double done) override {
-    done_(static_cast<std::size_t>(std::lround(done * static_cast<double>(count_))));
-  }
-  void warn(std::string_view sentence) override { outer_.warn(sentence); }
-  ResultStore* results() override { return outer_.results(); }
-
- private:
-  Monitor& outer_;
-  std::size_t count_;
-  const std::function<void(std::size_t)>& done_;
 };
 
 class ScriptedBatch final : public CallBatch {
@@ -90,7 +73,9 @@ class ScriptedBatch final : public CallBatch {
                                      const std::function<void(std::size_t)>& done) override {
     std::vector<CaseSetup> setups;
     for (const Values& given : arguments) setups.push_back(setup_of(given));
-    BatchMonitor monitor(session_.monitor(), setups.size(), done);
+    QuietMonitor monitor(session_.monitor(), [&](double share) {
+      done(static_cast<std::size_t>(std::lround(share * static_cast<double>(setups.size()))));
+    });
     BatchedCases cases(setups, kept_);
     CaseSchedule schedule{monitor};
     schedule.ensemble = common_.ensemble;
@@ -113,12 +98,7 @@ class ScriptedBatch final : public CallBatch {
     one.seed = Stream(session_.seed, "calls of a study").bits(calls_++);
     for (std::size_t k = 0; k < given.size(); ++k) {
       const Argument::StackGuard guard(L);
-      auto push_value = [&](lua_State* s) {
-        push(s, given[k]);
-        return 1;
-      };
-      if (protect(L, 0, 1, push_value) != LUA_OK)
-        throw Error(ErrorCode::out_of_memory, "there is no memory for the arguments of a call");
+      push_checked(L, given[k], "the arguments of a call");
       one.values.push_back({names_of_arguments[k],
                             pack(L, -1, Cargo::data, "the argument", "give numbers, strings and tables"),
                             Argument(L, -1).describe()});
@@ -133,11 +113,7 @@ class ScriptedBatch final : public CallBatch {
     answer.failure = result.failure;
     if (result.row == nullptr) return answer;
     const Argument::StackGuard guard(L);
-    auto push_row = [&result](lua_State* s) {
-      result.row->push(s);
-      return 1;
-    };
-    if (protect(L, 0, 1, push_row) != LUA_OK) throw Error(ErrorCode::out_of_memory, error_text(L, -1));
+    push_checked(L, result.row, "the answer of a call");
     with_key(Argument(L, -1), "answer", [&](const Argument& value) {
       answer.nil = value.is_nil();
       if (value.is_number())
@@ -148,7 +124,7 @@ class ScriptedBatch final : public CallBatch {
     return answer;
   }
 
-  // Adds inputs and knobs of a call to the run or the enclosing case.
+  // To the run or the enclosing case.
   void note(const CaseResult& result) {
     for (const RunKnob& knob : result.knobs) {
       session_.knobs->make(knob);  // not made by a stored call

@@ -75,7 +75,6 @@ void note_roster(const fs::path& store, const std::string& script_digest, CaseRo
     fs::create_directories(file.parent_path(), problem);
     write_atomically(file, text + "\n");
   } catch (const Error&) {
-    // The store reports its own write errors.
   }
 }
 
@@ -92,7 +91,6 @@ std::vector<CaseRoster> rosters_in(const fs::path& store) {
     try {
       rosters.push_back(roster_from(Json::parse(text.str(), quoted(entry->path().string()))));
     } catch (const Error&) {
-      // Results are also found without this list.
     }
   }
   std::ranges::sort(rosters, {}, [](const CaseRoster& roster) {

@@ -22,7 +22,7 @@ struct RosterEntry {
 
 struct CaseRoster {
   std::string script, place;  // "study.lua", "at study.lua:12"
-  std::string build;          // builds do not share results
+  std::string build;          // shares no results with others
   int ensemble = 1;           // in the script, from 1
   int shards = 0;             // 0: none
   std::vector<RosterEntry> cases;
@@ -38,7 +38,7 @@ std::vector<CaseRoster> rosters_in(const std::filesystem::path& store);
 
 StoreReport look_up(const std::filesystem::path& store, const CaseRoster& roster);
 
-// "cases 2, 3 and 5 to 9", of `count`; "shards 2/3 and 3/3" for whole shards.
+// "cases 2, 3 and 5 to 9"; "shards 2/3 and 3/3" for whole shards.
 std::string cases_text(const std::vector<std::size_t>& cases, std::size_t count, int shards);
 
 }  // namespace asperity::lua

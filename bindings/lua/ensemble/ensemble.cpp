@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/ensemble/ensemble.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +9,7 @@
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/knob.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/arithmetic/random.hpp"
@@ -38,6 +36,7 @@ struct EnsembleKeys {
   };
   std::optional<std::vector<Varied>> over;  // sorted by key
   std::optional<std::vector<Values>> cases;
+  std::vector<std::pair<std::string, std::string>> units;  // of names such as "Ra [um]"
   OnFailure on_failure = OnFailure::error;
 
   std::size_t count() const {
@@ -74,6 +73,20 @@ CaseValue read_value(const std::string& key, const Argument& value, const std::s
       pack(value.state(), value.index(), Cargo::data, name,
            "a case is described by numbers, strings, booleans, tables of these, and values such as surfaces"),
       value_text(value)};
+}
+
+// In um under "Ra [um]"; the case has it under `Ra`, in SI.
+CaseValue read_value(EnsembleKeys& keys, std::string_view key, const Argument& value,
+                     const std::string& path) {
+  const TableColumn column = split_column_unit(key);
+  if (column.unit.empty() || !value.is_number()) return read_value(std::string(key), value, path);
+  const std::pair unit(column.name, column.unit);
+  if (std::ranges::find(keys.units, unit) == keys.units.end()) keys.units.push_back(unit);
+  const Argument::StackGuard guard(value.state());
+  lua_pushnumber(value.state(), from_unit(value.number(), column.unit));
+  CaseValue read = read_value(column.name, Argument(value.state(), -1), path);
+  read.text = value_text(value) + " " + column.unit;
+  return read;
 }
 
 template <class T>
@@ -113,41 +126,44 @@ void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys
     }
     for (std::int64_t k = 1; k <= length; ++k)
       list.element(k, [&](const Argument& item) {
-        values.push_back(read_value(name, item, path + "[" + std::to_string(k) + "]"));
+        values.push_back(read_value(keys, name, item, path + "[" + std::to_string(k) + "]"));
       });
-    keys.over->push_back({name, std::move(values)});
+    const std::string plain = values.empty() ? name : values.front().key;
+    keys.over->push_back({plain, std::move(values)});
   });
   if (problems.empty() && keys.over->empty())
     problems.push_back(quoted(info.name) + " names nothing to vary; give at least one list");
   std::sort(keys.over->begin(), keys.over->end(), by_key<EnsembleKeys::Varied>);
+  const auto twice = std::ranges::adjacent_find(*keys.over, {}, &EnsembleKeys::Varied::key);
+  if (twice != keys.over->end())
+    problems.push_back(quoted(info.name) + " names " + quoted(twice->key) + " twice; give one list");
 }
 
 void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& keys, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a list of cases, such as { {D = 2, seed = 1}, ... }", problems);
   keys.cases.emplace();
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& item) {
-      const std::string path = info.name + "[" + std::to_string(k) + "]";
-      if (!item.is_table()) {
-        problems.push_back(quoted(path) + " is " + item.describe() + "; give a table of named values");
-        return;
-      }
-      EnsembleKeys::Values values;
-      item.each([&](const Argument& key, const Argument& part) {
-        if (key.is_text())
-          values.push_back(read_value(std::string(key.text()), part, path + "." + std::string(key.text())));
-        else
-          problems.push_back(quoted(path) + " holds a value without a key; write `name = value`");
-      });
-      std::sort(values.begin(), values.end(), by_key<CaseValue>);
-      keys.cases->push_back(std::move(values));
+  value.elements([&](const Argument& item, std::int64_t k) {
+    const std::string path = info.name + "[" + std::to_string(k) + "]";
+    if (!item.is_table()) {
+      problems.push_back(quoted(path) + " is " + item.describe() + "; give a table of named values");
+      return;
+    }
+    EnsembleKeys::Values values;
+    item.each([&](const Argument& key, const Argument& part) {
+      if (key.is_text())
+        values.push_back(read_value(keys, key.text(), part, path + "." + std::string(key.text())));
+      else
+        problems.push_back(quoted(path) + " holds a value without a key; write `name = value`");
     });
+    std::sort(values.begin(), values.end(), by_key<CaseValue>);
+    keys.cases->push_back(std::move(values));
+  });
 }
 
 void check_keys(EnsembleKeys& keys, Problems& problems) {
   if (!keys.over && !keys.cases)
-    problems.push_back("`over` is missing: what to vary, e.g. { seed = {1, 2, 3} }");
+    problems.push_back("`over` is missing; give the values to vary, e.g. { seed = {1, 2, 3} }");
   if (keys.over && keys.cases) problems.push_back("both `over` and `cases` are given; give one of them");
   if (!keys.over) return;
   double product = 1;
@@ -157,34 +173,24 @@ void check_keys(EnsembleKeys& keys, Problems& problems) {
                        std::to_string(most_cases) + " are run");
 }
 
-const Block<EnsembleKeys>& ensemble_block() {
-  static const Block<EnsembleKeys> block{
-      "lab.ensemble",
-      {custom<EnsembleKeys>(
-           "over", "table",
-           "name -> list of values; every combination is a case, in the order of the names with "
-           "the last one varying fastest",
-           read_over),
-       custom<EnsembleKeys>("cases", "table", "the cases themselves, a list of tables, in place of over",
-                            read_cases),
-       custom<EnsembleKeys>(
-           "run", "function",
-           "function(case) returning a table of results, called once a case in a fresh copy of "
-           "everything it uses: what it changes is seen by no other case",
-           [](const Argument& value, const OptionInfo& info, EnsembleKeys&, Problems& problems) {
-             if (!value.is_function()) detail::wrong_type(value, info, "a function(case)", problems);
-           })
-           .required(),
-       choice("on_failure", &EnsembleKeys::on_failure,
-              {{"error", OnFailure::error}, {"report", OnFailure::report}},
-              "what becomes of cases that fail, once all others have run: an error that names them, with the "
-              "other rows kept in ensemble_kept.csv; or the list rows.failed of {index, case, message}, and "
-              "rows of the others")},
-      check_keys};
-  return block;
-}
+const Block<EnsembleKeys> ensemble_block{
+    {custom<EnsembleKeys>("over", "table",
+                          "name -> list of values; every combination is a case, in the order of the names "
+                          "with the last one varying fastest",
+                          read_over),
+     custom<EnsembleKeys>("cases", "table", "the cases themselves, a list of tables, in place of over",
+                          read_cases),
+     function<EnsembleKeys>("run", "a function(case)",
+                            "function(case) returning a table of results, called once a case in a fresh "
+                            "copy of everything it uses: no other case sees its changes")
+         .required(),
+     choice("on_failure", &EnsembleKeys::on_failure,
+            {{"error", OnFailure::error}, {"report", OnFailure::report}},
+            "failed cases, once all others have run: an error that names them, with the other rows in "
+            "ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others")},
+    check_keys};
 
-// A dry run calls `run` in the script's own state; nested ensembles are neither counted nor listed.
+// A dry run calls `run` in the script's own state, and neither counts nor lists nested ensembles.
 struct NestedEnsembles {
   explicit NestedEnsembles(Session& s)
       : session(s), listed(std::exchange(s.on_ensemble, nullptr)), numbered(s.numbered_ensembles) {}
@@ -199,24 +205,21 @@ struct NestedEnsembles {
   int numbered;
 };
 
+Map case_values(const std::vector<CaseValue>& values) {
+  Map map;
+  for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);
+  return map;
+}
+
 // From one case run in this state.
 Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run) {
   lua_State* L = call.L;
   const std::size_t count = keys.count();
-  if (count == 0) return {List{}};
   const std::vector<CaseValue> first = keys.values(0);
   const Argument::StackGuard guard(L);
   lua_pushvalue(L, run.index());
-  auto push_case = [&first](lua_State* s) {
-    lua_newtable(s);
-    for (const CaseValue& value : first) {
-      lua_pushlstring(s, value.key.data(), value.key.size());
-      value.value->push(s);
-      lua_rawset(s, -3);
-    }
-    return 1;
-  };
-  if (protect(L, 0, 1, push_case) != LUA_OK || lua_pcall(L, 1, 1, 0) != LUA_OK) {
+  push_checked(L, case_values(first), "a case");
+  if (lua_pcall(L, 1, 1, 0) != LUA_OK) {
     stop_flag().check();
     throw Error(ErrorCode::bad_value, case_name(first) + ": " + error_text(L, -1));
   }
@@ -234,10 +237,11 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
     for (const Record::Entry& entry : record->entries) fields.push_back(entry.field);
   else if (returned.is_unknown())
     known = false;
-  else if (!returned.is_nil())
+  else
     throw Error(ErrorCode::bad_value, case_name(first) + ": " + wrong_return(returned.describe()));
   std::sort(fields.begin(), fields.end());
   List rows;
+  rows.rows = true;
   for (std::size_t k = 0; k < count; ++k) {
     Map row;
     for (const std::string& field : fields) row.items.emplace_back(field, Unknown{});
@@ -277,7 +281,7 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// Adds inputs and knobs of the cases to the run or the enclosing case.
+// To the run or the enclosing case.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results)
     for (const RunKnob& knob : result.knobs) {
@@ -288,8 +292,7 @@ void note_inputs(const Session& session, const std::vector<CaseResult>& results)
   for (const CaseResult& result : results) note_inputs_of_case(session, result.inputs);
 }
 
-// Saves plain cells in a notebook, so that an error loses nothing. Returns the file, or "" without a run
-// directory.
+// Saves plain cells in a notebook against later errors. Returns the file, or "" without a run directory.
 std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) {
   const Session& session = call.session();
   if (session.run == nullptr || session.is_case) return {};
@@ -298,12 +301,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   for (const CaseResult& result : results) {
     if (result.row == nullptr) continue;
     const Argument::StackGuard guard(call.L);
-    auto push_row = [&result](lua_State* s) {
-      result.row->push(s);
-      return 1;
-    };
-    if (protect(call.L, 0, 1, push_row) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, error_text(call.L, -1));
+    push_checked(call.L, result.row, "the rows of an ensemble");
     std::vector<Entry> row;
     Argument(call.L, -1).each([&row](const Argument& key, const Argument& value) {
       if (!key.is_text() || key.text().empty()) return;
@@ -336,7 +334,7 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   if (others > 0)
     sentence +=
         others == 1 ? ", and the other one ran" : ", and the other " + std::to_string(others) + " ran";
-  if (!file.empty()) sentence += " (what they returned is in " + file + ")";
+  if (!file.empty()) sentence += " (their results are in " + file + ")";
   constexpr std::size_t most = 50;
   for (std::size_t n = 0; n < std::min(most, failed.size()); ++n) {
     sentence += "\n  ";
@@ -349,18 +347,11 @@ std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) 
   throw Error(ErrorCode::bad_value, sentence);
 }
 
-Map case_values(const std::vector<CaseValue>& values) {
-  Map map;
-  for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);
-  return map;
-}
-
 Values ensemble(Call& call) {
-  const EnsembleKeys keys = call.options(ensemble_block());
+  const EnsembleKeys keys = call.options(ensemble_block);
   Session& session = call.session();
   if (session.depth >= deepest_case)
-    throw Error(ErrorCode::bad_value,
-                "this ensemble stands inside " + std::to_string(deepest_case) + " others",
+    throw Error(ErrorCode::bad_value, "this ensemble is inside " + std::to_string(deepest_case) + " others",
                 "let the outer ones vary more keys in `over` instead");
   return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
     const CaseSetup common = common_setup(call.L, session,
@@ -369,6 +360,11 @@ Values ensemble(Call& call) {
     ++session.numbered_ensembles;
     std::string place = where(call.L);
     place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
+    if (keys.count() == 0)
+      throw Error(ErrorCode::bad_value,
+                  std::string(keys.cases ? "`cases` is empty" : "a list in `over` is empty") +
+                      ", so there is no case",
+                  "give each list a value");
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       if (session.on_ensemble)
@@ -376,10 +372,6 @@ Values ensemble(Call& call) {
       const NestedEnsembles nested(session);
       return dry_rows(call, keys, run);
     }
-    if (keys.count() == 0)
-      session.monitor().warn(
-          where(call.L) + "lab.ensemble: " + (keys.cases ? "`cases` is empty" : "a list in `over` is empty") +
-          ", so there is no case and `run` is never called");
     const Stream seeds(session.seed, "ensemble");
     const auto setup = [&](std::size_t k) {
       CaseSetup one = common;
@@ -395,6 +387,8 @@ Values ensemble(Call& call) {
     const std::vector<std::size_t> failed = failed_cases(results);
     if (!failed.empty() && keys.on_failure == OnFailure::error) refuse_failures(call, keys, results, failed);
     List rows, failures;
+    rows.rows = failures.rows = true;
+    rows.units = keys.units;
     for (const std::size_t k : failed) {
       Map failure;
       failure.items.emplace_back("index", static_cast<std::int64_t>(k) + 1);
@@ -412,20 +406,18 @@ Values ensemble(Call& call) {
 }  // namespace
 
 Function ensemble_function() {
-  Function f;
-  f.name = "ensemble";
-  f.body = ensemble;
-  f.sentence =
-      "Runs a function for every case of a study, on all threads, and returns one row a case: the case's own "
-      "values and what the function returned. Order and values do not depend on the number of threads. A "
-      "case that fails is told on standard error and the others run on; then `on_failure` says what becomes "
-      "of it.";
-  f.options = &ensemble_block();
-  f.returns = "table[]";
-  f.example =
-      "local rows = lab.ensemble{ over={ D={2.2, 2.5}, seed={1, 2} }, run=function(case) return { twice=2 * "
-      "case.D } end }";
-  return f;
+  return {.name = "ensemble",
+          .body = ensemble,
+          .sentence =
+              "Runs a function for every case of a study, on all threads, and returns one row a case: the "
+              "values of the case and the returned values. Order and values do not depend on the number of "
+              "threads. A failed case is reported on standard error, and the others run on; then "
+              "`on_failure` decides.",
+          .options = &ensemble_block,
+          .returns = "table[]",
+          .example =
+              "local rows = lab.ensemble{ over={ D={2.2, 2.5}, seed={1, 2} }, run=function(case) return { "
+              "twice=2 * case.D } end }"};
 }
 
 }  // namespace asperity::lua

@@ -9,6 +9,7 @@
 
 #include "bindings/lua/ensemble/transfer.hpp"
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/runtime/state.hpp"
@@ -20,7 +21,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Progress is reported for the whole ensemble.
+// The ensemble as a whole reports progress.
 class CaseMonitor final : public Monitor {
  public:
   CaseMonitor(std::vector<std::string>& warnings, ResultStore* results)
@@ -37,7 +38,8 @@ class CaseMonitor final : public Monitor {
 class OutputBuffer {
  public:
   OutputBuffer() : file_(open_memstream(&data_, &size_)) {
-    if (file_ == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for what a case prints");
+    if (file_ == nullptr)
+      throw Error(ErrorCode::out_of_memory, "there is no memory for the output of a case");
   }
   ~OutputBuffer() {
     std::fclose(file_);
@@ -64,24 +66,9 @@ int keep_open(lua_State* L) {
   return 2;
 }
 
-int print_to_session(lua_State* L) {
-  std::FILE* output = Session::of(L).output;
-  bool written = true;
-  const int values = lua_gettop(L);
-  for (int k = 1; k <= values; ++k) {
-    std::size_t length = 0;
-    const char* text = luaL_tolstring(L, k, &length);
-    if (k > 1) written = std::fputc('\t', output) != EOF && written;
-    written = std::fwrite(text, 1, length, output) == length && written;
-    lua_pop(L, 1);
-  }
-  written = std::fputc('\n', output) != EOF && written;
-  return written ? 0 : luaL_error(L, "there is no memory for what is printed");
-}
-
 // Redirects print, io.write and io.stdout to the session. Raises.
 void capture_output(lua_State* L) {
-  lua_pushcfunction(L, print_to_session);
+  lua_pushcfunction(L, print_values);
   lua_setglobal(L, "print");
   lua_getglobal(L, "io");
   lua_getfield(L, -1, "output");
@@ -113,19 +100,10 @@ void make_table(lua_State* L) {
   const Argument returned(L, -1);
   if (returned.is_table()) return;
   const std::shared_ptr<Record> record = record_at(L, -1);
-  if (record == nullptr && !returned.is_nil())
-    throw Error(ErrorCode::bad_value, wrong_return(returned.describe()));
-  auto action = [&record](lua_State* s) {
-    lua_newtable(s);
-    if (record == nullptr) return 1;
-    for (const Record::Entry& entry : record->entries) {
-      lua_pushlstring(s, entry.field.data(), entry.field.size());
-      push(s, entry.value);
-      lua_rawset(s, -3);
-    }
-    return 1;
-  };
-  if (protect(L, 0, 1, action) != LUA_OK) fail(L);
+  if (record == nullptr) throw Error(ErrorCode::bad_value, wrong_return(returned.describe()));
+  Map fields;
+  for (const Record::Entry& entry : record->entries) fields.items.emplace_back(entry.field, entry.value);
+  push_checked(L, std::move(fields), "what a case returned");
 }
 
 void refuse_other_values(const CaseSetup& setup, const Argument& returned, const Argument& given) {
@@ -141,8 +119,7 @@ void refuse_other_values(const CaseSetup& setup, const Argument& returned, const
     });
 }
 
-// Seeds math.random and returns its next integer, from which has_drawn() detects use. Pushes math.random and
-// math.randomseed.
+// Seeds math.random and returns its next integer, for has_drawn(). Pushes math.random and math.randomseed.
 lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
   auto action = [seed](lua_State* s) {
     lua_getglobal(s, "math");
@@ -189,7 +166,7 @@ int push_upvalues(lua_State* L, int function) {
   return count;
 }
 
-// A case changes only its own copy of upvalues. `before`: stack index of the first original.
+// Changes of upvalues stay in the case. `before`: stack index of the first original.
 void warn_of_lost_changes(lua_State* L, int function, int before) {
   const Argument::StackGuard guard(L);
   const int count = push_upvalues(L, function), after = lua_gettop(L) - count + 1;
@@ -202,9 +179,9 @@ void warn_of_lost_changes(lua_State* L, int function, int before) {
     lua_Debug facts;
     lua_pushvalue(L, function);
     lua_getinfo(L, ">S", &facts);
-    Session::of(L).monitor().warn(
-        std::string(facts.short_src) + ":" + std::to_string(facts.linedefined) + ": `run` changes " +
-        quoted(name) + ", of which each case has its own copy; " + "return the value and use the rows");
+    Session::of(L).monitor().warn(std::string(facts.short_src) + ":" + std::to_string(facts.linedefined) +
+                                  ": `run` changes " + quoted(name) + ", and each case has its own copy; " +
+                                  "return the value and use the rows");
   }
 }
 
@@ -293,19 +270,10 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     CaseMonitor monitor(result.warnings, setup.results);
     OutputBuffer output;
     Session session(monitor);
-    session.seed = setup.seed;
-    session.trusted = setup.trusted;
+    static_cast<SessionSettings&>(session) = setup;
     session.is_case = true;
-    session.depth = setup.depth;
-    session.refinement = setup.refinement;
-    session.variation = setup.variation;
-    session.knobs = setup.knobs;
-    session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
-    session.script = setup.script;
-    session.loaded = setup.loaded;
-    session.script_digest = setup.script_digest;
     CaseNotes notes;
     session.notes = &notes;
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One case of an ensemble in a fresh Lua state: function and values are copied in, the row is copied out.
-// Cases do not see each other; output and warnings are shown later, in the order of cases.
+// Cases are independent; output and warnings appear later, in the order of cases.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,15 @@
 #include <vector>
 
 #include "bindings/lua/ensemble/packed_value.hpp"
-#include "bindings/lua/registry/case_input.hpp"
 #include "bindings/lua/registry/lua_api.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "engine/run/case_scheduler.hpp"
 
 namespace asperity {
-class Ledger;
 class ResultStore;
-}  // namespace asperity
+}
 
 namespace asperity::lua {
-
-struct Refinement;
-class Variation;
 
 struct CaseValue {
   std::string key;
@@ -30,22 +26,12 @@ struct CaseValue {
   std::string text;  // "2.5", "\"cold\"", "a surface"
 };
 
-struct CaseSetup {
+struct CaseSetup : SessionSettings {
   std::shared_ptr<const PackedValue> run;
-  std::vector<CaseValue> values;  // in message order
-  std::uint64_t seed = 1;
-  bool trusted = false;
-  int depth = 1;  // enclosing ensembles
-  std::shared_ptr<Refinement> refinement;
-  std::shared_ptr<Variation> variation;
-  std::shared_ptr<RunKnobs> knobs;
-  std::shared_ptr<Ledger> ledger;
+  std::vector<CaseValue> values;   // in message order
   ResultStore* results = nullptr;  // of the run; may be null
-  ScriptSpelling script;
-  std::shared_ptr<const LoadedFiles> loaded;  // of a replayed or resumed run, or null
-  std::string script_digest;                  // of script and arguments
-  int ensemble = 0;                           // in the run, from 1
-  bool watched = false;                       // check the stop flag now and then
+  int ensemble = 0;                // in the run, from 1
+  bool watched = false;            // check the stop flag
 };
 
 struct CaseResult : FinishedCase {
@@ -53,17 +39,17 @@ struct CaseResult : FinishedCase {
   std::string digest;                      // of the row
   std::vector<CaseInput> inputs;
   std::vector<RunKnob> knobs;  // used
-  bool drew = false;           // used random numbers: the seed matters
+  bool drew = false;           // the seed matters
   double seconds = 0;
 };
 
 // The current states, for stops. Thread-safe.
 class RunningStates {
  public:
-  // All states raise "interrupted" at their next instruction.
+  // Raises "interrupted" at each next instruction.
   void interrupt();
 
-  // Registers a state; destroy before closing the state.
+  // A registered state; destroy before closing the state.
   class Member {
    public:
     Member(RunningStates& states, lua_State* L);
@@ -86,7 +72,7 @@ std::string case_name(const std::vector<CaseValue>& values);
 // Never throws: errors become failures.
 CaseResult run_case(const CaseSetup& setup, RunningStates& states);
 
-// A sentence about allowed values of `run`.
+// The allowed values of `run`.
 std::string wrong_return(const std::string& found);
 
 }  // namespace asperity::lua

@@ -5,7 +5,9 @@
 #include <cctype>
 #include <string_view>
 
-#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
 
 namespace asperity::lua {

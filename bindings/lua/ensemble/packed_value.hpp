@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
-#include "bindings/lua/registry/script_spelling.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/registry/value.hpp"
 #include "bindings/lua/runtime/base_library.hpp"
 #include "engine/core/memory.hpp"
@@ -28,19 +28,19 @@ std::string step_text(std::string_view key);
 class PackedValue final : public StoredValue {
  public:
   // Leaves a copy on the stack and adds the script's globals and changes to Lua's tables. Functions need a
-  // state of make_state. Cost: linear. Raises if out of memory: call inside protect().
+  // state of make_state. Linear. Raises if out of memory: call inside protect().
   void push(lua_State* L) const override;
 
-  // Digest of data: equal for equal values, independent of the order of keys in memory.
+  // Data only: equal for equal values, in any order of keys.
   std::string digest() const;
 
   // Data as bytes, restored bit for bit by any process of this build; native values in `given` become
-  // references. Includes profiles, materials, and surfaces without a generator. Cost: linear. bytes() throws
+  // references. Includes profiles, materials, and surfaces without a generator. Linear. bytes() throws
   // Error{not_permitted} for other values, with the path from `name`; from_bytes() throws Error{bad_file}.
   std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
   static std::shared_ptr<const PackedValue> from_bytes(std::string_view bytes,
                                                        const std::vector<Value>& given = {});
-  // The native value, or null if the value is something else.
+  // Null unless a native value.
   const Value* native() const;
 
   // Identifies data and function behaviour in all processes of this build: code without file names and lines,
@@ -48,8 +48,8 @@ class PackedValue final : public StoredValue {
   // `arg[0]` unless a function uses `arg`.
   struct Content {
     std::string digest;
-    std::string lines;  // the same with line numbers
-    bool whole = true;  // false: the digest does not identify all values
+    std::string lines;  // with line numbers
+    bool whole = true;  // false: values without a digest
   };
   Content content(const ScriptSpelling& spelling = {}) const;
 
@@ -86,7 +86,7 @@ class PackedValue final : public StoredValue {
     std::vector<Item> upvalues;
   };
   using Node = std::variant<Table, ScriptFunction, HostFunction, Value>;
-  // With its first function's node and upvalue index.
+  // Its first function's node and upvalue index.
   struct Cell {
     Item value;
     std::uint32_t node;

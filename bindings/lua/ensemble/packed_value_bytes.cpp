@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "bindings/lua/ensemble/byte_fields.hpp"
 #include "bindings/lua/ensemble/packed_value.hpp"
-#include "bindings/lua/registry/value_visitor.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/registry/value.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/core/files/byte_string.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -69,12 +68,6 @@ struct PackedValue::Writer : ValueVisitor {
       : packed(written), name(called), given(at_hand) {}
 
   void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
-  template <class T>
-  void optional(const std::optional<T>& value) {
-    out.number(value.has_value());
-    if (value) out.number(*value);
-  }
-
   // "run(case).bench"
   std::string path_to(std::uint32_t to, int steps = 0) const {
     if (const auto* root = std::get_if<NodeId>(&packed.root_);
@@ -99,17 +92,10 @@ struct PackedValue::Writer : ValueVisitor {
   [[noreturn]] void refuse(const std::string& what) const {
     throw Error(ErrorCode::not_permitted,
                 quoted(path_to(node)) + " holds " + what +
-                    ", which can be neither kept in a file nor sent to another process",
+                    ", which can neither be stored in a file nor sent to another process",
                 "return numbers read off it, or a surface's :heights()");
   }
 
-  void write(const Material& material) {
-    out.text(material.name);
-    for (const auto& property : {material.young, material.poisson, material.hardness, material.density})
-      optional(property);
-    out.text(material.source);
-    out.number(material.rigid);
-  }
   void leaf(const Object& object) {
     std::size_t place = 0;
     if (same_object(object, given, place) != nullptr) {
@@ -121,24 +107,20 @@ struct PackedValue::Writer : ValueVisitor {
     if (object.type == &class_of<Surface>()) {
       const auto& surface = *static_cast<const Surface*>(object.pointer.get());
       tag(Tag::surface);
-      out.number(surface.grid().nx);
-      out.number(surface.grid().ny);
-      out.number(surface.grid().size_x);
-      out.number(surface.grid().size_y);
+      write_fields(out, surface.grid());
       out.numbers(surface.measured_heights().values());
-      out.number(surface.traits().periodic);
-      optional(surface.traits().aliased_share);
-      out.number(surface.material().has_value());
-      if (surface.material()) write(*surface.material());
+      write_fields(out, surface.traits().periodic);
+      write_fields(out, surface.traits().aliased_share);
+      write_fields(out, surface.material());
     } else if (object.type == &class_of<Profile>()) {
       const auto& profile = *static_cast<const Profile*>(object.pointer.get());
       tag(Tag::profile);
       out.number(profile.spacing());
       out.numbers(profile.measured_heights());
-      optional(profile.closed_radius());
+      write_fields(out, profile.closed_radius());
     } else {
       tag(Tag::material);
-      write(*static_cast<const Material*>(object.pointer.get()));
+      write_fields(out, *static_cast<const Material*>(object.pointer.get()));
     }
   }
   void begin(const Value&) {
@@ -156,18 +138,8 @@ struct PackedValue::Writer : ValueVisitor {
     out.text(record.name);
     named(record.entries.size());
   }
-  void after(const Record::Entry& entry) {
-    for (const std::int8_t power :
-         {entry.dimension.length, entry.dimension.mass, entry.dimension.time, entry.dimension.angle})
-      out.number(power);
-  }
-  void leave(const Record& record) {
-    named(record.missing_effects.size());
-    for (const auto& [field, effect] : record.missing_effects) {
-      out.text(field);
-      out.text(effect);
-    }
-  }
+  void after(const Record::Entry& entry) { write_fields(out, entry.dimension); }
+  void leave(const Record& record) { write_fields(out, record.missing_effects); }
   void enter(const List& list) {
     tag(Tag::list);
     named(list.items.size());
@@ -250,9 +222,10 @@ struct PackedValue::Reader {
   int depth = 0;
 
   template <class T>
-  std::optional<T> optional() {
-    if (!in.truth()) return {};
-    return in.template number<T>();
+  T fields() {
+    T value{};
+    read_fields(in, value);
+    return value;
   }
   Array<double> numbers() {
     return in.numbers([](std::size_t length) { return Array<double>(length); });
@@ -266,35 +239,22 @@ struct PackedValue::Reader {
     std::ranges::copy(values, result.values().begin());
     return result;
   }
-  Material material() {
-    Material result;
-    result.name = in.text();
-    for (auto* property : {&result.young, &result.poisson, &result.hardness, &result.density})
-      *property = optional<double>();
-    result.source = in.text();
-    result.rigid = in.truth();
-    return result;
-  }
   Value surface() {
-    Grid grid;
-    grid.nx = in.number<int>();
-    grid.ny = in.number<int>();
-    grid.size_x = in.number<double>();
-    grid.size_y = in.number<double>();
+    const Grid grid = fields<Grid>();
     const Array<double> values = numbers();
     if (grid.nx < 1 || grid.ny < 1 || grid.nodes() != values.size()) ByteReader::damaged();
     Field heights(grid.nx, grid.ny);
     std::ranges::copy(values, heights.values().begin());
     SurfaceTraits traits;
     traits.periodic = in.truth();
-    traits.aliased_share = optional<double>();
-    if (in.truth()) traits.material = material();
+    read_fields(in, traits.aliased_share);
+    read_fields(in, traits.material);
     return object(Surface::with_holes(grid, std::move(heights), std::move(traits)));
   }
   Value profile() {
     const auto spacing = in.number<double>();
     Array<double> heights = numbers();
-    return object(Profile::with_holes(spacing, std::move(heights), optional<double>()));
+    return object(Profile::with_holes(spacing, std::move(heights), fields<std::optional<double>>()));
   }
   Value record() {
     Record result;
@@ -302,15 +262,10 @@ struct PackedValue::Reader {
     for (std::size_t left = in.count(); left > 0; --left) {
       Record::Entry entry{in.text(), {}, {}};
       entry.value = value();
-      for (std::int8_t* power :
-           {&entry.dimension.length, &entry.dimension.mass, &entry.dimension.time, &entry.dimension.angle})
-        *power = in.number<std::int8_t>();
+      read_fields(in, entry.dimension);
       result.entries.push_back(std::move(entry));
     }
-    for (std::size_t left = in.count(); left > 0; --left) {
-      std::string effect_field = in.text();
-      result.missing_effects.emplace_back(std::move(effect_field), in.text());
-    }
+    read_fields(in, result.missing_effects);
     return result;
   }
   std::vector<std::pair<std::string, Value>> named() {
@@ -351,7 +306,7 @@ struct PackedValue::Reader {
         case Tag::profile:
           return profile();
         case Tag::material:
-          return object(material());
+          return object(fields<Material>());
         case Tag::record:
           return record();
         case Tag::list: {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Digests of rows, for journals, and of functions with everything they reach; equal in all processes of this
-// build. Independent of addresses and of key order in memory: nodes are numbered by a traversal with sorted
-// keys.
+// build. Nodes are numbered by a traversal with sorted keys, not by addresses.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -10,10 +9,9 @@
 
 #include "bindings/lua/ensemble/packed_value.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/value_visitor.hpp"
+#include "bindings/lua/registry/value.hpp"
 #include "bindings/lua/runtime/code_digest.hpp"
 #include "bindings/lua/runtime/state.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/digest.hpp"
 
@@ -32,7 +30,7 @@ void add(Digester& digester, const Material& material) {
     add(digester, property);
 }
 
-// Numbers nodes or cells in order of first visit.
+// Numbers by first visit.
 class MetOrder {
  public:
   explicit MetOrder(std::size_t count) : numbers_(count, -1) {}
@@ -77,7 +75,7 @@ bool PackedValue::before(const Entry& a, const Entry& b) {
   return number_of(a.key) < number_of(b.key);
 }
 
-// Keys without an order keep their memory order: stored results may then be missed.
+// Keys without an order keep their order in memory: stored results may be missed.
 Array<PackedValue::Entry> PackedValue::in_order(Array<Entry> entries) {
   std::sort(entries.begin(), entries.end(), before);
   return entries;
@@ -159,12 +157,12 @@ struct PackedValue::ContentDigest : ValueVisitor {
   Digester digester{}, lines{};
   bool whole = true;
   MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
-  std::optional<std::uint32_t> arguments{};  // node of `arg`, if only its name leads there
+  std::optional<std::uint32_t> arguments{};  // node of `arg`, if only named
   bool names_arguments = false;
 
   ContentDigest(const PackedValue& reached, const ScriptSpelling& names) : packed(reached), spelling(names) {}
 
-  // A native function is identified by its offset in the loaded file.
+  // Its offset in the loaded file.
   void add_place(const void* address) {
     Dl_info file{};
     if (address == nullptr || ::dladdr(address, &file) == 0 || file.dli_fbase == nullptr) {
@@ -206,7 +204,7 @@ struct PackedValue::ContentDigest : ValueVisitor {
       asperity::lua::add(digester, surface.traits().aliased_share);
       digester.add(surface.material() ? 1 : 0);
       if (surface.material()) asperity::lua::add(digester, *surface.material());
-      if (surface.recipe() != nullptr) whole = false;  // values on other cells are unknown
+      if (surface.recipe() != nullptr) whole = false;  // unknown on other cells
     } else if (object.type == &class_of<Profile>()) {
       digester.add(static_cast<const Profile*>(object.pointer.get())->digest());
     } else {

@@ -16,20 +16,13 @@ namespace asperity::lua {
 
 CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const PackedValue> run) {
   CaseSetup common;
+  static_cast<SessionSettings&>(common) = session;
   common.run = std::move(run);
-  common.trusted = session.trusted;
-  common.depth = session.depth + 1;
-  common.refinement = session.refinement;
-  common.variation = session.variation;
-  common.knobs = session.knobs;
-  common.ledger = session.ledger;
+  ++common.depth;
   common.results = results_for_cases(session);
   common.watched = lua_gethook(L) != nullptr;
-  common.script = session.script;
-  common.loaded = session.loaded;
-  common.script_digest = session.script_digest;
   common.ensemble = ++session.ensembles;
-  if (session.notes != nullptr) session.notes->drew = true;  // the cases' seeds derive from this case's seed
+  if (session.notes != nullptr) session.notes->drew = true;  // gives the cases' seeds
   return common;
 }
 
@@ -161,8 +154,8 @@ class SharedEnsemble {
             roster.cases[k].keys == kept_.keys(setup_(k)))
           ++stored;
       if (stored > 0)
-        text += "; " + std::to_string(stored) + (stored == 1 ? " is" : " are") + " there of another build, " +
-                roster.build + ", whose results are not taken";
+        text += "; " + std::to_string(stored) + (stored == 1 ? " is" : " are") +
+                " stored by another build, " + roster.build + ", whose results are not used";
     }
     return text;
   }
@@ -173,7 +166,7 @@ class SharedEnsemble {
   const StoredCases& kept_;
   const std::string& place_;
   const bool reports_failures_;
-  const bool here_;  // with the case of --case
+  const bool here_;  // case of --case
   CaseRoster roster_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases of a lab.ensemble for the scheduler: script calls in separate Lua states, stored with the run.
+// Cases of a lab.ensemble for the scheduler.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,13 @@
 
 #include "bindings/lua/ensemble/ensemble_case.hpp"
 #include "bindings/lua/ensemble/stored_cases.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 
 namespace asperity::lua {
+
+// A function for every case of a study, on threads.
+Function ensemble_function();
 
 // Without values and seed.
 CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const PackedValue> run);
@@ -43,7 +47,7 @@ class ScriptedCases : public EnsembleCases {
   RunningStates states_;
 };
 
-// `setup(k)`: case k; called concurrently. Throws like the scheduler's run_cases. `place`: in the script.
+// `setup(k)`: case k; called concurrently. Throws as the scheduler's run_cases. `place`: in the script.
 // `reports_failures`: the script continues after failed cases.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
                                   const StoredCases& kept, const std::string& place, bool reports_failures,

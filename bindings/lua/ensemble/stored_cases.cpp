@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
+#include "bindings/lua/ensemble/byte_fields.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/files/byte_string.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
@@ -53,16 +53,6 @@ std::vector<Value> natives(const std::vector<CaseValue>& values) {
   return given;
 }
 
-// "fig9.lua:12: ", as in errors caught by a case.
-bool names_a_line(std::string_view text) {
-  for (std::size_t at = text.find(':'); at != std::string_view::npos; at = text.find(':', at + 1)) {
-    std::size_t end = at + 1;
-    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
-    if (end > at + 1 && end < text.size() && text[end] == ':') return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given) {
@@ -70,29 +60,7 @@ std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& g
   out.text(case_form);
   out.number(result.row != nullptr);
   if (result.row != nullptr) out.text(result.row->bytes("run(case)", natives(given)));
-  for (const std::string* text : {&result.digest, &result.failure, &result.output}) out.text(*text);
-  out.number(static_cast<std::uint64_t>(result.warnings.size()));
-  for (const std::string& warning : result.warnings) out.text(warning);
-  out.number(static_cast<std::uint64_t>(result.inputs.size()));
-  for (const CaseInput& input : result.inputs) {
-    out.text(input.file);
-    out.number(input.bytes);
-    out.text(input.digest);
-    out.text(input.beside_script);
-    out.number(input.loaded);
-  }
-  out.number(static_cast<std::uint64_t>(result.knobs.size()));
-  for (const RunKnob& knob : result.knobs) {
-    out.text(knob.name);
-    for (const double number : {knob.from, knob.to, knob.value}) out.number(number);
-    out.number(knob.log);
-    for (const std::int8_t exponent :
-         {knob.dimension.length, knob.dimension.mass, knob.dimension.time, knob.dimension.angle})
-      out.number(std::int64_t{exponent});
-  }
-  out.number(result.drew);
-  out.number(result.transforms);
-  out.number(result.seconds);
+  write_fields(out, result);
   return out.take();
 }
 
@@ -101,30 +69,7 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
   if (in.text() != case_form) ByteReader::damaged();
   CaseResult result;
   if (in.truth()) result.row = PackedValue::from_bytes(in.text(), natives(given));
-  for (std::string* text : {&result.digest, &result.failure, &result.output}) *text = in.text();
-  for (std::size_t left = in.count(); left > 0; --left) result.warnings.push_back(in.text());
-  for (std::size_t left = in.count(); left > 0; --left) {
-    CaseInput input;
-    input.file = in.text();
-    input.bytes = in.number<std::int64_t>();
-    input.digest = in.text();
-    input.beside_script = in.text();
-    input.loaded = in.truth();
-    result.inputs.push_back(std::move(input));
-  }
-  for (std::size_t left = in.count(); left > 0; --left) {
-    RunKnob knob;
-    knob.name = in.text();
-    for (double* number : {&knob.from, &knob.to, &knob.value}) *number = in.number<double>();
-    knob.log = in.truth();
-    for (std::int8_t* exponent :
-         {&knob.dimension.length, &knob.dimension.mass, &knob.dimension.time, &knob.dimension.angle})
-      *exponent = static_cast<std::int8_t>(in.number<std::int64_t>());
-    result.knobs.push_back(std::move(knob));
-  }
-  result.drew = in.truth();
-  result.transforms = in.number<double>();
-  result.seconds = in.number<double>();
+  read_fields(in, result);
   if (!in.at_end()) ByteReader::damaged();
   return result;
 }
@@ -145,7 +90,7 @@ StoredCases::StoredCases(const Session& session, const PackedValue& run) {
 
 std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) const {
   Digester digester;
-  // Machines whose C library rounds differently do not share cases.
+  // C libraries with other rounding share no cases.
   digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
   digester.add(static_cast<std::int64_t>(setup.values.size()));
   bool whole = content_.whole;
@@ -154,7 +99,7 @@ std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) c
     whole = whole && content.whole;
     digester.add(value.key).add(content.digest);
   }
-  // The script and its place identify values without an identifying digest.
+  // Script and place replace a missing digest.
   if (!whole)
     digester.add(script_.empty() ? setup.script_digest + " " + std::to_string(setup.ensemble) : script_);
   if (drew) digester.add(static_cast<std::int64_t>(setup.seed));
@@ -206,7 +151,7 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
     bytes = case_bytes(result, setup.values);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::not_permitted || always) throw;
-    return;  // computed again from stored heavy calls
+    return;  // stored heavy calls suffice
   }
   ResultFacts facts;
   facts.cost.seconds = result.seconds;
@@ -214,7 +159,7 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
   facts.however_cheap = always;
   facts.one_of_many = bytes.size() <= most_bytes_of_many;
   facts.numbers = {{"bytes", static_cast<double>(bytes.size())}};
-  facts.texts = {{"lines", content_.lines}, {"names lines", names_a_line(bytes) ? "yes" : "no"}};
+  facts.texts = {{"lines", content_.lines}, {"names lines", line_of(bytes) != "?" ? "yes" : "no"}};
   const Field field = packed(bytes);
   std::string key = key_of(setup, result.drew, !result.knobs.empty());
   if (result.row == nullptr) {

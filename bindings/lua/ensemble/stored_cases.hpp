@@ -18,11 +18,11 @@ namespace asperity::lua {
 class Session;
 
 // Exact to the bit. `given`: the case's values, written as references. Throws Error{not_permitted} for a row
-// without a bytes form, Error{bad_file} for invalid bytes.
+// without bytes, Error{bad_file} for invalid bytes.
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given);
 CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>& given);
 
-// The store for heavy calls in cases, or null. Used by other threads.
+// For heavy calls in cases; may be null. Used by other threads.
 ResultStore* results_for_cases(const Session& session);
 
 // Prefix of failure keys: a failure must never hide a later result.
@@ -48,7 +48,7 @@ class StoredCases {
   ResultStore* store_ = nullptr;
   PackedValue::Content content_;
   std::string folder_;  // of the script
-  std::string script_;  // replaces an incomplete digest
+  std::string script_;  // for an incomplete digest
 };
 
 }  // namespace asperity::lua

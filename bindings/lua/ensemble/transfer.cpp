@@ -8,24 +8,17 @@
 #include <utility>
 
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/embedded.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/registry/value_visitor.hpp"
+#include "bindings/lua/registry/value.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
 namespace {
-
-int append_code(lua_State*, const void* piece, std::size_t size, void* code) {
-  try {
-    static_cast<std::string*>(code)->append(static_cast<const char*>(piece), size);
-    return 0;
-  } catch (const std::bad_alloc&) {
-    return 1;
-  }
-}
 
 // Whether other threads may read a value.
 struct Shareable : ValueVisitor {
@@ -42,7 +35,7 @@ std::string step_of(const Argument& key) {
   return "[" + key.describe() + "]";
 }
 
-// "an open file", "an iterator": a foreign userdata.
+// "an open file", "an iterator": foreign userdata.
 std::string kind_of_userdata(const Argument& value) {
   lua_State* L = value.state();
   const Argument::StackGuard guard(L);
@@ -92,7 +85,7 @@ class Packer {
   struct Frame {
     enum class Phase { begin, metatable, entries, value } phase = Phase::begin;  // of a table
     std::uint32_t node = 0;
-    int index = 0;    // of the table or function on the Lua stack
+    int index = 0;    // on the Lua stack
     int upvalue = 0;  // last read
   };
 
@@ -165,8 +158,7 @@ class Packer {
     const lua_CFunction function = lua_tocfunction(L, -1);
     const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
     if (has_state) lua_pop(L, 1);
-    // A case has its own print for ordered output, and its own loops in fixed order, for every host of the
-    // module.
+    // A case has its own print for ordered output, and its own loops in fixed order.
     const BasePath* path = base_function(function);
     const auto own = [path](const char* name) { return *path == BasePath{"_G", name}; };
     if (path != nullptr && (has_state || own("print") || own("pairs") || own("next")))

@@ -6,80 +6,67 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/contact/effects/interlocking.hpp"
-#include "engine/contact/state_limits.hpp"
+#include "engine/contact/state.hpp"
 
 namespace asperity::lua {
 
 Option<OnKeys> rest_option() {
   return quantity("rest", &OnKeys::rest, dimension::time, at_least(0),
-                  "how long the junctions stand still under the load first; needs ageing");
+                  "rest of the junctions under the load before the pull; needs ageing");
 }
 
 namespace {
 
-const Block<FrictionOptions>& friction_block() {
-  using O = FrictionOptions;
-  static const Block<O> block{
-      "lab.friction",
-      {quantity("tau0", &O::tau0, dimension::pressure, at_least(0), "adhesive shear strength of a junction")
-           .required(),
-       number("alpha", &O::alpha, at_least(0), "growth of the strength with pressure").required(),
-       quantity("tau_max", &O::tau_max, dimension::pressure, above(0).or_never(),
-                "greatest strength of a junction"),
-       quantity("yield_pressure", &O::yield_pressure, dimension::pressure, above(0).or_never(),
-                "sets tau_max = tau0 + alpha * yield_pressure")}};
-  return block;
-}
+const Block<FrictionOptions> friction_block{
+    {quantity("tau0", &FrictionOptions::tau0, dimension::pressure, at_least(0),
+              "adhesive shear strength of a junction")
+         .required(),
+     number("alpha", &FrictionOptions::alpha, at_least(0), "growth of the strength with pressure").required(),
+     quantity("tau_max", &FrictionOptions::tau_max, dimension::pressure, above(0).or_never(),
+              "greatest strength of a junction"),
+     quantity("yield_pressure", &FrictionOptions::yield_pressure, dimension::pressure, above(0).or_never(),
+              "sets tau_max = tau0 + alpha * yield_pressure")}};
 
 Values make_law(Call& call) {
-  const JunctionLaw law(call.options(friction_block()));
+  const JunctionLaw law(call.options(friction_block));
   if (law.tau_max() && *law.tau_max() < law.tau0())
-    call.session().monitor().warn(
-        where(call.L) + "lab.friction: `tau_max` of " + format_quantity(*law.tau_max(), dimension::pressure) +
-        " is below `tau0` of " + format_quantity(law.tau0(), dimension::pressure) +
-        "; every junction has the strength `tau_max`, and `alpha` counts for nothing");
+    call.warn("`tau_max` of " + format_quantity(*law.tau_max(), dimension::pressure) +
+              " is below `tau0` of " + format_quantity(law.tau0(), dimension::pressure) +
+              "; every junction has the strength `tau_max`, and `alpha` has no effect");
   return {object(law)};
 }
 
-const Block<OnKeys>& on_block() {
-  static const Block<OnKeys> block{"on", {rest_option()}};
-  return block;
-}
+const Block<OnKeys> on_block{{rest_option()}};
 
-const RecordType<FrictionResult>& friction_type() {
-  using F = FrictionResult;
-  using Entry = RecordField<F>;
-  static const RecordType<F> type{
-      "Friction",
-      "friction",
-      "The friction of a contact under load by a law.",
-      {{"force", &F::force, dimension::force, "that the whole tile bears before it slides"},
-       {"mu", &F::mu, "force over the applied load; nil without load"},
-       {"adhesive_force", &F::adhesive_force, dimension::force,
-        "the part that tau0 gives, or the cap where that is lower"},
-       {"load_force", &F::load_force, dimension::force, "the part that comes with pressure"},
-       {"capped_fraction", &F::capped_fraction,
-        "share of the real contact area at the cap; 0 without contact"},
-       Entry("interlocking_force", &F::interlocking_force, dimension::force,
-             "beyond that of the same junctions lying level")
-           .needs("interlocking"),
-       Entry("strengthening", &F::strengthening, "tau0 after the rest over tau0 without one")
-           .needs("ageing")}};
-  return type;
-}
+const RecordType<FrictionResult> friction_type{
+    "Friction",
+    "friction",
+    "The friction of a contact under load by a law.",
+    {{"force", &FrictionResult::force, dimension::force, "that the whole tile bears before it slides"},
+     {"mu", &FrictionResult::mu, "force over the applied load; nil without load"},
+     {"adhesive_force", &FrictionResult::adhesive_force, dimension::force,
+      "the part that tau0 gives, or the cap where that is lower"},
+     {"load_force", &FrictionResult::load_force, dimension::force, "the part that comes with pressure"},
+     {"capped_fraction", &FrictionResult::capped_fraction,
+      "share of the real contact area at the cap; 0 without contact"},
+     RecordField<FrictionResult>("interlocking_force", &FrictionResult::interlocking_force, dimension::force,
+                                 "beyond that of the same junctions lying level")
+         .needs("interlocking"),
+     RecordField<FrictionResult>("strengthening", &FrictionResult::strengthening,
+                                 "tau0 after the rest over tau0 without one")
+         .needs("ageing")}};
 
 Values law_on(Call& call) {
   const auto& state = call.object<asperity::State>(1, "st");
-  const OnKeys keys = call.options(on_block(), 2);
+  const OnKeys keys = call.options(on_block, 2);
   const CostScope scope;
   const FrictionResult r = call.self<JunctionLaw>().on(state, keys.rest);
   if (state.effects().has<InterlockingOptions>()) {
     const std::pair<std::string, Cost> cost{"interlocking", scope.so_far()};
     call.session().ledger->add_effects({&cost, 1});
   }
-  for (const std::string& limit : state_limits(state))
-    call.session().monitor().warn(where(call.L) + "law:on: " + limit);
-  return {friction_type()(r)};
+  for (const std::string& limit : state_limits(state)) call.warn(limit);
+  return {friction_type(r)};
 }
 
 }  // namespace
@@ -90,37 +77,30 @@ Function friction_function() {
           .sentence =
               "The strength of junctions, tau = min(tau0 + alpha P, tau_max) (Hanaor, Gan and Einav 2013, "
               "eq. 1).",
-          .options = &friction_block(),
+          .options = &friction_block,
           .returns = "Law",
           .example = "local law = lab.friction{ tau0=\"500 MPa\", alpha=0.2 }"};
 }
 
 template <>
-const Class& class_of<JunctionLaw>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Law";
-    c.article_name = "a law";
-    c.sentence = "A friction law of junctions.";
-    c.describe = text_of<&JunctionLaw::text>;
-    c.fields = {
-        getter<&JunctionLaw::tau0>("tau0", "number", "adhesive strength", dimension::pressure),
-        getter<&JunctionLaw::alpha>("alpha", "number", "growth with pressure"),
-        getter<&JunctionLaw::tau_max>("tau_max", "number", "greatest strength; nil without a cap",
-                                      dimension::pressure),
-    };
-    c.methods = {{.name = "on",
-                  .body = law_on,
-                  .sentence = "The friction of a contact under load.",
-                  .parameters = {{"st", "State", "the contact under load"}},
-                  .options = &on_block(),
-                  .options_optional = true,
-                  .returns = "Friction",
-                  .example = "print(law:on(st).mu)"}};
-    c.results = {&friction_type()};
-    return c;
-  }();
-  return type;
+Class make_class<JunctionLaw>() {
+  Class c{"Law", "a law", "A friction law of junctions."};
+  c.describe = text_of<&JunctionLaw::text>;
+  c.fields = {
+      getter<&JunctionLaw::tau0>("tau0", "number", "adhesive strength", dimension::pressure),
+      getter<&JunctionLaw::alpha>("alpha", "number", "growth with pressure"),
+      getter<&JunctionLaw::tau_max>("tau_max", "number", "greatest strength; nil without a cap",
+                                    dimension::pressure),
+  };
+  c.methods = {{.name = "on",
+                .body = law_on,
+                .sentence = "The friction of a contact under load.",
+                .parameters = {{"st", "State", "the contact under load"}},
+                .options = optional(on_block),
+                .returns = "Friction",
+                .example = "print(law:on(st).mu)"}};
+  c.results = {&friction_type};
+  return c;
 }
 
 }  // namespace asperity::lua

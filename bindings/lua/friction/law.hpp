@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.friction: the junction law.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,7 @@
 namespace asperity::lua {
 
 template <>
-const Class& class_of<JunctionLaw>();
+Class make_class<JunctionLaw>();
 
 Function friction_function();
 

@@ -8,7 +8,7 @@
 namespace asperity::lua {
 
 template <>
-const Class& class_of<Stylus>();
+Class make_class<Stylus>();
 
 Function stylus_function();
 

@@ -1,13 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/argument.hpp"
 
-#include "bindings/lua/registry/record.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/declarations.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
+
+void* block_at(lua_State* L, int index, const void* key) {
+  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
+  lua_rawgetp(L, LUA_REGISTRYINDEX, key);
+  const bool same = lua_rawequal(L, -1, -2) != 0;
+  lua_pop(L, 2);
+  return same ? lua_touserdata(L, index) : nullptr;
+}
+
+Object* native_at(lua_State* L, int index) {
+  void* block = lua_touserdata(L, index);
+  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
+  lua_rawgetp(L, -1, &native_key);
+  const bool ours = lua_toboolean(L, -1) != 0;
+  lua_pop(L, 2);
+  return ours ? static_cast<Object*>(block) : nullptr;
+}
+
+std::shared_ptr<Record> record_at(lua_State* L, int index) {
+  auto* block = static_cast<std::shared_ptr<Record>*>(block_at(L, index, &record_key));
+  return block == nullptr ? nullptr : *block;
+}
 
 Argument::StackGuard::StackGuard(lua_State* state) : L(state), top_(lua_gettop(state)) {
   if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
@@ -17,11 +38,7 @@ bool Argument::is_unknown() const {
   const Object* object = as_any_object();
   if (object != nullptr) return object->is_placeholder();
   if (const std::shared_ptr<Record> record = record_at(L, index_)) return record->placeholder;
-  if (lua_type(L, index_) != LUA_TUSERDATA || lua_getmetatable(L, index_) == 0) return false;
-  lua_rawgetp(L, LUA_REGISTRYINDEX, unknown_key());
-  const bool same = lua_rawequal(L, -1, -2) != 0;
-  lua_pop(L, 2);
-  return same;
+  return block_at(L, index_, &unknown_key) != nullptr;
 }
 
 std::optional<std::int64_t> Argument::integer() const {
@@ -69,8 +86,9 @@ std::string Argument::describe() const {
     default:
       break;
   }
-  const Object* object = as_any_object();
-  return object != nullptr ? object->type->article_name : "a userdata";
+  if (const Object* object = as_any_object()) return object->type->article_name;
+  const std::shared_ptr<Record> record = record_at(L, index_);
+  return record != nullptr ? "a result (" + record->name + ")" : "a userdata";
 }
 
 double Callback::operator()(std::initializer_list<double> arguments, std::string_view key) const {

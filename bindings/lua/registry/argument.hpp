@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One value on the Lua stack, read without raising: no metamethods, no allocating conversions. Tables are
-// visited in place, so a million heights need no C++ copy. Valid while the value keeps its stack index.
+// visited in place, without a copy. Valid while the value keeps its stack index.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +15,17 @@
 #include "bindings/lua/registry/value.hpp"
 
 namespace asperity::lua {
+
+// Keys of the metatables of placeholders, results and iterators in Lua's registry. `native_key` marks native
+// metatables; the registry has their maker there.
+inline constexpr char unknown_key = 0, record_key = 0, iterator_key = 0, native_key = 0;
+
+// Null if not native.
+Object* native_at(lua_State* L, int index);
+// Null if no result.
+std::shared_ptr<Record> record_at(lua_State* L, int index);
+// The block of a userdata whose metatable has this key in Lua's registry, or null.
+void* block_at(lua_State* L, int index, const void* key);
 
 class Argument {
  public:
@@ -28,9 +41,9 @@ class Argument {
 
   bool boolean() const { return lua_toboolean(L, index_) != 0; }
   double number() const { return lua_tonumber(L, index_); }
-  std::optional<std::int64_t> integer() const;  // also from a float with integer value
+  std::optional<std::int64_t> integer() const;  // also an integral float
   std::string_view text() const;
-  // Null if the value has another class.
+  // Null for another class.
   Object* as_object(const Class& type) const;
   Object* as_any_object() const;
   template <class T>
@@ -49,6 +62,17 @@ class Argument {
     StackGuard guard(L);
     lua_rawgeti(L, index_, k);
     return visit(Argument(L, -1));
+  }
+  // Calls visit(element) or visit(element, k) for k from 1 to length().
+  template <class Visit>
+  void elements(Visit&& visit) const {
+    for (std::int64_t k = 1, last = length(); k <= last; ++k)
+      element(k, [&](const Argument& value) {
+        if constexpr (std::invocable<Visit, const Argument&>)
+          visit(value);
+        else
+          visit(value, k);
+      });
   }
   // In Lua's own order.
   template <class Visit>
@@ -95,14 +119,11 @@ auto with_key(const Argument& table, std::string_view key, Use&& use) {
   return use(Argument(L, -1));
 }
 
-// Key of the metatable of placeholders.
-const void* unknown_key();
-
 // A Lua function for C++, valid during a body.
 class Callback {
  public:
   explicit Callback(const Argument& function) : function_(function) {}
-  // Throws Error with the function's message if the call fails or returns no number.
+  // Throws Error with the function's message, or without a number.
   double operator()(std::initializer_list<double> arguments, std::string_view key) const;
   double operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const;
   bool answer(std::initializer_list<double> arguments, std::string_view key) const;

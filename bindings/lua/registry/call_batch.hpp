@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Many calls of one script function on threads, each in its own Lua state with a fresh copy of the data.
-// Answers are stored with the run; bits do not depend on the number of threads. Implemented in ensemble/.
+// Answers are stored with the run; bits do not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,43 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/value.hpp"
+#include "engine/core/monitor.hpp"
 
 namespace asperity::lua {
 
 class Argument;
 class Call;
 
+// Passes warnings and stored results on, progress only to `tell`.
+class QuietMonitor final : public Monitor {
+ public:
+  explicit QuietMonitor(Monitor& outer, std::function<void(double)> tell = {})
+      : outer_(outer), tell_(std::move(tell)) {}
+  void progress(std::string_view, double done) override {
+    if (tell_) tell_(done);
+  }
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  void inform(std::string_view sentence) override {
+    if (tell_) outer_.inform(sentence);
+  }
+  ResultStore* results() override { return outer_.results(); }
+
+ private:
+  Monitor& outer_;
+  std::function<void(double)> tell_;
+};
+
 struct BatchedAnswer {
   std::optional<double> number;
   bool nil = false;
-  std::string other;  // a non-numeric or missing result, "the string \"steep\""
+  std::string other;  // if no number, "the string \"steep\""
   std::string failure;
-  double seconds = 0;  // on one thread; a stored answer has its original time
+  double seconds = 0;  // on one thread, also if stored
 };
 
 class CallBatch {
@@ -35,8 +57,8 @@ class CallBatch {
                                              const std::function<void(std::size_t)>& done) = 0;
 };
 
-// Null if the function uses uncopyable values, such as a contact, or may not run in parallel. Calls do not
-// see each other's changes. Must not outlive `call`.
+// Null if the function uses uncopyable values, such as a contact, or may not run in parallel. Calls are
+// independent. Must not outlive `call`.
 std::unique_ptr<CallBatch> call_batch(const Call& call, const Argument& function, const std::string& name);
 
 }  // namespace asperity::lua

@@ -35,16 +35,7 @@ CompiledTexts& compiled_texts() {
   return texts;
 }
 
-int append_bytes_of_code(lua_State*, const void* bytes, std::size_t size, void* code) {
-  try {
-    static_cast<std::string*>(code)->append(static_cast<const char*>(bytes), size);
-    return 0;
-  } catch (const std::bad_alloc&) {
-    return 1;
-  }
-}
-
-// -1 if not cached. No destructor may be pending where Lua can raise.
+// -1 if not cached. Lua may raise: no pending destructor.
 int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
   const std::shared_ptr<const std::string> code = compiled_texts().find(text.data());
   return code == nullptr ? -1 : luaL_loadbufferx(L, code->data(), code->size(), chunk, "b");
@@ -53,12 +44,12 @@ int load_compiled(lua_State* L, std::string_view text, const char* chunk) {
 void keep_compiled(lua_State* L, std::string_view text) {
   try {
     std::string code;
-    if (lua_dump(L, append_bytes_of_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
+    if (lua_dump(L, append_code, &code, 0) == 0) compiled_texts().add(text.data(), std::move(code));
   } catch (const std::bad_alloc&) {
   }
 }
 
-// Loader for package.preload; upvalue 1 is the index of the script.
+// For package.preload; upvalue 1: index of the script.
 int load_embedded(lua_State* L) {
   const EmbeddedScript& script =
       embedded_scripts()[static_cast<std::size_t>(lua_tointeger(L, lua_upvalueindex(1)))];
@@ -69,6 +60,15 @@ int load_embedded(lua_State* L) {
   return 1;
 }
 }  // namespace
+
+int append_code(lua_State*, const void* bytes, std::size_t size, void* code) {
+  try {
+    static_cast<std::string*>(code)->append(static_cast<const char*>(bytes), size);
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return 1;
+  }
+}
 
 void load_embedded_text(lua_State* L, std::string_view text, const char* chunk) {
   int status = load_compiled(L, text, chunk);
@@ -90,7 +90,7 @@ void preload_embedded_scripts(lua_State* L) {
   lua_Integer k = 0;
   for (const EmbeddedScript& script : embedded_scripts()) {
     if (script.name == "sandbox") {
-      ++k;  // the sandbox runs once, before the script
+      ++k;  // the sandbox runs once, first
       continue;
     }
     lua_pushinteger(L, k++);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pairs and next in the same order in every process. Lua's order depends on a string hash with a seed
-// (luai_makeseed) from clock and addresses, which no call of Lua 5.4 sets. A loop therefore sorts the keys
-// when it begins.
+// pairs and next in the same order in every process. Lua's order depends on a hash seed (luai_makeseed) from
+// clock and addresses, which no call of Lua 5.4 sets. A loop therefore sorts the keys when it begins.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -10,9 +9,9 @@
 #include <utility>
 
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
-#include "bindings/lua/registry/mistakes.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/session.hpp"
 
 namespace asperity::lua {
@@ -21,16 +20,16 @@ namespace {
 
 enum class Kind : std::uint32_t { number, text, boolean, other };
 
-// `head` is compared first: bits of a number, eight bytes of a string, address of a table.
+// `head` first: bits of a number, eight bytes of a string, address of a table.
 struct Key {
   Kind kind = Kind::other;
-  std::uint32_t place = 0;  // index in the list of keys, from 1
+  std::uint32_t place = 0;  // in the list, from 1
   std::uint64_t head = 0;
-  std::int64_t rest = 0;       // integer, or length of a string
+  std::int64_t rest = 0;       // integer, or string length
   const char* text = nullptr;  // valid as long as the list
 };
 
-// The places of the keys of a loop in their order. A userdata whose user value is the list of keys.
+// A loop's ordered keys. A userdata whose user value is the list of keys.
 struct Walk {
   std::uint32_t count, next;
   std::uint32_t* places() { return reinterpret_cast<std::uint32_t*>(this + 1); }
@@ -94,7 +93,7 @@ Key* room_for(std::uint32_t count) {
 
 // Pushes the walk over a table and the list of its keys. Raises.
 Walk* push_walk(lua_State* L, int table) {
-  thread_local std::uint32_t expected = 0;  // keys: loops often have as many as the last one
+  thread_local std::uint32_t expected = 0;  // loops often have as many keys as the last
   luaL_checkstack(L, 8, nullptr);
   lua_createtable(L, static_cast<int>(expected), 0);
   const int list = lua_gettop(L);
@@ -145,10 +144,10 @@ int step_of_loop(lua_State* L) {
   return push_next(L, lua_upvalueindex(1), walk, lua_upvalueindex(3));
 }
 
-// No sorting: next(t) mostly tests for an empty table.
+// Without sorting: next(t) mostly tests for an empty table.
 int push_first(lua_State* L) {
   Key first;
-  lua_pushnil(L);  // index 3: the smallest key so far
+  lua_pushnil(L);  // index 3: smallest key
   for (lua_pushnil(L); lua_next(L, 1) != 0;) {
     lua_pop(L, 1);
     const Key key = key_at(L, -1, 0);
@@ -190,7 +189,7 @@ int ordered_next(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   lua_settop(L, 2);
   if (lua_isnil(L, 2)) return push_first(L);
-  // Active walks by table, so that a step does not sort again.
+  // Active walks by table: no sorting per step.
   if (luaL_getsubtable(L, LUA_REGISTRYINDEX, "asperity.walks") == 0) {
     lua_createtable(L, 0, 1);
     lua_pushliteral(L, "k");
@@ -206,7 +205,7 @@ int ordered_next(lua_State* L) {
   if (walk == nullptr || walk->next == 0 || !is_at(key_of(L, *walk, 5, walk->next - 1))) {
     lua_settop(L, 3);
     walk = push_walk(L, 1);
-    std::uint32_t below = 0, above = walk->count;  // of the first key after `key`
+    std::uint32_t below = 0, above = walk->count;  // first key after `key`
     while (below < above) {
       const std::uint32_t middle = (below + above) / 2;
       if (before(key, key_of(L, *walk, 5, middle)))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The middle frame of a call: runs a C++ body, catches its exception and leaves results or a message on the
-// Lua stack. The outer frame, without destructors, then returns or raises. Never `catch (...)`: in the C++
-// build of Lua it would swallow Lua's own unwinding.
+// Lua stack. The outer frame, without destructors, then returns or raises. Never `catch (...)`: it would
+// swallow Lua's own unwinding in the C++ build.
 #pragma once
 
 #include <exception>
@@ -22,10 +22,17 @@ std::string where(lua_State* L);
 std::string message_of(lua_State* L, const std::string& name, const Error& error);
 // Pushes the message and returns -1.
 int fail(lua_State* L, const std::string& message);
-// Returns the number of results; -1 with the error on the stack if memory runs out.
+// Raises on lack of memory: call inside protect().
+void push(lua_State* L, const Value& value);
+// Gives the list on top the methods of a Table, with display units (run/row_list.cpp). A number under "Ra
+// [um]" becomes one in SI under `Ra`. Raises on lack of memory.
+void set_row_methods(lua_State* L, const std::vector<std::pair<std::string, std::string>>& units);
+// Pushes a value; throws Error{out_of_memory}, which names `what`, with Lua's error on the stack.
+void push_checked(lua_State* L, const Value& value, const std::string& what);
+// Number of results; -1 with the error on the stack if memory runs out.
 int deliver(lua_State* L, const Values& results);
 
-// -1 with the error on the stack if the body throws. `name` is prefixed to messages that lack it.
+// -1 with the error on the stack if the body throws. Prefixes messages by `name`.
 template <class Run>
 int guarded(lua_State* L, const std::string& name, Run run) {
   const RoundToNearest whatever_the_host_does;
@@ -53,7 +60,7 @@ auto with_collection(lua_State* L, Run run) {
   try {
     return run();
   } catch (const Error& error) {
-    // The limit is reached, even if the script catches the error.
+    // Also if the script catches the error.
     if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
     throw;
   }

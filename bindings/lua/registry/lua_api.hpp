@@ -11,7 +11,7 @@
 namespace asperity::lua {
 
 // Runs action(L) under lua_pcall with the top `arguments` values; leaves the results, or an error value.
-// Returns a Lua status. The action must own no destructor, because Lua may leave by longjmp.
+// Returns a Lua status. The action must own no destructor.
 template <class Action>
 int protect(lua_State* L, int arguments, int results, Action& action) {
   static_assert(!std::is_const_v<Action>);

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The metatable of a class: fields, methods and recognition of native values.
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
-#include "bindings/lua/registry/mistakes.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
-#include "bindings/lua/registry/record_type.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
 namespace {
-
-const char native_key = 0;  // metatable[native_key] = true marks native values
 
 const Class& class_at(lua_State* L) {
   return *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
@@ -24,12 +19,20 @@ int raised(lua_State* L, const std::string& name, const Body& body) {
   return results < 0 ? lua_error(L) : results;
 }
 
+// t[k]. A dry run does not know how many rows a table has; a loop over them runs once.
+Value item_of(const Object& self, std::int64_t k) {
+  if (self.is_placeholder()) return k >= 1 ? Value(Unknown{}) : Value();
+  if (self.closed)
+    throw Error(ErrorCode::bad_state, self.type->article_name + " was used after it was closed");
+  return self.type->item(self.pointer.get(), k);
+}
+
 int guarded_field(lua_State* L, const Class& type) {
-  static const std::string nothing;
-  return guarded(L, nothing, [&]() -> Values {
+  return guarded(L, "", [&]() -> Values {
     const Argument key(L, 2);
     const Object* self = Argument(L, 1).as_object(type);
     if (self == nullptr) throw Error(ErrorCode::bad_value, "this is not " + type.article_name);
+    if (type.item != nullptr && key.is_number() && key.integer()) return {item_of(*self, *key.integer())};
     if (!key.is_text())
       throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
                   "its fields have names");
@@ -76,8 +79,7 @@ int outer_index(lua_State* L) {
 }
 
 int guarded_new_index(lua_State* L, const Class& type) {
-  static const std::string nothing;
-  return guarded(L, nothing, [&]() -> Values {
+  return guarded(L, "", [&]() -> Values {
     const Argument key(L, 2);
     throw Error(ErrorCode::not_permitted,
                 type.article_name + " cannot be changed" +
@@ -147,8 +149,32 @@ int outer_operator(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+// next(value, key) over the fields that are numbers.
+int next_number(lua_State* L) {
+  const Class& type = class_at(L);
+  std::size_t length = 0, k = 0;
+  if (const char* key = lua_type(L, 2) == LUA_TSTRING ? lua_tolstring(L, 2, &length) : nullptr) {
+    while (k < type.fields.size() && type.fields[k].name != std::string_view(key, length)) ++k;
+    ++k;
+  }
+  for (; k < type.fields.size(); ++k) {
+    if (!type.fields[k].type.starts_with("number")) continue;
+    lua_pushstring(L, type.fields[k].name.c_str());
+    if (lua_getfield(L, 1, type.fields[k].name.c_str()) != LUA_TNIL) return 2;
+    lua_pop(L, 2);
+  }
+  return lua_pushnil(L), 1;
+}
+
 int outer_pairs(lua_State* L) {
   const Class& type = class_at(L);
+  if (type.iterates_numbers) {
+    lua_pushlightuserdata(L, const_cast<Class*>(&type));
+    lua_pushcclosure(L, next_number, 1);
+    lua_pushvalue(L, 1);
+    lua_pushnil(L);
+    return 3;
+  }
   static const std::string name = "pairs";
   return raised(L, name, [&]() -> Values {
     throw Error(ErrorCode::bad_value, type.article_name + " is no table",
@@ -189,25 +215,8 @@ void set_class_method(lua_State* L, const char* name, lua_CFunction function, co
 
 }  // namespace
 
-int mistaken_field(lua_State* L) {
-  if (!noted_as_mistake(L)) return lua_error(L);
-  push_unknown(L);
-  return 1;
-}
-
-Object* native_at(lua_State* L, int index) {
-  void* block = lua_touserdata(L, index);
-  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
-  lua_rawgetp(L, -1, &native_key);
-  const bool ours = lua_toboolean(L, -1) != 0;
-  lua_pop(L, 2);
-  return ours ? static_cast<Object*>(block) : nullptr;
-}
-
-void push_metatable(lua_State* L, const Class& type) {
-  luaL_checkstack(L, 8, nullptr);
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) == LUA_TTABLE) return;
-  lua_pop(L, 1);
+int make_class_metatable(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, 1));
   lua_newtable(L);
   lua_pushboolean(L, 1);
   lua_rawsetp(L, -2, &native_key);
@@ -233,6 +242,7 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__close", outer_close, type);
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
+  return 1;
 }
 
 }  // namespace asperity::lua

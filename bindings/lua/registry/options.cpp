@@ -2,20 +2,25 @@
 #include "bindings/lua/registry/options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
-#include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/registry/variation.hpp"
 
 namespace asperity::lua {
 
 std::string meant_by(std::string_view name, std::span<const std::string> names) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 1> renamed{{{"drawn_from", "preload"}}};
+  static constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+      {"drawn_from", "preload"},
+      {"t", "student"},
+      {"times", "repeats"},
+      {"where", "mask"},
+      {"contacts", "nodes_in_contact"},
+      {"contacts_low", "nodes_in_contact_low"},
+      {"contacts_high", "nodes_in_contact_high"}};
   for (const auto& [old, now] : renamed)
     if (name == old && std::ranges::find(names, now) != names.end())
       return ", which is called " + quoted(now) + " now";
@@ -29,22 +34,39 @@ void wrong_type(const Argument& value, const OptionInfo& info, std::string_view 
 }
 
 namespace {
+// Numbers without a unit that are implausible in SI.
+struct Implausible {
+  std::string_view key;
+  double above, below;
+  std::string_view reason, unit;
+  bool whole = false;  // typed, not computed
+};
+constexpr Implausible implausible[] = {
+    {"young", 1, 1000, ", softer than any solid", "GPa"},  // 1 occurs in dimensionless problems
+    {"young", 1000, 1e5, ", softer than any solid", "MPa"},
+    {"hardness", 1, 1000, ", softer than any solid", "GPa"},
+    {"hardness", 1000, 1e5, ", softer than any solid", "MPa"},
+    {"pressure", 1, 1e4, "", "MPa", true},
+    {"tau0", 1, 1e4, "", "MPa", true},
+    {"tip", .01, 1e6, ", no stylus", "um"},
+};
+
 void warn_of_bare_number(const Argument& value, const OptionInfo& info, double number) {
-  std::string sentence;
+  const std::string text = format_short(number), unit = si_unit(info.dimension);
+  std::string reason, wanted;
   if (info.dimension == dimension::angle && std::abs(number) > 2 * std::numbers::pi) {
-    sentence = quoted(info.name) + " is " + format_short(number) +
-               " rad, over a whole turn: a number without a unit is in radians; write \"" +
-               format_short(number) + " deg\"";
-  } else if (info.dimension == dimension::pressure && (info.name == "young" || info.name == "hardness") &&
-             number > 1 && number < 1000) {  // 1 occurs in dimensionless problems
-    sentence = quoted(info.name) + " is " + format_short(number) +
-               " Pa, softer than any solid: a number without a unit is in Pa; write \"" +
-               format_short(number) + " GPa\"";
+    reason = ", over a whole turn", wanted = "deg";
   } else {
-    return;
+    for (const Implausible& one : implausible)
+      if (info.name == one.key && number > one.above && number < one.below &&
+          (!one.whole || number == std::floor(number)))
+        reason = one.reason, wanted = one.unit;
   }
   const Session* session = Session::find(value.state());
-  if (session != nullptr) session->monitor().warn(where(value.state()) + sentence);
+  if (wanted.empty() || session == nullptr) return;
+  session->monitor().warn(where(value.state()) + quoted(info.name) + " is " + text + " " + unit + reason +
+                          ": a number without a unit is in " + unit + "; write \"" + text + " " + wanted +
+                          "\"" + (reason.empty() ? ", or \"" + text + " " + unit + "\"" : ""));
 }
 }  // namespace
 
@@ -91,7 +113,7 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
     number = value.integer();
     found = format_short(value.number(), 10);
   } else if (value.is_text()) {
-    // A text follows the rules of numbers: "64" is 64; "64 um" is a length and is refused.
+    // Text as number: "64" is 64; "64 um" is a refused length.
     std::optional<Quantity> quantity;
     try {
       quantity = parse_quantity(value.text());
@@ -132,7 +154,7 @@ std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& in
   std::vector<std::string> accepted;
   for (const std::string& word : words) accepted.push_back("\"" + word + "\"");
   problems.push_back(quoted(info.name) + " is \"" + std::string(value.text().substr(0, 40)) + "\"" +
-                     did_you_mean(value.text(), words) + "; give " + joined(accepted));
+                     meant_by(value.text(), words) + "; give " + joined(accepted));
   return {};
 }
 
@@ -156,7 +178,7 @@ std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& 
 }
 
 namespace {
-// Marks the options that are keys of the table as seen; returns the other keys.
+// Marks the table's options as seen; returns the other keys.
 Problems unknown_keys(const Argument& table, const std::vector<const OptionInfo*>& options,
                       std::vector<bool>& seen) {
   Problems unknown;
@@ -210,7 +232,7 @@ void read_table(const Argument& table, const std::string& caller,
                 caller + " takes one table of named keys, and was given " + table.describe(),
                 "write " + caller + "{ ... }");
   std::vector<bool> seen(options.size(), false);
-  // Lua's key order varies; values are read in the order of the block.
+  // In the block's order: Lua's varies.
   const Problems unknown = unknown_keys(table, options, seen);
   Problems problems;
   Variation* variation = variation_of(table.state());
@@ -225,7 +247,7 @@ void read_table(const Argument& table, const std::string& caller,
       continue;
     }
     if (!seen[k]) continue;
-    // A walk instead of a look-up, which would allocate the key.
+    // A look-up would allocate the key.
     table.each([&](const Argument& key, const Argument& value) {
       if (key.is_text() && key.text() == name) read(k, value, problems);
     });
@@ -243,4 +265,59 @@ void read_table(const Argument& table, const std::string& caller,
 }
 
 }  // namespace detail
+
+namespace {
+
+std::string type_of(const OptionRow& row) {
+  if (row.words.empty()) return row.dimension == dimension::number ? "number" : describe(row.dimension);
+  std::string type;
+  for (const std::string& word : row.words) type += (type.empty() ? "\"" : "|\"") + word + "\"";
+  return type;
+}
+
+}  // namespace
+
+OptionInfo row_info(const OptionRow& row, const std::any& defaults) {
+  OptionInfo info{row.name,     type_of(row), row.dimension, row.default_text, row.range.text(row.dimension),
+                  row.sentence, row.required};
+  const std::optional<double> value = row.get(defaults);
+  if (!row.required && info.default_text.empty() && value)
+    info.default_text = row.words.empty() ? detail::number_text(*value, row.dimension)
+                                          : "\"" + row.words[static_cast<std::size_t>(*value)] + "\"";
+  return info;
+}
+
+void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
+              Problems& problems) {
+  if (row.words.empty()) {
+    if (const auto number = detail::read_quantity(value, info, row.range, problems))
+      row.set(options, *number);
+  } else if (const auto place = detail::read_word(value, info, row.words, problems)) {
+    row.set(options, static_cast<double>(*place));
+  }
+}
+
+RowBlock::RowBlock(std::span<const OptionRow> rows, std::any defaults)
+    : rows_(rows), defaults_(std::move(defaults)) {
+  for (const OptionRow& row : rows_) infos_.push_back(row_info(row, defaults_));
+}
+
+std::vector<const OptionInfo*> RowBlock::options() const {
+  std::vector<const OptionInfo*> infos;
+  for (const OptionInfo& info : infos_) infos.push_back(&info);
+  return infos;
+}
+
+std::any RowBlock::read(const Argument& table, const std::string& caller) const {
+  std::any result = defaults_;
+  detail::read_table(
+      table, caller, options(),
+      [&](std::size_t k, const Argument& value, Problems& problems) {
+        if (value.is_unknown() && value.as_any_object() == nullptr) return;
+        read_row(rows_[k], infos_[k], value, result, problems);
+      },
+      [](Problems&) {});
+  return result;
+}
+
 }  // namespace asperity::lua

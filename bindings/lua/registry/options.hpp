@@ -1,22 +1,193 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kinds of options for a block (block.hpp). Each kind reads one key into one member of a plain struct.
+// A block of named options: name, dimension, default, range and sentence of each key. The block reads a Lua
+// table into a plain C++ struct and reports all problems in one Error: unknown keys with the nearest name,
+// missing keys, wrong types, units and ranges. help(), editor types, reference and journal use the same
+// description. Constant blocks are made before main().
+//
+// Block<CutKeys>{{number("fraction", &CutKeys::fraction, between(0, 1), "of the height")}};
 #pragma once
 
+#include <any>
 #include <cmath>
+#include <concepts>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "bindings/lua/registry/block.hpp"
+#include "bindings/lua/registry/argument.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/options.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
-// A quantity, or a plain number for dimension::number. Member: double or optional<double>.
+class BlockInfo;
+
+struct OptionInfo {
+  std::string name;
+  std::string type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
+  Dimension dimension{};
+  std::string default_text;  // as written in a script; "" if none
+  std::string range_text;    // "above 0"; may be empty
+  std::string sentence;
+  bool required = false;
+  const BlockInfo* inner = nullptr;  // block of a nested table
+};
+
+class BlockInfo {
+ public:
+  virtual ~BlockInfo() = default;
+  virtual std::vector<const OptionInfo*> options() const = 0;
+  virtual bool is_list() const { return false; }
+  // For a dry run. Throws as read().
+  virtual void check(const Argument& table, const std::string& caller) const = 0;
+};
+
+using Resolved = std::vector<std::pair<std::string, std::string>>;
+
+using Problems = std::vector<std::string>;
+
+// The new name of a renamed key, else the nearest of `names`, else "".
+std::string meant_by(std::string_view name, std::span<const std::string> names);
+
+namespace detail {
+// On failure they append a problem and return nothing.
+std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
+                                    Problems& problems);
+std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
+                                         const NumberRange& range, Problems& problems);
+// Scaled during an accuracy study (variation.hpp).
+std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
+                                       const NumberRange& range, Problems& problems);
+void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
+// Returns the index of the word.
+std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
+                                     const std::vector<std::string>& words, Problems& problems);
+// Reads {a, b}: calls read(part, first) for both.
+template <class Read>
+void read_pair(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems,
+               Read read) {
+  if (!value.is_table() || value.length() != 2) return wrong_type(value, info, wanted, problems);
+  value.elements([&](const Argument& part, std::int64_t k) { read(part, k == 1); });
+}
+// Script text: "250 um", 0.02, math.huge.
+std::string number_text(double value, Dimension dimension);
+// Calls read(index, value) for known keys; reports unknown and missing keys.
+void read_table(const Argument& table, const std::string& caller,
+                const std::vector<const OptionInfo*>& options,
+                const std::function<void(std::size_t, const Argument&, Problems&)>& read,
+                const std::function<void(Problems&)>& finish);
+template <class T>
+void assign(std::optional<T>& member, T value) {
+  member = std::move(value);
+}
+template <class T, class U>
+void assign(T& member, U value) {
+  member = static_cast<T>(value);
+}
+inline std::optional<double> shown(double v) { return v; }
+inline std::optional<double> shown(int v) { return v; }
+inline std::optional<double> shown(std::int64_t v) { return static_cast<double>(v); }
+inline std::optional<double> shown(std::uint64_t v) { return static_cast<double>(v); }
+template <class T>
+std::optional<double> shown(const std::optional<T>& v) {
+  return v ? std::optional<double>(static_cast<double>(*v)) : std::nullopt;
+}
+}  // namespace detail
+
+template <class O>
+struct Option {
+  OptionInfo info;
+  std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
+  // Script text, "" for none; may be null. For defaults and record.
+  std::function<std::string(const O&)> show;
+
+  Option() = default;
+  template <class Base>
+  requires(std::derived_from<O, Base> && !std::same_as<O, Base>) Option(Option<Base> base)
+      : info(std::move(base.info)), read(std::move(base.read)), show(std::move(base.show)) {}
+
+  Option required() && {
+    info.required = true;
+    return std::move(*this);
+  }
+  Option shown_by(std::function<std::string(const O&)> text) && {
+    show = std::move(text);
+    return std::move(*this);
+  }
+  // For a default outside the struct ("size", "roll_off = long_wave").
+  Option defaults_to(std::string text) && {
+    info.default_text = std::move(text);
+    return std::move(*this);
+  }
+};
+
+template <class O>
+class Block final : public BlockInfo {
+ public:
+  // `whole` checks the struct after reading without problems.
+  using Check = void (*)(O&, Problems&);
+
+  Block(std::vector<Option<O>> options, Check whole = nullptr) : options_(std::move(options)), check_(whole) {
+    const O defaults{};
+    for (Option<O>& option : options_)
+      if (!option.info.required && option.info.default_text.empty() && option.show)
+        option.info.default_text = option.show(defaults);
+  }
+
+  std::vector<const OptionInfo*> options() const override {
+    std::vector<const OptionInfo*> infos;
+    for (const Option<O>& option : options_) infos.push_back(&option.info);
+    return infos;
+  }
+
+  // Throws one Error with all problems. Nil reads as an empty table. `resolved` receives all effective
+  // values.
+  O read(const Argument& table, const std::string& caller, Resolved* resolved = nullptr) const {
+    O result{};
+    bool placeholders = false;
+    detail::read_table(
+        table, caller, options(),
+        [&](std::size_t k, const Argument& value, Problems& problems) {
+          if (value.is_unknown()) {
+            placeholders = true;
+            if (value.as_any_object() == nullptr) return;
+          }
+          options_[k].read(value, options_[k].info, result, problems);
+        },
+        [&](Problems& problems) {
+          if (check_ != nullptr && !placeholders) check_(result, problems);
+        });
+    if (resolved != nullptr) {
+      const Resolved values = this->resolved(result);
+      resolved->insert(resolved->end(), values.begin(), values.end());
+    }
+    return result;
+  }
+
+  Resolved resolved(const O& values) const {
+    Resolved all;
+    for (const Option<O>& option : options_)
+      if (option.show)
+        if (std::string text = option.show(values); !text.empty()) all.emplace_back(option.info.name, text);
+    return all;
+  }
+
+  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
+
+ private:
+  std::vector<Option<O>> options_;
+  Check check_;
+};
+
+// A plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
 Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRange range,
                    std::string sentence) {
@@ -62,8 +233,9 @@ Option<O> integer(std::string name, M O::*member, NumberRange range, std::string
   return option;
 }
 
-template <class O>
-Option<O> flag(std::string name, bool O::*member, std::string sentence) {
+// Member: bool, or optional<bool>, which stays unrecorded.
+template <class O, class M>
+Option<O> flag(std::string name, M O::*member, std::string sentence) {
   Option<O> option;
   option.info = {std::move(name), "boolean", {}, "", "", std::move(sentence), false};
   option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
@@ -72,7 +244,8 @@ Option<O> flag(std::string name, bool O::*member, std::string sentence) {
     else
       detail::wrong_type(value, info, "true or false", problems);
   };
-  option.show = [member](const O& options) { return std::string(options.*member ? "true" : "false"); };
+  if constexpr (std::same_as<M, bool>)
+    option.show = [member](const O& options) { return std::string(options.*member ? "true" : "false"); };
   return option;
 }
 
@@ -114,7 +287,7 @@ Option<O> choice(std::string name, M O::*member,
   return option;
 }
 
-// Text of a native value in the record: digest or name.
+// In the record: digest or name.
 template <class T>
 std::string digest_text(const T& value) {
   if constexpr (requires { value.digest(); })
@@ -156,7 +329,7 @@ Option<O> native(std::string name, M O::*member, std::string type, std::string w
   return option;
 }
 
-// Any option: `read` appends problems that begin with quoted(info.name).
+// `read` appends problems that begin with quoted(info.name).
 template <class O, class Read>
 Option<O> custom(std::string name, std::string type, std::string sentence, Read read) {
   Option<O> option;
@@ -165,7 +338,34 @@ Option<O> custom(std::string name, std::string type, std::string sentence, Read 
   return option;
 }
 
-// A nested table with its own block; its problems join the outer list.
+// A list of at least `least` whole numbers from 1 to `most`.
+template <class O>
+Option<O> integers(std::string name, std::vector<int> O::*member, std::int64_t least, double most,
+                   std::string sentence) {
+  return custom<O>(std::move(name), "integer[]", std::move(sentence),
+                   [=](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     if (!value.is_table() || value.length() < least)
+                       return detail::wrong_type(
+                           value, info,
+                           least > 1 ? "a list of two or more whole numbers" : "a list of whole numbers",
+                           problems);
+                     value.elements([&](const Argument& item) {
+                       if (auto n = detail::read_integer(item, info, between(1, most), problems))
+                         (options.*member).push_back(static_cast<int>(*n));
+                     });
+                   });
+}
+
+// The caller reads the function. `wanted`: "a function(x)".
+template <class O>
+Option<O> function(std::string name, std::string wanted, std::string sentence) {
+  return custom<O>(std::move(name), "function", std::move(sentence),
+                   [wanted](const Argument& value, const OptionInfo& info, O&, Problems& problems) {
+                     if (!value.is_function()) detail::wrong_type(value, info, wanted, problems);
+                   });
+}
+
+// A nested table; its problems join the outer list.
 template <class O, class Inner, class M>
 Option<O> table_of(std::string name, M O::*member, const Block<Inner>& inner, std::string sentence) {
   Option<O> option;
@@ -189,14 +389,12 @@ Option<O> cells_option(int O::*nx, int O::*ny) {
       custom<O>("cells", "integer|{integer, integer}", "cells along x and y: a number, or {nx, ny}",
                 [nx, ny](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                   constexpr NumberRange range = between(1, max_cells);
-                  if (value.is_table() && value.length() == 2) {
-                    for (int k = 1; k <= 2; ++k)
-                      value.element(k, [&](const Argument& part) {
-                        if (auto n = detail::read_cells(part, info, range, problems))
-                          options.*(k == 1 ? nx : ny) = static_cast<int>(*n);
-                      });
-                  } else if (value.is_table()) {
-                    detail::wrong_type(value, info, "a whole number or {nx, ny}", problems);
+                  if (value.is_table()) {
+                    detail::read_pair(value, info, "a whole number or {nx, ny}", problems,
+                                      [&](const Argument& part, bool first) {
+                                        if (auto n = detail::read_cells(part, info, range, problems))
+                                          options.*(first ? nx : ny) = static_cast<int>(*n);
+                                      });
                   } else if (auto n = detail::read_cells(value, info, range, problems)) {
                     options.*nx = options.*ny = static_cast<int>(*n);
                   }
@@ -217,13 +415,11 @@ Option<O> pair_option(std::string name, M O::*x, M O::*y, Dimension dimension, N
       custom<O>(std::move(name), kind + "|{" + kind + ", " + kind + "}", std::move(sentence),
                 [x, y, range](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                   if (value.is_table()) {
-                    if (value.length() != 2)
-                      return detail::wrong_type(value, info, "one value or two in a list", problems);
-                    for (int k = 1; k <= 2; ++k)
-                      value.element(k, [&](const Argument& part) {
-                        if (auto v = detail::read_quantity(part, info, range, problems))
-                          detail::assign(options.*(k == 1 ? x : y), *v);
-                      });
+                    detail::read_pair(value, info, "one value or two in a list", problems,
+                                      [&](const Argument& part, bool first) {
+                                        if (auto v = detail::read_quantity(part, info, range, problems))
+                                          detail::assign(options.*(first ? x : y), *v);
+                                      });
                   } else if (auto v = detail::read_quantity(value, info, range, problems)) {
                     detail::assign(options.*x, *v);
                     detail::assign(options.*y, *v);
@@ -237,5 +433,25 @@ Option<O> pair_option(std::string name, M O::*x, M O::*y, Dimension dimension, N
   };
   return option;
 }
+
+// For options described by the engine (core/options.hpp).
+OptionInfo row_info(const OptionRow& row, const std::any& defaults);
+void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
+              Problems& problems);
+
+class RowBlock final : public BlockInfo {
+ public:
+  // `rows` must outlive the block. `defaults`: the struct without options.
+  RowBlock(std::span<const OptionRow> rows, std::any defaults);
+
+  std::vector<const OptionInfo*> options() const override;
+  std::any read(const Argument& table, const std::string& caller) const;
+  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
+
+ private:
+  std::span<const OptionRow> rows_;
+  std::any defaults_;
+  std::vector<OptionInfo> infos_;
+};
 
 }  // namespace asperity::lua

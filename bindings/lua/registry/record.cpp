@@ -2,11 +2,11 @@
 #include "bindings/lua/registry/record.hpp"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
+#include "bindings/lua/registry/call_record.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/guard.hpp"
-#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/contact/scene/effect.hpp"
 #include "engine/core/error.hpp"
@@ -16,19 +16,8 @@ namespace asperity::lua {
 
 namespace {
 
-const char record_key = 0;
-const char iterator_key = 0;
-
 using RecordPointer = std::shared_ptr<Record>;
 using IteratorPointer = std::shared_ptr<Iterator>;
-
-void* block_at(lua_State* L, int index, const void* key) {
-  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
-  lua_rawgetp(L, LUA_REGISTRYINDEX, key);
-  const bool same = lua_rawequal(L, -1, -2) != 0;
-  lua_pop(L, 2);
-  return same ? lua_touserdata(L, index) : nullptr;
-}
 
 Record* record_of(lua_State* L) {
   auto* block = static_cast<RecordPointer*>(block_at(L, 1, &record_key));
@@ -47,11 +36,11 @@ int missing_field(lua_State* L) {
     for (const auto& [field, effect] : record.missing_effects)
       if (key.is_text() && key.text() == field)
         refuse_without(quoted(field), quoted(effect), "name it in the effects of the contact");
-    throw Error(ErrorCode::unknown_name,
-                "a " + record.name + " result has no field " +
-                    (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)
-                                   : key.describe()),
-                "it has " + joined(names, " and "));
+    throw Error(
+        ErrorCode::unknown_name,
+        "a " + record.name + " result has no field " +
+            (key.is_text() ? quoted(key.text().substr(0, 40)) + meant_by(key.text(), names) : key.describe()),
+        "it has " + joined(names, " and "));
   });
 }
 
@@ -71,7 +60,7 @@ int record_index(lua_State* L) {
 }
 
 int record_new_index(lua_State* L) {
-  return luaL_error(L, "a result cannot be changed; copy what you need into a table");
+  return luaL_error(L, "a result cannot be changed; copy its fields into a table");
 }
 
 std::string describe(const Record& record) {
@@ -120,9 +109,21 @@ int record_pairs(lua_State* L) {
 }
 
 int record_release(lua_State* L) {
-  // Reset, not destroyed: a second call finds an empty pointer.
+  // A second call finds an empty pointer.
   if (auto* block = static_cast<RecordPointer*>(block_at(L, 1, &record_key))) block->reset();
   return 0;
+}
+
+// Nothing at the end.
+std::optional<Values> turn_of(Call& call, Iterator& iterator) {
+  iterator.place.clear();
+  LedgerScope scope = call.session().ledger_scope(iterator.name, false);
+  // `next` must not advance if memory runs out, because it is called again.
+  std::optional<Values> results = with_collection(call.L, [&] { return iterator.next(call); });
+  if (!results) return scope.forget(), std::nullopt;  // the end is not a turn
+  scope.keep();
+  enter_into_ledger(call.session(), *results);
+  return results;
 }
 
 int next_of(lua_State* L) {
@@ -132,18 +133,51 @@ int next_of(lua_State* L) {
     if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
     const std::shared_ptr<Iterator> iterator = *block;
     Call call(L, iterator->name, true);
-    LedgerScope scope = call.session().ledger_scope(iterator->name, false);
-    // `next` must not advance if memory runs out, because it is called again.
-    std::optional<Values> results = with_collection(L, [&] { return iterator->next(call); });
-    if (results) {
-      scope.keep();
-      enter_into_ledger(call.session(), *results);
-      return *std::move(results);
-    }
-    scope.forget();  // the end is not a turn
+    if (auto results = turn_of(call, *iterator)) return *std::move(results);
     block->reset();
     return {Value()};
   });
+}
+
+// it:table{…}
+int guarded_table(lua_State* L) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
+    if (block == nullptr || *block == nullptr)
+      throw Error(ErrorCode::bad_state, "the iterator is finished", "write c:sweep{…}:table{…}");
+    const std::shared_ptr<Iterator> iterator = std::exchange(*block, nullptr);
+    const std::string name = iterator->name + ":table";
+    Call call(L, name, true);
+    if (call.session().dry_run) return {placeholder_of("Table")};
+    return {iterator->table(call, [&] { return turn_of(call, *iterator); })};
+  });
+}
+
+int iterator_table(lua_State* L) {
+  const int results = guarded_table(L);
+  return results < 0 ? lua_error(L) : results;
+}
+
+int guarded_iterator_index(lua_State* L) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    const auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
+    const Argument key(L, 2);
+    const bool known = block != nullptr && *block != nullptr;
+    if (known && key.is_text() && key.text() == "table" && ((*block)->table || Session::of(L).dry_run))
+      return {Value(Value::Function(iterator_table))};
+    const std::string name = known ? (*block)->name : "an iterator";
+    throw Error(ErrorCode::unknown_name,
+                name + " gives an iterator, and " + (key.is_text() ? quoted(key.text()) : key.describe()) +
+                    " was read from it",
+                "write for ... in " + name + "(...) do");
+  });
+}
+
+int iterator_index(lua_State* L) {
+  const int results = guarded_iterator_index(L);
+  return results < 0 ? lua_error(L) : results;
 }
 
 int iterator_call(lua_State* L) {
@@ -151,62 +185,60 @@ int iterator_call(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+// Warns of an iterator without a loop; ignores errors of the warning.
 int iterator_release(lua_State* L) {
-  if (auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key))) block->reset();
+  static const std::string nothing;
+  auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
+  if (block == nullptr || *block == nullptr) return 0;
+  if (!(*block)->place.empty())
+    guarded(L, nothing, [&]() -> Values {
+      const Iterator& iterator = **block;
+      if (const Session* session = Session::find(L))
+        session->monitor().warn(iterator.place + iterator.name +
+                                " does nothing without a loop; write for ... in " + iterator.name +
+                                "(...) do");
+      return {};
+    });
+  block->reset();
   return 0;
 }
 
-void push_metatable_of(lua_State* L, const void* key, const char* name, const luaL_Reg* methods) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return;
-  lua_pop(L, 1);
+void make_metatable(lua_State* L, const void* key, const char* name, const luaL_Reg* methods) {
   lua_newtable(L);
   luaL_setfuncs(L, methods, 0);
   lua_pushstring(L, name);
   lua_setfield(L, -2, "__name");
   lua_pushstring(L, name);
   lua_setfield(L, -2, "__metatable");
-  lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, key);
 }
 
 }  // namespace
 
-void push_record(lua_State* L, const std::shared_ptr<Record>& record) {
-  static const luaL_Reg methods[] = {{"__index", record_index},        {"__newindex", record_new_index},
-                                     {"__tostring", record_to_string}, {"__pairs", record_pairs},
-                                     {"__gc", record_release},         {nullptr, nullptr}};
-  void* block = lua_newuserdatauv(L, sizeof(RecordPointer), 0);
-  new (block) RecordPointer();
-  push_metatable_of(L, &record_key, "result", methods);
-  lua_setmetatable(L, -2);
-  *static_cast<RecordPointer*>(block) = record;
-}
-
-std::shared_ptr<Record> record_at(lua_State* L, int index) {
-  auto* block = static_cast<RecordPointer*>(block_at(L, index, &record_key));
-  return block == nullptr ? nullptr : *block;
-}
-
-void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator) {
-  static const luaL_Reg methods[] = {{"__call", iterator_call},
-                                     {"__gc", iterator_release},
-                                     {"__close", iterator_release},
-                                     {nullptr, nullptr}};
-  void* block = lua_newuserdatauv(L, sizeof(IteratorPointer), 0);
-  new (block) IteratorPointer();
-  push_metatable_of(L, &iterator_key, "iterator", methods);
-  lua_setmetatable(L, -2);
-  *static_cast<IteratorPointer*>(block) = iterator;
+void open_results(lua_State* L) {
+  static const luaL_Reg of_record[] = {{"__index", record_index},        {"__newindex", record_new_index},
+                                       {"__tostring", record_to_string}, {"__pairs", record_pairs},
+                                       {"__gc", record_release},         {nullptr, nullptr}};
+  static const luaL_Reg of_iterator[] = {{"__call", iterator_call},
+                                         {"__index", iterator_index},
+                                         {"__gc", iterator_release},
+                                         {"__close", iterator_release},
+                                         {nullptr, nullptr}};
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &record_key) != LUA_TTABLE) {
+    make_metatable(L, &record_key, "result", of_record);
+    make_metatable(L, &iterator_key, "iterator", of_iterator);
+  }
+  lua_pop(L, 1);
 }
 
 const RecordType<Cost>& cost_type() {
   static const RecordType<Cost> type{
       "Cost",
       "cost",
-      "What something took to compute.",
+      "Computing cost.",
       {{"seconds", &Cost::seconds, dimension::time, "by the clock"},
        {"transforms", &Cost::transforms, "Fourier transforms, in equivalents of the finest grid"},
-       {"bytes", &Cost::bytes, "greatest memory beyond what was held before"}}};
+       {"bytes", &Cost::bytes, "greatest memory beyond the memory held before"}}};
   return type;
 }
 

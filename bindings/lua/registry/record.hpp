@@ -14,13 +14,11 @@
 
 namespace asperity::lua {
 
-void push_record(lua_State* L, const std::shared_ptr<Record>& record);
-void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator);
+// Makes the metatables of results and iterators in a new state. Raises on lack of memory.
+void open_results(lua_State* L);
 
 const RecordType<Cost>& cost_type();
 // "table<string, Cost>".
 Record cost_by_effect(const std::vector<std::pair<std::string, Cost>>& costs);
-
-std::shared_ptr<Record> record_at(lua_State* L, int index);
 
 }  // namespace asperity::lua

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Types of results: name, unit, sentence and source of each field. The same entries fill the record and drive
-// help, completion, editor types, reference and placeholders.
+// Types of results: name, unit, sentence and source of each field. They drive records, help, completion,
+// editor types, reference and placeholders.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <functional>
 #include <memory>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,13 +19,6 @@
 #include "bindings/lua/registry/registry.hpp"
 
 namespace asperity::lua {
-
-struct RecordInfo {
-  std::string name{};   // "ArealRoughness": in declared types
-  std::string title{};  // "roughness": in print() and errors
-  std::string sentence{};
-  std::vector<Getter> fields{};
-};
 
 template <class T>
 class RecordType;
@@ -64,8 +59,10 @@ Value value_of_held(const V& held) {
     return Value(std::string(held));
   else if constexpr (std::constructible_from<Value, const V&>)
     return Value(held);
-  else if constexpr (std::same_as<typename V::value_type, double>)
-    return Value::Numbers(std::make_shared<const Array<double>>(held.begin(), held.end()));
+  else if constexpr (!std::ranges::range<V>)
+    return object(held);
+  else if constexpr (std::same_as<std::ranges::range_value_t<V>, double>)
+    return number_list(held);
   else {
     List list;
     for (const auto& item : held) list.items.push_back(value_of_held(item));
@@ -75,13 +72,41 @@ Value value_of_held(const V& held) {
 
 template <class T, class V>
 T class_of_member(V T::*);
+template <class T, class V>
+T class_of_member(V (*)(const T&));
+template <auto read, auto... further>
+auto follow(const auto& of) {
+  if constexpr (sizeof...(further) == 0)
+    return std::invoke(read, of);
+  else
+    return follow<further...>(std::invoke(read, of));
+}
+template <class Run, class V, class T, class... Others>
+T value_read_by(V (Run::*)(const T&, Others...) const);
+// The lambda's first parameter.
+template <class Run>
+using Read = decltype(value_read_by(&Run::operator()));
+template <class Run>
+requires requires { &Run::operator(); }
+Read<Run> class_of_member(Run);
 
 }  // namespace detail
 
-// For a Class whose values provide description and digest.
+// A list of two values.
+template <class V>
+std::array<V, 2> along_axes(V x, V y) {
+  return {x, y};
+}
+
+// For a Class whose values provide description and digest. `read` is a member or a function of the value.
 template <auto read, class T = decltype(detail::class_of_member(read))>
 std::string text_of(const void* self) {
   return std::invoke(read, *static_cast<const T*>(self));
+}
+// For other functions of a Class: a captureless lambda.
+template <class Run>
+auto from_value(Run) {
+  return [](const void* self) { return Run{}(*static_cast<const detail::Read<Run>*>(self)); };
 }
 // Text without its last line break.
 template <class T>
@@ -95,21 +120,35 @@ bool have_one_digest(const void* a, const void* b) {
   return static_cast<const T*>(a)->digest() == static_cast<const T*>(b)->digest();
 }
 
-// A field of a native value. `read` is a member of T or a member function without arguments.
-template <auto read, class T = decltype(detail::class_of_member(read))>
-Getter getter(std::string name, std::string type, std::string sentence, Dimension dimension = {}) {
-  return {std::move(name), std::move(type), std::move(sentence), dimension, [](Call& call) -> Values {
-            return {detail::value_of_held(std::invoke(read, std::as_const(call.self<T>())))};
-          }};
-}
-// As above; `read` is a captureless lambda.
-template <class T, std::invocable<const T&> Read>
-Getter getter(std::string name, std::string type, std::string sentence, Read, Dimension dimension = {}) {
-  return {std::move(name), std::move(type), std::move(sentence), dimension,
-          [](Call& call) -> Values { return {detail::value_of_held(Read{}(call.self<T>()))}; }};
+// A method's body with one result. `run`: a captureless lambda of the value, and of the call if it has
+// arguments.
+template <class Run>
+Body method(Run) {
+  return [](Call& call) -> Values {
+    const auto& self = call.self<detail::Read<Run>>();
+    if constexpr (std::invocable<Run, decltype(self)>)
+      return {detail::value_of_held(Run{}(self))};
+    else
+      return {detail::value_of_held(Run{}(self, call))};
+  };
 }
 
-// A field of a record made from a T. `read` is a member, a member function or a function of T; its result
+// A field of a native value. `read`: a member or a member function without arguments; each of `further` the
+// same for the result.
+template <auto read, auto... further>
+Getter getter(std::string name, std::string type, std::string sentence, Dimension dimension = {}) {
+  return {std::move(name), std::move(type), std::move(sentence), dimension, [](Call& call) -> Values {
+            using T = decltype(detail::class_of_member(read));
+            return {detail::value_of_held(detail::follow<read, further...>(std::as_const(call.self<T>())))};
+          }};
+}
+// `read`: a captureless lambda.
+template <class T, std::invocable<const T&> Read>
+Getter getter(std::string name, std::string type, std::string sentence, Read read, Dimension dimension = {}) {
+  return {std::move(name), std::move(type), std::move(sentence), dimension, method(read)};
+}
+
+// A field of a record made from a T. `read`: a member, a member function or a function of T; its result
 // determines the field's type: numbers, texts, optionals (nil if empty) and lists.
 template <class T>
 class RecordField {
@@ -142,20 +181,20 @@ class RecordField {
           return std::invoke(*static_cast<const Read*>(held), of);
         }) {}
 
-  // Without the effect, the record lacks the field, and reading it is an error that names the effect.
+  // Without the effect, reading the field is an error that names it.
   RecordField& needs(std::string effect) {
     where_known();
     info.sentence += "; needs " + effect;
     effect_ = std::move(effect);
     return *this;
   }
-  // A record without a value lacks the field, instead of nil.
+  // Without a value, the field is missing instead of nil.
   RecordField& where_known() {
     where_known_ = true;
     if (info.type.ends_with('?')) info.type.pop_back();
     return *this;
   }
-  // The unit varies between records; the sentence must say so.
+  // Varies between records; the sentence must say so.
   RecordField& in(Dimension (*unit)(const T&)) {
     unit_ = unit;
     return *this;
@@ -199,7 +238,7 @@ class RecordField {
   Dimension (*unit_)(const T&) = nullptr;
 };
 
-// Lives as long as the program; records store its address.
+// Never destroyed: records store its address.
 template <class T>
 class RecordType : public RecordInfo {
  public:
@@ -224,6 +263,7 @@ class RecordType : public RecordInfo {
   }
   List list(const std::vector<T>& items) const {
     List records;
+    records.rows = true;
     for (const T& item : items) records.items.emplace_back((*this)(item));
     return records;
   }
@@ -232,14 +272,5 @@ class RecordType : public RecordInfo {
   std::vector<Field> entries_;
   std::string (*title_of_)(const T&) = nullptr;
 };
-
-// In the results of modules and classes, each once.
-const std::vector<const RecordInfo*>& record_types();
-const RecordInfo* find_record_type(std::string_view name);
-// "iterator<ProtocolEvent and State?>", "table<string, Cost>".
-std::vector<const RecordInfo*> record_types_in(std::string_view type);
-
-// Throws Error{internal} unless the record, or the first record of a list, has the declared type.
-void check_declared(std::string_view giver, std::string_view declared, const Value& given);
 
 }  // namespace asperity::lua

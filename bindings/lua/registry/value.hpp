@@ -3,11 +3,14 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -23,13 +26,14 @@ class Call;
 class Value;
 using Values = std::vector<Value>;
 
+// From make_class<T>(), which the binding of T specialises.
 template <class T>
 const Class& class_of();
 
 struct KnownBody;
 struct RecordInfo;
 
-// Null pointer: a placeholder of a dry run, or a closed value.
+// Null pointer: a dry run's placeholder, or a closed value.
 struct Object {
   const Class* type = nullptr;
   std::shared_ptr<void> pointer;
@@ -43,7 +47,7 @@ struct Record {
   struct Entry;
   std::string name;  // "roughness"
   std::vector<Entry> entries;
-  // Absent fields and the effects that would provide them.
+  // With the effects that would provide them.
   std::vector<std::pair<std::string, std::string>> missing_effects{};
   const RecordInfo* type = nullptr;  // null if restored from bytes
   bool placeholder = false;          // fields without values
@@ -53,10 +57,13 @@ struct Record {
   const Value* find(std::string_view field) const;
 };
 
-// List: a Lua table 1..n with optional named fields. Map: text keys in order.
+// List: a Lua table 1..n with optional named fields. A list of rows has the methods of a Table. Map: text
+// keys in order.
 struct List {
   Values items;
   std::vector<std::pair<std::string, Value>> named;
+  bool rows = false;
+  std::vector<std::pair<std::string, std::string>> units{};  // of columns of rows, for display
   List();
   List(Values values);
 };
@@ -64,10 +71,13 @@ struct Map {
   std::vector<std::pair<std::string, Value>> items;
 };
 
-// `next` returns one turn's values, or nothing at the end.
+// Nothing at the end.
 struct Iterator {
   std::function<std::optional<Values>(Call&)> next;
   std::string name = "iterator";  // the creating call, "contact:sweep"
+  std::string place{};            // until the first turn
+  // For a method :table, which takes all turns; may be null.
+  std::function<Value(Call&, const std::function<std::optional<Values>()>& turn)> table = nullptr;
 };
 
 struct Unknown {};
@@ -77,11 +87,11 @@ struct Script {
   const char* name;
 };
 
-// A value outside any state, for repeated use.
+// Outside any state, for repeated use.
 class StoredValue {
  public:
   virtual ~StoredValue() = default;
-  virtual void push(lua_State* L) const = 0;  // raises on lack of memory: call inside protect()
+  virtual void push(lua_State* L) const = 0;  // raises: call inside protect()
 };
 
 class Value {
@@ -133,7 +143,7 @@ struct Record::Entry {
 
 inline List::List() = default;
 inline List::List(Values values) : items(std::move(values)) {}
-List text_list(const std::vector<std::string>& items);
+Value::Numbers number_list(std::span<const double> values);
 
 template <class T>
 Value object(T value) {
@@ -145,11 +155,54 @@ Value object(std::shared_ptr<T> pointer) {
                 std::const_pointer_cast<std::remove_const_t<T>>(std::move(pointer)), false};
 }
 
-// As print: a record on one line, an entry with its unit.
-std::string show(const Value& value);
-std::string show(const Record::Entry& entry);
+// Depth-first traversal of a binding's result, each container in its own order. Results are immutable,
+// without cycles; tables of a script may have cycles (ensemble/transfer.hpp).
 
-// Raises on lack of memory: call inside protect().
-void push(lua_State* L, const Value& value);
+// Derived visitors hide the functions they need, and provide `leaf` for each Value alternative without
+// contents.
+struct ValueVisitor {
+  void begin(const Value&) {}  // before and after each value
+  void end() {}
+  void enter(const Record&) {}
+  void enter(const List&) {}
+  void enter(const Map&) {}
+  void leave(const Record&) {}
+  void named(std::size_t) {}                       // number of named values to come
+  bool under(const std::string&) { return true; }  // a named value; false skips it
+  void after(const Record::Entry&) {}
+};
+
+template <class Visitor>
+void visit_value(const Value& value, Visitor& visitor) {
+  const auto visit_named = [&](const auto& named) {
+    visitor.named(named.size());
+    for (const auto& [name, item] : named)
+      if (visitor.under(name)) visit_value(item, visitor);
+  };
+  visitor.begin(value);
+  std::visit(
+      [&](const auto& held) {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, std::shared_ptr<Record>>) {
+          visitor.enter(*held);
+          for (const Record::Entry& entry : held->entries) {
+            if (visitor.under(entry.field)) visit_value(entry.value, visitor);
+            visitor.after(entry);
+          }
+          visitor.leave(*held);
+        } else if constexpr (std::is_same_v<Held, std::shared_ptr<List>>) {
+          visitor.enter(*held);
+          for (const Value& item : held->items) visit_value(item, visitor);
+          visit_named(held->named);
+        } else if constexpr (std::is_same_v<Held, std::shared_ptr<Map>>) {
+          visitor.enter(*held);
+          visit_named(held->items);
+        } else {
+          visitor.leaf(held);
+        }
+      },
+      value.data);
+  visitor.end();
+}
 
 }  // namespace asperity::lua

@@ -10,6 +10,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/number_columns.hpp"
@@ -41,9 +42,7 @@ Option<CalibrationKeys> in_options(Option<CalibrationOptions> inner) {
   return option;
 }
 
-std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
-
-// "`load` is 5 N" for each column, except y, with one value in all rows.
+// "`load` is 5 N" for each constant column, except y.
 std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
   std::vector<std::string> found;
   constexpr std::size_t most = 4;
@@ -53,8 +52,8 @@ std::vector<std::string> alike_columns(const Rows& table, const std::set<std::si
     for (std::size_t row = 1; row < table.rows() && same; ++row)
       same = same_cell(table.cell(row, k), table.cell(0, k));
     if (same)
-      found.push_back(quoted(table.columns()[k].name) + " is " + short_text(table.cell(0, k)) +
-                      unit_text(table.columns()[k]));
+      found.push_back(quoted(table.columns()[k].name) + " is " +
+                      text_with_unit(table.cell(0, k), table.columns()[k].unit));
   }
   return found;
 }
@@ -94,7 +93,7 @@ const RecordType<ToldParameter>& calibrated_parameter_type() {
   static const RecordType<P> type{
       "CalibratedParameter",
       "parameter",
-      "A parameter of a calibration, in SI; of a fit, in the units of its columns.",
+      "A parameter of a calibration or a fit, in SI.",
       {told_number<&C::value>("value", "its estimate; nil where the rows do not determine it"),
        told_number<&C::standard_error>(
            "u", "its standard uncertainty; nil at a bound, by which a bound moves it, and without scatter"),
@@ -107,8 +106,8 @@ const RecordType<ToldParameter>& calibrated_parameter_type() {
        {"share_of_faces", [](const P& p) { return p.of.share_of_faces; },
         "share of u² that the scatter of replicates makes; 0 without `replicate`"},
        {"determined", [](const P& p) { return p.of.determined; }, "whether the rows determine it"},
-       {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it stands at its lower bound"},
-       {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it stands at its upper bound"},
+       {"at_lower", [](const P& p) { return p.of.at_lower; }, "whether it is at its lower bound"},
+       {"at_upper", [](const P& p) { return p.of.at_upper; }, "whether it is at its upper bound"},
        {"profile_values",
         [](const P& p) {
           std::vector<double> values;
@@ -136,7 +135,7 @@ const RecordType<CalibratedSpecimen>& calibrated_specimen_type() {
        {"rows", &S::rows, "how many rows are of it"},
        {"residual", &S::residual,
         "mean of its residuals: relative to the fit with scatter=\"relative\", in units of `u` where that is "
-        "known, else in the unit of y"}}};
+        "known, else in SI"}}};
   return type;
 }
 
@@ -185,7 +184,7 @@ const RecordType<Curve>& curve_type() {
   static const RecordType<Curve> type{
       "FitCurve",
       "curve",
-      "A fitted curve over the range of its points, with the pointwise interval of the curve.",
+      "A fitted curve over the range of the points, with the pointwise interval of the curve.",
       {{"x", [](const Curve& c) { return of_points(c, &CurvePoint::x); }, "places, ascending"},
        {"y", [](const Curve& c) { return of_points(c, &CurvePoint::y); }, "the curve there"},
        {"low", [](const Curve& c) { return of_points(c, &CurvePoint::low); },
@@ -197,7 +196,7 @@ const RecordType<Curve>& curve_type() {
 
 template <auto read>
 Getter field(const char* name, const char* type, const char* sentence) {
-  return getter<read, CalibrationReport>(name, type, sentence);
+  return getter<read>(name, type, sentence);
 }
 
 struct CalibrationChartKeys {
@@ -210,8 +209,7 @@ struct CalibrationChartKeys {
 const Block<CalibrationChartKeys>& calibration_chart_block() {
   using K = CalibrationChartKeys;
   static const Block<K> block{
-      "chart",
-      {text("x", &K::x, "the column along; without it measured y stands against that of the fit"),
+      {text("x", &K::x, "the column along; without it, measured y against fitted y"),
        flag("likelihood", &K::likelihood,
             "draw the profile likelihood of each parameter instead, with the limit at which its interval "
             "ends"),
@@ -227,7 +225,7 @@ Values chart_calibration(Call& call) {
   const CalibrationChartKeys keys = call.options(calibration_chart_block());
   if (keys.likelihood && keys.x)
     throw Error(ErrorCode::bad_value,
-                "`x` is of no use to the chart of the likelihood, which has the parameters along",
+                "`x` has no effect on the chart of the likelihood, which has the parameters along x",
                 "leave out `x` or `likelihood`");
   const std::string file = keys.file.value_or(
       safe_file_name("calibration-" + report.y + (keys.likelihood ? "-likelihood" : "")) + ".svg");
@@ -245,11 +243,11 @@ Values chart_calibration(Call& call) {
 }  // namespace
 
 Option<CalibrationKeys> u_option() {
-  return custom<CalibrationKeys>("u", "string|number",
-                                 "standard uncertainty of y: a column, one number in the unit of y, or a "
-                                 "quantity; rows weigh by 1/u², and "
-                                 "intervals rest on u, whatever the residuals are. All alike without it",
-                                 read_u);
+  return custom<CalibrationKeys>(
+      "u", "string|number",
+      "standard uncertainty of y: a column, one number in SI, or a quantity; rows weigh by 1/u², and "
+      "intervals rest on u, whatever the residuals are. All alike without it",
+      read_u);
 }
 
 Option<CalibrationKeys> scatter_option() {
@@ -295,7 +293,7 @@ CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& key
   const std::size_t y = chosen.column(keys.y, "y");
   std::set<std::size_t> told = {y};
   std::optional<double> u = keys.u_number;
-  std::optional<std::size_t> x, weights, u_column, specimen;  // places in `named`, except `specimen`
+  std::optional<std::size_t> x, weights, u_column, specimen;  // in `named`, except `specimen`
   const auto name = [&](const char* key, const std::string& column) {
     named.emplace_back(key, column);
     told.insert(chosen.column(column, key));
@@ -307,7 +305,8 @@ CalibrationInput calibration_input(const Rows& table, const CalibrationKeys& key
     u_column = name("u", *keys.u_text);
   } else if (keys.u_text) {
     try {
-      u = parse_quantity_in(*keys.u_text, chosen.columns()[y].unit);
+      const std::string unit = chosen.columns()[y].unit;
+      u = from_unit(parse_quantity_in(*keys.u_text, unit), unit);
     } catch (const Error& error) {
       throw Error(error.code(),
                   "`u` is neither a column of " + chosen.name() + " nor a value of " + quoted(keys.y) + ": " +
@@ -399,13 +398,12 @@ const Class& class_of<CalibrationReport>() {
         field<[](const R& r) { return r.found.identifiable; }>("identifiable", "boolean",
                                                                "whether the rows determine every parameter"),
         field<[](const R& r) { return r.found.verdict; }>(
-            "verdict", "string", "what the rows determine and what not, and on what the intervals rest"),
+            "verdict", "string", "determined and undetermined parameters, and the basis of the intervals"),
         field<[](const R& r) { return r.found.combinations; }>(
             "combinations", "string[]",
-            "what the rows determine in the place of parameters that they do not tell apart"),
-        field<told_correlation>(
-            "correlation", "number[][]",
-            "of the estimates; nan beside parameters that are not determined or stand at a bound"),
+            "determined combinations of parameters that the rows do not separate"),
+        field<told_correlation>("correlation", "number[][]",
+                                "of the estimates; nan for parameters that are undetermined or at a bound"),
         field<[](const R& r) { return r.found.condition; }>(
             "condition", "number?",
             "largest over smallest singular value of the Jacobian with columns of length 1; nil where a "
@@ -454,8 +452,7 @@ const Class& class_of<CalibrationReport>() {
          .body = chart_calibration,
          .sentence = "Draws the measured rows with the fit and its band, or the profile likelihood of each "
                      "parameter; returns the file. Takes no call of the model.",
-         .options = &calibration_chart_block(),
-         .options_optional = true,
+         .options = optional(calibration_chart_block()),
          .returns = "string",
          .example =
              "lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "

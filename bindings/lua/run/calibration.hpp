@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Common part of t:fit and lab.calibrate: keys, selection of rows, native class.
+// Common to t:fit and lab.calibrate: keys, selection of rows, class.
 #pragma once
 
 #include <optional>
@@ -33,11 +33,11 @@ Option<CalibrationKeys> profile_option();
 struct CalibrationInput {
   CalibrationRows rows;
   Table used;                        // the selected rows
-  std::vector<std::size_t> numbers;  // row numbers after `where`, from 1
+  std::vector<std::size_t> numbers;  // after `where`, from 1
   std::size_t left_out = 0;
 };
 
-// Selects rows with a number in each named column, a named specimen, and a weight above 0. Throws like
+// Selects rows with a number in each named column, a named specimen, and a weight above 0. Throws as
 // number_columns(), and Error{bad_value} for a negative weight or if no row matches `where`.
 CalibrationInput calibration_input(const Table& table, const CalibrationKeys& keys);
 

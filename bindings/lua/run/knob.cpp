@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/run/knob.hpp"
+#include "bindings/lua/run/run.hpp"
 
 #include <string>
 #include <utility>
 
-#include "bindings/lua/registry/case_input.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -17,11 +16,11 @@ namespace {
 
 struct KnobKeys {
   RunKnob knob;
-  // The key that fixed the dimension, and its text; empty after plain numbers only.
+  // The key that fixed the dimension; empty after plain numbers.
   std::string told_by, told;
 };
 
-// A bound or the value; the first quantity with a unit fixes the dimension.
+// The first quantity with a unit fixes the dimension.
 Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::string sentence) {
   return custom<KnobKeys>(
              std::move(name), "number|string", std::move(sentence),
@@ -67,7 +66,6 @@ void check_knob(KnobKeys& keys, Problems& problems) {
 
 const Block<KnobKeys>& knob_block() {
   static const Block<KnobKeys> block{
-      "lab.knob",
       {Option<KnobKeys>(
            custom<KnobKeys>(
                "name", "string", "by which it is set; the same one in a script is the same knob",
@@ -103,7 +101,7 @@ Values make_knob(Call& call) {
   return {value};
 }
 
-// In a dry run, bounds or value may be unknown.
+// Bounds or value may be unknown.
 void look_at_knob(const Call& call) {
   if (!call.argument(1).is_table()) return;
   with_key(call.argument(1), "name", [&](const Argument& name) {
@@ -144,9 +142,9 @@ const Module& knob_module() {
         {.name = "set",
          .body = set_knob,
          .sentence =
-             "Moves a knob in the prompt: once the line has ended, what was entered is run again from its "
-             "start with the new value, and heavy calls whose inputs are as they were are taken from memory. "
-             "Where that fails, all stays as it was. A script cannot move its own knobs.",
+             "Moves a knob in the prompt. After the line has ended, all entered lines run again from the "
+             "start with the new value; heavy calls with unchanged inputs are taken from memory. If the "
+             "run fails, nothing changes. A script cannot move its own knobs.",
          .parameters = {{"name", "string", "of a knob that was made"},
                         {"value", "number|string", "between its bounds; a plain number is SI"}},
          .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/run/ledger.hpp"
+#include "bindings/lua/run/run.hpp"
 
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/record_type.hpp"
@@ -14,7 +14,7 @@ const RecordType<LedgerLine>& ledger_line_type() {
   static const RecordType<L> type{
       "LedgerLine",
       "line",
-      "What the calls of a function have cost.",
+      "Cost of the calls of a function.",
       {{"call", &L::call, "the function, as \"contact:press\""},
        {"in_case", &L::in_case, "whether cases of an ensemble called it"},
        {"times", &L::calls,
@@ -36,7 +36,7 @@ const Class& class_of<LedgerReport>() {
     Class c;
     c.name = "Ledger";
     c.article_name = "a ledger";
-    c.sentence = "What a run has done so far and what it cost; print() shows all of it.";
+    c.sentence = "Work and cost of a run so far; print() shows the whole ledger.";
     c.fields = {
         getter<&R::seconds>("seconds", "number", "of the run so far", dimension::time),
         getter<&R::unaccounted>("unaccounted", "number",
@@ -47,11 +47,12 @@ const Class& class_of<LedgerReport>() {
         getter<&R::bytes>("bytes", "integer", "greatest memory of one call"),
         getter<R>("calls", "LedgerLine[]", "a line for each function that was called",
                   [](const R& of) { return ledger_line_type().list(of.lines); }),
-        getter<R>("by_effect", "table<string, Cost>", "what the pressed contacts cost, effect by effect",
+        getter<R>("by_effect", "table<string, Cost>", "cost of the pressed contacts, effect by effect",
                   [](const R& of) { return cost_by_effect(of.by_effect); }),
         getter<R>("effects_off", "string[]", "effects that no contact named, for which nothing was done",
-                  [](const R& of) { return text_list(of.effects_off); }),
-        getter<R>("json", "string", "all of it, as JSON", [](const R& of) { return of.json().text(2); })};
+                  [](const R& of) { return of.effects_off; }),
+        getter<R>("json", "string", "the whole ledger, as JSON",
+                  [](const R& of) { return of.json().text(2); })};
     c.results = {&ledger_line_type(), &cost_type()};
     c.describe = lines_of<R>;
     return c;
@@ -63,8 +64,8 @@ Function ledger_function() {
   return {.name = "ledger",
           .body = ledger,
           .sentence =
-              "What this run has done so far and what it cost, call by call and effect by effect, with what "
-              "is in no line at the end.",
+              "Work and cost of this run so far, call by call and effect by effect; the remainder is at "
+              "the end.",
           .returns = "Ledger",
           .example = "print(lab.ledger())"};
 }

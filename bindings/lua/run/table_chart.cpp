@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t:chart and book:chart: keys of a chart and of the panel below it. Script functions stay on the stack
-// during drawing.
+// t:chart and book:chart. Script functions stay on the stack during drawing.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/notebook.hpp"
-#include "bindings/lua/run/table.hpp"
-#include "bindings/lua/run/table_keys.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/run/run_directory.hpp"
@@ -102,15 +99,15 @@ void read_fits(const Argument& value, const OptionInfo& info, C& c, Problems& pr
     if (auto fit = fitted_curve_of(part))
       c.fits.push_back(*std::move(fit));
     else if (!part.is_unknown())
-      detail::wrong_type(part, info, "what t:fit{...} gives, or a list of that", problems);
+      detail::wrong_type(part, info, "the result of t:fit{...}, or a list of such results", problems);
   };
   if (!value.is_table()) return take(value);
   if (value.length() == 0)
-    return detail::wrong_type(value, info, "what t:fit{...} gives, or a list of that", problems);
+    return detail::wrong_type(value, info, "the result of t:fit{...}, or a list of such results", problems);
   for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
 }
 
-// Stores the names; functions are read when the chart is drawn.
+// Only names: functions are read when the chart is drawn.
 void read_functions(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(
@@ -163,11 +160,21 @@ std::vector<Option<C>> panel_keys(bool first) {
   keys.push_back(text("title", &C::title, "above the chart"));
   keys.push_back(text("x_label", &C::x_label, "instead of the column's name"));
   keys.push_back(text("y_label", &C::y_label, "instead of the column's name"));
+  keys.push_back(
+      choice("legend", &C::legend,
+             {{"right", "right"},
+              {"below", "below"},
+              {"top left", "top left"},
+              {"top right", "top right"},
+              {"bottom left", "bottom left"},
+              {"bottom right", "bottom right"},
+              {"none", "none"}},
+             "the place of the names of lines; default right, of long names or with `width` below"));
   return keys;
 }
 
 const Block<NotebookChart>& below_block() {
-  static const Block<C> block{"below", panel_keys(false)};
+  static const Block<C> block{panel_keys(false)};
   return block;
 }
 
@@ -197,11 +204,14 @@ void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::siz
 
 Values chart_rows(Call& call) {
   NotebookChart options = call.options(notebook_chart_block());
-  RunDirectory& run = run_of(call, "draws no charts", "return what it found, and draw it after the loop");
+  RunDirectory& run = run_of(call, "draws no charts", "return its results, and draw it after the loop");
   std::vector<Wanted> wanted;
   for (FunctionLine& line : options.functions) wanted.push_back({false, &line});
   if (options.below) {
-    if (options.below->x.empty()) options.below->x = options.x;
+    if (options.below->x.empty()) {
+      options.below->x = options.x;
+      options.below->log_x = options.below->log_x || options.log_x;
+    }
     for (FunctionLine& line : options.below->functions) wanted.push_back({true, &line});
   }
   const Argument self(call.L, 1);
@@ -234,10 +244,16 @@ const Block<NotebookChart>& notebook_chart_block() {
         });
     below.info.inner = &below_block();
     keys.push_back(std::move(below));
+    keys.push_back(
+        quantity("width", &C::width, dimension::length, inside(0.02, 1),
+                 "of the printed figure; text and lines follow `font_size`, a .png has 300 pixels per inch"));
+    keys.push_back(
+        number("font_size", &C::font_size, inside(3, 40),
+               "of the text in print, in points; default 8, with a `width`, or 240 mm without one"));
     keys.push_back(text("file", &C::file,
                         "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
                         "table table-<y>-<x>.svg"));
-    return Block<C>{"chart", std::move(keys)};
+    return Block<C>{std::move(keys)};
   }();
   return block;
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <map>
+#include <utility>
 
+#include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
-#include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/study/curve_fit.hpp"
 
 namespace asperity::lua {
@@ -13,8 +17,8 @@ namespace asperity::lua {
 namespace {
 
 struct FitKeys : CalibrationKeys {
-  std::string model;                    // a word; empty for a function
-  std::map<std::string, double> start;  // sorted, because Lua keeps no order
+  std::string model;                    // "" for a function
+  std::map<std::string, double> start;  // sorted: Lua has no order
   bool function = false;
   std::string name;
 };
@@ -26,7 +30,7 @@ void read_model(const Argument& value, const OptionInfo& info, FitKeys& keys, Pr
   } else if (value.is_text()) {
     if (const auto place = detail::read_word(value, info, words, problems)) keys.model = words[*place];
   } else {
-    detail::wrong_type(value, info, "\"linear\", \"power\" or a function(x, q)", problems);
+    detail::wrong_type(value, info, "\"linear\", \"power\" or a function(q, row)", problems);
   }
 }
 
@@ -40,7 +44,7 @@ void read_start(const Argument& value, const OptionInfo& info, FitKeys& keys, Pr
       keys.start.emplace(key.text(), number.number());
     else if (!number.is_unknown())
       problems.push_back("`start." + std::string(key.text()) + "` is " + number.describe() +
-                         "; give a number, in the units of the columns");
+                         "; give a number in SI");
   });
 }
 
@@ -50,24 +54,26 @@ void check_fit(FitKeys& keys, Problems& problems) {
         "`start` is missing: a function needs the names of its parameters and values to begin from, as in { "
         "a=1, b=0.5 }");
   if (!keys.function && !keys.start.empty())
-    problems.push_back("`start` is of no use to the model \"" + keys.model + "\", which finds its own");
+    problems.push_back("`start` has no effect on the model \"" + keys.model + "\"; leave it out");
   const bool u = keys.u_number || keys.u_text;
   if (keys.weights && (u || keys.options.scatter == CalibrationScatter::relative))
-    problems.push_back(u ? "`weights` and `u` both say how rows weigh; give `u` where it is known"
-                         : "`weights` and scatter=\"relative\" both say how rows weigh; give one of them");
+    problems.push_back(
+        u ? "`weights` and `u` both set the weights of rows; give `u` if it is known"
+          : "`weights` and scatter=\"relative\" both set the weights of rows; give one of them");
   keys.options.relative_u = keys.weights.has_value();
 }
 
 const Block<FitKeys>& fit_block() {
   using K = FitKeys;
   static const Block<K> block{
-      "fit",
       {text("x", &CalibrationKeys::x, "the column along").required(),
        text("y", &CalibrationKeys::y, "the column that is fitted").required(),
-       custom<K>("model", "\"linear\"|\"power\"|function",
-                 "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(x, q) that "
-                 "returns y from x and the table q of the parameters, in the units of the columns",
-                 read_model)
+       custom<K>(
+           "model", "\"linear\"|\"power\"|function",
+           "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(q, row) that "
+           "returns y from the table q of parameters and the columns of a row, all in SI. Where the curve "
+           "is drawn, row has x only",
+           read_model)
            .required(),
        custom<K>("start", "table", "for a function: its parameters by name, with values to begin from",
                  read_start),
@@ -76,93 +82,93 @@ const Block<FitKeys>& fit_block() {
             "a column of relative weights, with intervals that rest on the residuals; `u` instead where the "
             "uncertainty of y is known"),
        where_key(&CalibrationKeys::where), confidence_option(), profile_option(),
-       text("name", &K::name, "what charts call it")},
+       text("name", &K::name, "its name in charts")},
       check_fit};
   return block;
 }
 
-// Parameter table and names stay on the stack until the surrounding guard removes them, so that a call
-// allocates nothing.
+// model(q, row): row from the columns of the table, or x alone.
 class ScriptModel {
  public:
-  ScriptModel(const Argument& function, const std::vector<CalibrationParameter>& start)
-      : L_(function.state()), function_(function.index()), count_(static_cast<int>(start.size())) {
-    if (lua_checkstack(L_, count_ + 12) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
-    struct Fill {
-      const std::vector<CalibrationParameter>* start;
-      int operator()(lua_State* L) {
-        luaL_checkstack(L, static_cast<int>(start->size()) + 4, nullptr);
-        lua_createtable(L, 0, static_cast<int>(start->size()));
-        for (const CalibrationParameter& parameter : *start) {
-          lua_pushlstring(L, parameter.name.data(), parameter.name.size());
-          lua_pushvalue(L, -1);
-          lua_pushnumber(L, parameter.start);
-          lua_rawset(L, 1);
-        }
-        return 1 + static_cast<int>(start->size());
-      }
-    } fill{&start};
-    if (protect(L_, 0, 1 + count_, fill) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "no memory for the parameters of the model");
-    table_ = lua_gettop(L_) - count_;
+  ScriptModel(const Argument& function, const std::vector<CalibrationParameter>& start, const Table& rows,
+              std::string x)
+      : function_(function), rows_(rows), x_(std::move(x)) {
+    for (const CalibrationParameter& parameter : start) q_.items.emplace_back(parameter.name, 0.0);
   }
 
+  // On the curve between the rows.
   double operator()(double x, std::span<const double> parameters) const {
-    const Argument::StackGuard guard(L_);
-    struct Set {
-      std::span<const double> values;
-      int operator()(lua_State* L) {
-        for (std::size_t k = 0; k < values.size(); ++k) {
-          lua_pushvalue(L, 2 + static_cast<int>(k));
-          lua_pushnumber(L, values[k]);
-          lua_rawset(L, 1);
-        }
-        return 0;
-      }
-    } set{parameters};
-    for (int k = 0; k <= count_; ++k) lua_pushvalue(L_, table_ + k);
-    if (protect(L_, 1 + count_, 0, set) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "no memory for the parameters of the model");
-    lua_pushvalue(L_, function_);
-    lua_pushnumber(L_, x);
-    lua_pushvalue(L_, table_);
-    if (lua_pcall(L_, 2, 1, 0) != LUA_OK) {
-      stop_flag().check();
-      const Argument error(L_, -1);
-      throw Error(ErrorCode::bad_value, "the function `model` failed: " +
-                                            (error.is_text() ? std::string(error.text()) : error.describe()));
-    }
-    const Argument result(L_, -1);
-    if (!result.is_number())
-      throw Error(ErrorCode::bad_value, "the function `model` returned " + result.describe(),
-                  "it must return a number");
-    return result.number();
+    Map row;
+    row.items.emplace_back(x_, x);
+    return value(std::move(row), parameters);
+  }
+  double in_row(std::size_t row, std::span<const double> parameters) const {
+    return value(row_of(rows_, row), parameters);
   }
 
  private:
-  lua_State* L_;
-  int function_, table_ = 0, count_;
+  double value(Map row, std::span<const double> parameters) const {
+    Map q = q_;
+    for (std::size_t k = 0; k < parameters.size(); ++k) q.items[k].second = parameters[k];
+    lua_State* L = function_.state();
+    const Argument::StackGuard guard(L);
+    lua_pushvalue(L, function_.index());
+    const Value arguments[] = {std::move(q), std::move(row)};
+    auto push_both = [&arguments](lua_State* s) {
+      for (const Value& argument : arguments) push(s, argument);
+      return 2;
+    };
+    if (protect(L, 0, 2, push_both) != LUA_OK || lua_pcall(L, 2, 1, 0) != LUA_OK) {
+      stop_flag().check();
+      throw Error(ErrorCode::bad_value, "the function `model` failed: " + error_text(L, -1), order);
+    }
+    const Argument result(L, -1);
+    if (!result.is_number())
+      throw Error(ErrorCode::bad_value, "the function `model` returned " + result.describe(),
+                  std::string("it must return a number; ") + order);
+    return result.number();
+  }
+
+  static constexpr const char* order = "parameters come first: model=function(q, row) … end";
+  Argument function_;
+  const Table& rows_;
+  std::string x_;
+  Map q_;
 };
 
-CurveFit fit_of(Call& call, const FitKeys& keys, const CalibrationRows& rows) {
+CurveFit fit_of(Call& call, const FitKeys& keys, const CalibrationInput& input) {
+  const CalibrationRows& rows = input.rows;
   if (keys.model == "linear") return fit_line(rows, keys.options);
   if (keys.model == "power") return fit_power(rows, keys.options);
   return with_key(call.argument(1), "model", [&](const Argument& function) {
     std::vector<CalibrationParameter> start;
     for (const auto& [name, value] : keys.start) start.push_back({name, value, {}, {}});
-    const ScriptModel model(function, start);
-    return fit_model(rows, model, start, keys.options);
+    const ScriptModel model(function, start, input.used, split_column_unit(*keys.x).name);
+    return fit_model(rows, model, start, keys.options,
+                     [&model](std::size_t row, std::span<const double> q) { return model.in_row(row, q); });
   });
+}
+
+// In SI, with the display units of the columns.
+void show_line_in_units(CalibrationReport& report, const FitKeys& keys) {
+  const auto unit_of = [&](const std::string& name) {
+    return report.rows.display_unit_of(name, report.rows.column(name, "x"));
+  };
+  const std::string x = unit_of(*keys.x), y = unit_of(keys.y);
+  report.dimensions = {parse_unit(y).dimension, parse_unit(y).dimension / parse_unit(x).dimension};
+  if (x.find_first_of("/ ^*") != std::string::npos) return;
+  report.units = {y, x.empty() ? y : (y.empty() ? "1" : y) + "/" + x};
 }
 
 Values fit_of_columns(Call& call) {
   const FitKeys keys = call.options(fit_block());
   CalibrationInput input = calibration_input(*table_of_self(call), keys);
-  CurveFit fit = fit_of(call, keys, input.rows);
+  CurveFit fit = fit_of(call, keys, input);
   CalibrationReport report = calibration_report(call, keys, std::move(input), std::move(fit.found));
   report.curve = {keys.name, split_column_unit(*keys.x).name, report.y, keys.options.confidence,
                   std::move(fit.curve)};
   report.r_squared = fit.r_squared;
+  if (keys.model == "linear") show_line_in_units(report, keys);
   return {object(std::move(report))};
 }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/notebook.hpp"
-#include "bindings/lua/run/table.hpp"
-#include "bindings/lua/run/table_keys.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/statistics/histogram.hpp"
 #include "engine/statistics/number_columns.hpp"
@@ -30,7 +29,6 @@ struct MeanKeys {
 const Block<MeanKeys>& mean_block() {
   using K = MeanKeys;
   static const Block<K> block{
-      "mean",
       {custom<K>("by", "string|string[]",
                  "a column, or columns: one mean for the rows that are equal in them",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
@@ -49,9 +47,10 @@ Cell cell_of_number(const std::optional<double>& number) {
   return number && std::isfinite(*number) ? Cell(*number) : Cell();
 }
 
-std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, const std::string& unit) {
-  std::vector<TableColumn> columns, found;
-  for (const char* name : {"mean", "sd", "u", "low", "high"}) found.push_back({name, unit});
+std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, const std::string& column,
+                                      const std::string& unit) {
+  std::vector<TableColumn> columns, found = {{"mean", unit, split_column_unit(column).name}};
+  for (const char* name : {"sd", "u", "low", "high"}) found.push_back({name, unit});
   for (const char* name : {"n", "left_out", "skewness", "interval"}) found.push_back({name, ""});
   for (const std::string& name : keys.by) {
     columns.push_back(table.columns()[table.column(name, "by")]);
@@ -65,7 +64,7 @@ std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, c
   return columns;
 }
 
-// One warning per kind, with its first group and the number of groups.
+// One warning per kind: first group, number of groups.
 void warn_of_groups(Call& call, const std::string& column, const MeanKeys& keys,
                     const std::vector<GroupMean>& groups) {
   struct Told {
@@ -98,8 +97,8 @@ Values mean_of_column(Call& call) {
   const auto whole = table_of_self(call);
   const std::string column = call.text(1, "column");
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
-  const std::string unit = table.columns()[table.column(column, "column")].unit;
-  std::vector<TableColumn> columns = mean_columns(table, keys, unit);
+  const std::string unit = table.display_unit_of(column, table.column(column, "column"));
+  std::vector<TableColumn> columns = mean_columns(table, keys, column, unit);
   const std::vector<GroupMean> groups = means_of(table, column, keys.by, keys.interval, keys.confidence);
   std::vector<std::vector<Cell>> rows;
   for (const GroupMean& group : groups) {
@@ -116,13 +115,12 @@ Values mean_of_column(Call& call) {
   }
   warn_of_groups(call, column, keys, groups);
   Rows means(std::move(columns), std::move(rows));
-  means.rename("the means of " + quoted(column) + "; low to high is their " +
+  means.rename("the means of " + quoted(split_column_unit(column).name) + "; low to high is their " +
                format_short(100 * keys.confidence, 4) + " % interval");
   return {object(std::move(means))};
 }
 
 struct HistogramKeys {
-  std::string of;
   TableFilter where;
   std::optional<int> count;
   std::vector<ExpectedValue> edges;
@@ -157,11 +155,10 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
 const Block<HistogramKeys>& column_histogram_block() {
   using K = HistogramKeys;
   static const Block<K> block{
-      "histogram",
-      {text("of", &K::of, "the column").required(),
-       custom<K>(
+      {custom<K>(
            "bins", "integer|number[]",
-           "how many bins of equal width, or a list of their edges in the column's unit or as quantities",
+           "how many bins of equal width, or a list of their edges: quantities, or numbers in SI or in the "
+           "unit of the column's name",
            read_bins)
            .defaults_to("by the rule of Freedman and Diaconis"),
        where_key(&K::where),
@@ -177,9 +174,8 @@ const RecordType<ValueHistogram>& histogram_record() {
   static const RecordType<H> type{
       "Histogram",
       "histogram",
-      "How often the values of a column fall into bins.",
-      {{"edges", &H::edges,
-        "of the bins in the column's unit, one more than bins; a bin holds its lower edge"},
+      "Counts of the values of a column in bins.",
+      {{"edges", &H::edges, "of the bins in SI, one more than bins; a bin holds its lower edge"},
        {"counts", [](const H& h) { return std::vector<std::int64_t>(h.counts.begin(), h.counts.end()); },
         "values in each bin"},
        {"density", &H::density, "share of the values per width of each bin"},
@@ -191,33 +187,41 @@ const RecordType<ValueHistogram>& histogram_record() {
   return type;
 }
 
+// In the unit of `column`.
 void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& column,
                     const ValueHistogram& found) {
+  const double width = from_unit(1, column.unit);
   LineChart chart;
   chart.title = keys.title;
   chart.x.label = keys.x_label.value_or(column.name);
   chart.x.unit = column.unit;
   chart.y.label = keys.density ? "share per width" : "number";
   for (std::size_t k = 0; k < found.counts.size(); ++k)
-    chart.bars.push_back({found.edges[k], found.edges[k + 1],
-                          keys.density ? found.density[k] : static_cast<double>(found.counts[k])});
-  RunDirectory& run = run_of(call, "draws no pictures", "return what it found, and draw it after the loop");
+    chart.bars.push_back({in_unit(found.edges[k], column.unit), in_unit(found.edges[k + 1], column.unit),
+                          keys.density ? found.density[k] * width : static_cast<double>(found.counts[k])});
+  RunDirectory& run = run_of(call, "draws no pictures", "return its results, and draw it after the loop");
   warn_of(call, draw(chart, run.path_for(*keys.file)));
 }
 
 Values histogram_of_column(Call& call) {
-  const HistogramKeys keys = call.options(column_histogram_block());
+  if (call.argument(1).is_table())
+    throw Error(ErrorCode::bad_value, "histogram takes the column first",
+                "write t:histogram(\"mu\", { bins=2 })");
+  const std::string name = call.text(1, "column");
+  const HistogramKeys keys = call.options(column_histogram_block(), 2);
   if (keys.file) picture_format(*keys.file);
   const auto whole = table_of_self(call);
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
-  const TableColumn& column = table.columns()[table.column(keys.of, "of")];
+  const TableColumn asked = split_column_unit(name);
+  const std::string unit = table.display_unit_of(name, table.column(name, "column"));
   HistogramBins bins{keys.count, {}};
   for (const ExpectedValue& edge : keys.edges)
-    bins.edges.push_back(edge.quantity.empty() ? edge.value : parse_quantity_in(edge.quantity, column.unit));
-  const NumberColumns numbers = number_columns(table, {{"of", keys.of}});
+    bins.edges.push_back(edge.quantity.empty() ? from_unit(edge.value, asked.unit)
+                                               : from_unit(parse_quantity_in(edge.quantity, unit), unit));
+  const NumberColumns numbers = number_columns(table, {{"column", name}});
   ValueHistogram found = value_histogram(numbers.values[0], bins);
   found.left_out = numbers.left_out;
-  if (keys.file) draw_histogram(call, keys, column, found);
+  if (keys.file) draw_histogram(call, keys, {asked.name, unit}, found);
   return {histogram_record()(found)};
 }
 
@@ -234,8 +238,7 @@ Function mean_method() {
               "the mean), low and high (the interval), n, left_out (cells that are empty or no finite "
               "number), skewness and interval (how it was computed).",
           .parameters = {{"column", "string", "the column"}},
-          .options = &mean_block(),
-          .options_optional = true,
+          .options = optional(mean_block()),
           .returns = "Table",
           .example = "print(book:mean(\"mu\", { by=\"D\" }))",
           .unknown_when_dry = true};
@@ -244,17 +247,12 @@ Function mean_method() {
 Function histogram_method() {
   return {.name = "histogram",
           .body = histogram_of_column,
-          .sentence = "How often the values of a column fall into bins; `file` draws it.",
-          .options = &column_histogram_block(),
+          .sentence = "Counts of the values of a column in bins; `file` draws them.",
+          .parameters = {{"column", "string", "the column"}},
+          .options = optional(column_histogram_block()),
           .returns = "Histogram",
-          .example = "print(book:histogram{ of=\"mu\", bins=2 })",
+          .example = "print(book:histogram(\"mu\", { bins=2 }))",
           .heavy = true};
 }
-
-std::vector<Function> table_analysis_methods() {
-  return {mean_method(), fit_method(), histogram_method(), chart_method()};
-}
-
-std::vector<const RecordInfo*> table_analysis_results() { return {&histogram_type()}; }
 
 }  // namespace asperity::lua

@@ -2,11 +2,12 @@
 #include "bindings/lua/run/table_values.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "bindings/lua/run/notebook.hpp"
-#include "bindings/lua/run/table.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/run.hpp"
 
 namespace asperity::lua {
 
@@ -21,41 +22,30 @@ bool begins_a_number(std::string_view text) {
   return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
-Entry named_entry(std::string_view key) {
-  Entry entry;
-  const std::size_t open = key.rfind(" [");
-  if (key.ends_with("]") && open != std::string_view::npos) {
-    entry.unit = key.substr(open + 2, key.size() - open - 3);
-    key = key.substr(0, open);
-  }
-  entry.column = key;
-  return entry;
-}
+}  // namespace
 
-void keep_quantity(Entry& entry, const std::string& unit) {
+void read_quantity(Entry& entry, const TableColumn& column) {
   const auto* text = std::get_if<std::string>(&entry.value);
-  if (text == nullptr) return;
-  if (!unit.empty()) {
-    if (!begins_a_number(*text)) return;  // "worn" is text
+  if (text == nullptr || !begins_a_number(*text)) return;  // "worn" is text
+  if (!column.unit.empty()) {
     try {
-      entry.value = parse_quantity_in(*text, unit);
+      entry.value = parse_quantity_in(*text, column.unit);
     } catch (const Error& error) {
-      throw Error(ErrorCode::bad_unit, "column " + quoted(entry.column) + ": " + error.sentence(),
+      throw Error(ErrorCode::bad_unit, "column " + quoted(column.name) + ": " + error.sentence(),
                   error.hint());
     }
     return;
   }
   try {
     const Quantity quantity = parse_quantity(*text);
-    if (quantity.dimension == dimension::number) return;
-    entry.unit = si_unit(quantity.dimension);
+    const bool share = text->ends_with('%');
+    if (quantity.dimension == dimension::number && !share) return;
+    entry.unit = share ? "%" : si_unit(quantity.dimension);
     entry.value = quantity.value;
   } catch (const Error&) {
     // Remains text.
   }
 }
-
-}  // namespace
 
 std::optional<Cell> cell_of(const Argument& value) {
   if (value.is_number() && lua_isinteger(value.state(), value.index()) != 0)
@@ -89,8 +79,12 @@ List rows_of_table(const Table& table) {
   return list;
 }
 
-std::vector<Entry> entries_of(const Argument& given, bool dry, const std::string& example,
-                              const std::function<std::string(const std::string& column)>& unit_of) {
+Value row_value(const Table& table, std::int64_t k) {
+  if (k < 1 || k > static_cast<std::int64_t>(table.rows())) return {};
+  return row_of(table, static_cast<std::size_t>(k - 1));
+}
+
+std::vector<Entry> entries_of(const Call& call, const Argument& given, const std::string& example) {
   if (!given.is_table())
     throw Error(ErrorCode::bad_value, "a row is a table of columns, and was given as " + given.describe(),
                 example);
@@ -99,21 +93,33 @@ std::vector<Entry> entries_of(const Argument& given, bool dry, const std::string
     if (!key.is_text())
       throw Error(ErrorCode::bad_value, "a column is named by " + key.describe(),
                   "columns have names: { N=1, mu=0.4 }");
-    if (dry && value.is_unknown()) return;
+    if (call.session().dry_run && value.is_unknown()) return;
     const auto cell = cell_of(value);
     if (!cell)
       throw Error(ErrorCode::bad_value,
                   "column " + quoted(key.text().substr(0, 40)) + " is " + value.describe(),
                   "a cell holds a number, a string or a boolean");
-    Entry entry = named_entry(key.text());
-    entry.value = *cell;
-    if (!entry.unit.empty()) parse_unit(entry.unit);
-    keep_quantity(entry, entry.unit.empty() ? unit_of(entry.column) : entry.unit);
+    Entry entry{std::string(key.text()), *cell};
+    const TableColumn column = split_column_unit(entry.column);
+    if (column.unit.empty() && entry.column.ends_with(']') && column.name == entry.column)
+      call.session().monitor().warn("the unit of column " + quoted(entry.column) +
+                                    " is not known; the brackets stay part of the name");
+    read_quantity(entry, column);
     row.push_back(std::move(entry));
   });
-  // Lua's key order varies between processes; the place of a new column must not.
+  // Lua's key order varies; places of new columns must not.
   std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
   return row;
+}
+
+void refuse_numbers_without_unit(const std::vector<Entry>& row, const Table& table) {
+  for (const Entry& entry : row) {
+    const auto* text = std::get_if<std::string>(&entry.value);
+    const auto k = table.find_column(entry.column);
+    if (text == nullptr || !k || table.columns()[*k].unit.empty()) continue;
+    Entry read = entry;
+    read_quantity(read, table.columns()[*k]);
+  }
 }
 
 void read_filter(const Argument& value, const OptionInfo& info, TableFilter& filter, Problems& problems) {
@@ -141,10 +147,83 @@ void read_filter(const Argument& value, const OptionInfo& info, TableFilter& fil
   filter = TableFilter(std::move(conditions));
 }
 
-std::shared_ptr<const asperity::Table> table_of_self(const Call& call) {
-  const Argument self(call.L, 1);
-  if (const auto* book = self.as<Notebook>()) return std::make_shared<const asperity::Table>(book->table());
-  return call.shared_self<asperity::Table>();
+void read_pairs(const Argument& value, const OptionInfo& info,
+                std::vector<std::pair<std::string, std::string>>& pairs, const char* wanted,
+                Problems& problems) {
+  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
+  value.each([&](const Argument& key, const Argument& text) {
+    if (!key.is_text() || !text.is_text())
+      return detail::wrong_type(key.is_text() ? text : key, info, wanted, problems);
+    pairs.emplace_back(key.text(), text.text());
+  });
+  std::ranges::sort(pairs);
+}
+
+namespace {
+
+void read_columns(const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
+  constexpr const char* wanted =
+      "own names with heads of the file, as in { load=\"Kraft\" }, or the heads of a file that has none in a "
+      "list";
+  if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
+  if (value.length() > 0) return read_texts(value, info, form.heads, problems);
+  read_pairs(value, info, form.names, wanted, problems);
+}
+
+}  // namespace
+
+void read_texts(const Argument& value, const OptionInfo& info, std::vector<std::string>& texts,
+                Problems& problems) {
+  const auto take = [&](const Argument& part) {
+    if (part.is_text())
+      texts.emplace_back(part.text());
+    else if (!part.is_unknown())
+      detail::wrong_type(part, info, "a column's name", problems);
+  };
+  if (value.is_text()) return take(value);
+  if (!value.is_table() || value.length() == 0)
+    return detail::wrong_type(value, info, "a column's name or a list of them", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+}
+
+const std::vector<Option<TableForm>>& table_form_keys() {
+  using F = TableForm;
+  static const std::vector<Option<F>> keys = {
+      custom<F>(
+          "columns", "table",
+          "own names of columns, each with its head in the file, as in { load=\"Kraft\" }; where two heads "
+          "differ in their units alone, with the unit. Or a list: the heads of a file that has none",
+          [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
+            read_columns(value, info, form, problems);
+          }),
+      integer("skip", &F::skip, at_least(0), "lines above the heads that are left out"),
+      custom<F>("unit", "table",
+                "units of columns that the file says none for, or others than it says: { load=\"kN\" }; "
+                "\"1\" for plain numbers, \"date\" for dates that a spreadsheet wrote as numbers of days",
+                [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
+                  read_pairs(value, info, form.units, "units by the names of columns, as in { load=\"kN\" }",
+                             problems);
+                }),
+      choice("dates", &F::dates,
+             {{"day first", DateOrder::day_first}, {"month first", DateOrder::month_first}},
+             "the order in dates such as 03/04/2026")
+          .defaults_to("as a date of the column tells that has a day after the 12th"),
+      choice("clock", &F::clock, {{"h:min", ClockForm::hours_minutes}, {"min:s", ClockForm::minutes_seconds}},
+             "meaning of times such as 10:30"),
+      choice("decimal", &F::decimal, {{".", '.'}, {",", ','}}, "the decimal sign")
+          .defaults_to("as the numbers of the file tell together"),
+      choice("thousands", &F::thousands, {{",", ','}, {".", '.'}, {" ", ' '}, {"'", '\''}},
+             "separator of thousands")
+          .defaults_to("nothing"),
+      choice("separator", &F::separator,
+             {{",", Separator::comma},
+              {";", Separator::semicolon},
+              {"tab", Separator::tab},
+              {"blank", Separator::blank}},
+             "separator of cells")
+          .defaults_to("as the line of heads tells"),
+  };
+  return keys;
 }
 
 }  // namespace asperity::lua

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
@@ -41,11 +42,12 @@ FunctionPaths read_function_paths() {
         if (function == nullptr || !key.is_text()) return;
         const auto [path, is_new] =
             paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
-        // Alias names (math.atan2 is math.atan): the alphabetically first is used.
+        // Aliases (math.atan2 is math.atan): the alphabetically first counts.
         if (!is_new && path->second.library == library && key.text() < path->second.key)
           path->second.key = key.text();
       });
     });
+  paths.try_emplace(print_values, BasePath{"_G", "print"});
   paths.try_emplace(ordered_pairs, BasePath{"_G", "pairs"});
   paths.try_emplace(ordered_next, BasePath{"_G", "next"});
   return paths;
@@ -64,8 +66,7 @@ BaseLibrary::BaseLibrary(lua_State* L) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   paths_.reserve(32);
   paths_.emplace_back(lua_topointer(L, -1), BasePath{"_G", ""});
-  // One pass, because every case of an ensemble comes here. The first library by name wins if two paths share
-  // a table.
+  // One pass, for every case of an ensemble. If two paths share a table, the first library by name counts.
   struct Library {
     const void* table = nullptr;
     std::vector<std::pair<const void*, std::string>> parts;

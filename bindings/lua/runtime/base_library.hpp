@@ -25,7 +25,7 @@ inline constexpr std::array<std::string_view, 10> base_libraries = {
 // In a fresh Lua; null if not Lua's own. Thread-safe.
 const BasePath* base_function(lua_CFunction function);
 
-// One state's library tables and files. Reads without raising.
+// One state's library. Reads without raising.
 class BaseLibrary {
  public:
   explicit BaseLibrary(lua_State* L);
@@ -37,7 +37,7 @@ class BaseLibrary {
   std::vector<std::pair<const void*, BasePath>> paths_;
 };
 
-// Whether a Lua function comes from scripts/sandbox.lua.
+// From scripts/sandbox.lua.
 bool is_sandbox_function(lua_State* L, int index);
 
 // Pushes nil if absent. Raises on lack of memory.

@@ -29,7 +29,7 @@ class Code {
 
  private:
   static constexpr std::size_t instruction = 4;
-  static constexpr int deepest = 200;  // depth of nested functions: Lua's own limit
+  static constexpr int deepest = 200;  // of nested functions: Lua's limit
 
   std::string_view bytes(std::size_t length) {
     if (length > left_.size()) throw NotUnderstood{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digest of a script function: its Lua 5.4 dump without file names, line numbers and local variables, so that
-// edits elsewhere in the script do not matter.
+// Digest of a script function: its Lua 5.4 dump without file names, line numbers and local variables: other
+// edits of the script do not matter.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of scripts: read from anywhere and listed among the run's inputs, written into the run directory.
-// Also option keys shared by readers.
 #pragma once
 
 #include <string>
@@ -9,6 +8,8 @@
 
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 
 namespace asperity {
@@ -26,6 +27,16 @@ RunDirectory& run_of(const Call& call, const char* does, const char* instead);
 std::string readable_path(const Call& call, const std::string& name);
 void warn_of(const Call& call, const std::vector<std::string>& warnings);
 void note_input(const Call& call, const std::string& path);
+// Body of a reader: `read` of the file in argument 1 with options in argument 2.
+template <const auto& block, auto read>
+Values read_file(Call& call) {
+  const std::string path = readable_path(call, call.text(1, "path"));
+  const auto options = call.options(block, 2);
+  // First: a file too large for memory is not read for its digest.
+  const SourceFile file(path, call.session().monitor());
+  note_input(call, path);
+  return {object(read(file, options, call.session().monitor()))};
+}
 
 // "um" means "1 um".
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
@@ -64,7 +75,7 @@ void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Pr
 template <class O>
 Option<O> fill_key(HoleFill O::*member) {
   return custom<O>("fill", "\"interpolate\"|a length",
-                   "what points that were not measured become; without it they stay missing",
+                   "value of unmeasured points; without it they stay missing",
                    [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                      read_fill(value, info, options.*member, problems);
                    });

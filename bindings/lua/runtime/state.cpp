@@ -7,15 +7,16 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <optional>
 
-#include "bindings/lua/registry/case_input.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/registry/embedded.hpp"
-#include "bindings/lua/registry/mistakes.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/library.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
@@ -31,17 +32,17 @@ int open_library(lua_State* L) {
   return 1;
 }
 
-// Reading a pipe waits for its writer, perhaps forever.
+// A pipe's writer may never come.
 void refuse_pipe(const std::string& name, const std::string& place) {
   std::error_code none;
   const auto status = std::filesystem::status(place, none);
   if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
     throw Error(ErrorCode::bad_file, quoted(name) + " is no regular file, but a pipe or a socket",
-                "write what it gives into a file first");
+                "write its output into a file first");
 }
 
-// For `require`, `dofile` and `loadfile`; none for an unreadable file, whose error Lua reports. A case
-// records a module of the script's folder by its name there.
+// For `require`, `dofile` and `loadfile`; none for an unreadable file, which Lua reports. A case records a
+// module of the script's folder by its name there.
 std::optional<std::string> loaded_text(const Session& session, const std::string& name, bool is_module) {
   const std::string place = session.run == nullptr ? name : session.run->place_to_read(name).string();
   const std::string own = session.run == nullptr ? "" : session.run->own_name(place);
@@ -85,7 +86,7 @@ int give_text(lua_State* L, const Find& find) {
   return protect(L, 0, text ? 1 : 2, action) == LUA_OK ? (text ? 1 : 2) : -1;
 }
 
-// host.script_text(name, is_module) -> text, nothing (Lua must open the file), or nil and a message
+// host.script_text(name, is_module) -> text, nothing (Lua opens the file), or nil and a message
 int script_text(lua_State* L) {
   const int results = give_text(L, [L](const Session& session, const std::string& name) {
     return loaded_text(session, name, lua_toboolean(L, 2) != 0);
@@ -93,7 +94,7 @@ int script_text(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.was_loaded(name) -> whether the recorded run loaded this file
+// host.was_loaded(name) -> whether by the recorded run
 int was_loaded(lua_State* L) {
   lua_pushboolean(
       L, lua_isstring(L, 1) != 0 && recorded_copy(Session::of(L).loaded, lua_tostring(L, 1)) != nullptr);
@@ -105,13 +106,13 @@ int output_path(lua_State* L) {
   const int results = give_text(L, [](const Session& session, const std::string& name) {
     if (session.is_case)
       throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
-                  "return what it found, and write after the loop");
+                  "return its results, and write after the loop");
     return session.run == nullptr ? name : session.run->path_for(name).string();
   });
   return results < 0 ? lua_error(L) : results;
 }
 
-// host.settled(removed): the script wrote files, or removed this output_path()
+// host.settled(removed): files were written, or this output_path() removed
 int settled(lua_State* L) {
   const auto& run = Session::of(L).run;
   if (run != nullptr && lua_isstring(L, 1) != 0) run->forget_output(lua_tostring(L, 1));
@@ -167,12 +168,12 @@ int mistaken(lua_State* L) {
   return 2;
 }
 
-// Returns a message if the process must continue.
+// A message if the process must continue.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return "a case of an ensemble cannot end the run";
   if (session.with_other_ranks)
-    return "this function cannot end the run: other ranks wait for what it gives; raise an error in it";
+    return "this function cannot end the run: other ranks wait for its result; raise an error in it";
   try {
     if (session.exit_hook) session.exit_hook(code);
   } catch (const Error& error) {
@@ -187,7 +188,7 @@ const char* exit_body(lua_State* L, int code) {
   std::_Exit(code);
 }
 
-// os.exit([code]): true and nil mean success.
+// os.exit([code]): true and nil are success.
 int exit_run(lua_State* L) {
   int code = 0;
   if (lua_isboolean(L, 1))
@@ -206,10 +207,11 @@ struct Setup {
 int set_up(lua_State* L) {
   const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
   Session& session = *setup.session;
-  // A collection would find nothing to free.
+  // A collection would be in vain.
   lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
-  // Only here: the loadable module leaves the host's `pairs` unchanged.
+  // Not in the loadable module: the host's functions stay.
+  lua_register(L, "print", print_values);
   lua_register(L, "pairs", ordered_pairs);
   lua_register(L, "next", ordered_next);
   Session::attach(L, session);
@@ -251,7 +253,7 @@ int set_up(lua_State* L) {
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   lua_gc(L, LUA_GCRESTART);
-  // The next cycle begins at twice the present size, as after a collection.
+  // The next cycle begins at twice the present size.
   lua_gc(L, LUA_GCSTEP, -lua_gc(L, LUA_GCCOUNT));
   return 0;
 }
@@ -304,7 +306,7 @@ const char* stop_sentence(StopReason reason) {
   return nullptr;
 }
 
-// Whether the hook runs for the traceback handler, which a second stop would prevent.
+// A second stop would prevent the traceback.
 bool calls_the_handler(lua_State* L, lua_Debug* frame) {
   if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
   lua_getinfo(L, "f", frame);
@@ -324,7 +326,7 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
     lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
     lua_error(L);
   }
-  // The script has ended, perhaps by this stop. An error here would lose its message.
+  // The script has ended, perhaps by this stop: an error would lose its message.
 }
 }  // namespace
 
@@ -354,8 +356,36 @@ std::string error_text(lua_State* L, int index) {
   return text;
 }
 
+namespace {
+// Whether the first line of a message has a place such as "script.lua:3:".
+bool names_a_line(const char* message) {
+  for (const char* at = message; *at != '\0' && *at != '\n'; ++at) {
+    if (*at != ':') continue;
+    const std::size_t digits = std::strspn(at + 1, "0123456789");
+    if (digits > 0 && at[1 + digits] == ':') return true;
+  }
+  return false;
+}
+
+// Lua's own C functions, and error values other than text, name no line. A script's error("text", 0) stays as
+// written.
+void add_running_line(lua_State* L, bool text) {
+  lua_Debug frame;
+  if (text && lua_getstack(L, 1, &frame) != 0 && lua_getinfo(L, "Sn", &frame) != 0 && *frame.what == 'C' &&
+      frame.name != nullptr && std::strcmp(frame.name, "error") == 0)
+    return;
+  for (int level = 1; !names_a_line(lua_tostring(L, 1)) && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline <= 0 || std::strcmp(frame.source, "=sandbox") == 0) continue;
+    lua_pushfstring(L, "%s:%d: %s", frame.short_src, frame.currentline, lua_tostring(L, 1));
+    lua_replace(L, 1);
+  }
+}
+}  // namespace
+
 int traceback_handler(lua_State* L) {
-  if (lua_type(L, 1) != LUA_TSTRING) {
+  const bool text = lua_type(L, 1) == LUA_TSTRING;
+  if (!text) {
     luaL_tolstring(L, 1, nullptr);
     if (lua_type(L, 1) != LUA_TUSERDATA) {
       lua_pushliteral(L, "(error value: ");
@@ -366,6 +396,7 @@ int traceback_handler(lua_State* L) {
     lua_replace(L, 1);
   }
   lua_settop(L, 1);
+  add_running_line(L, text);
   // No stop during the traceback.
   const lua_Hook hook = lua_gethook(L);
   const int mask = lua_gethookmask(L), count = lua_gethookcount(L);

@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "engine/core/block_pool.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/sanitizers.hpp"
 
@@ -19,7 +18,7 @@ namespace asperity::lua {
 
 namespace {
 
-// Uncounted memory (a library's heap) still ends in bad_alloc.
+// A library's uncounted heap still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {
   if (sanitized) return;
   constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
@@ -28,11 +27,11 @@ void limit_address_space(std::int64_t bytes) {
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
   ::setrlimit(RLIMIT_DATA, &limit);
 }
-// The last refused request of this thread. Lua collects and retries; the next request shows whether the
-// refusal was final.
+// This thread's last refused request. Lua collects and retries; the next request shows whether the refusal
+// was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
 
-// The script's place, because Lua raises its memory error after unwinding the stack. No allocation.
+// The script's place: Lua raises its memory error after unwinding the stack. No allocation.
 struct RefusalPlace {
   char line[96] = "";     // "script.lua:12: "
   char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" ...
@@ -81,8 +80,8 @@ void note_grant(void* block, std::size_t new_size) {
   refused.reset();
 }
 
-// Regions of closed states; unused under a sanitizer, which must see every block. Never destroyed, because a
-// state may be closed last.
+// Regions of closed states; unused under a sanitizer, which must see every block. Never destroyed: a state
+// may be closed last.
 memory::BlockPool& regions() {
   static memory::BlockPool& pool = *new memory::BlockPool(std::size_t{8} << 20);
   return pool;
@@ -125,7 +124,7 @@ StateHeap::~StateHeap() {
 
 void* StateHeap::allocate(void* heap, void* block, std::size_t old_size, std::size_t new_size) {
   auto& self = *static_cast<StateHeap*>(heap);
-  const std::size_t held = block == nullptr ? 0 : old_size;  // without a block, old_size is a type code
+  const std::size_t held = block == nullptr ? 0 : old_size;  // else old_size is a type code
   if (new_size > 0) return self.change(block, held, new_size);
   if (self.small_.holds(block)) {
     self.small_.give(block, held);
@@ -141,7 +140,7 @@ StateHeap* StateHeap::of(lua_State* L) {
   return lua_getallocf(L, &heap) == allocate ? static_cast<StateHeap*>(heap) : nullptr;
 }
 
-// `uncounted` bytes of the old block belong to the region.
+// The region counts `uncounted` bytes of the old block.
 bool StateHeap::account(void* block, std::size_t old_size, std::size_t new_size, std::size_t uncounted) {
   const auto more = static_cast<std::int64_t>(new_size) - static_cast<std::int64_t>(old_size - uncounted);
   if (memory::account(more)) return true;

@@ -13,12 +13,12 @@
 
 namespace asperity::lua {
 
-// Free lists by block size in one region. Not thread-safe.
+// Free lists by block size. Not thread-safe.
 class SmallBlocks {
  public:
   static constexpr std::size_t step = 16, longest = 512;
 
-  // `region`: aligned to `step`, outlives this object; may be null.
+  // `region`: aligned to `step`, outlives this; may be null.
   SmallBlocks(std::byte* region, std::size_t bytes) : next_(region), begin_(region), end_(region + bytes) {}
 
   bool holds(const void* block) const {
@@ -26,7 +26,7 @@ class SmallBlocks {
     return place(block) - place(begin_) < place(end_) - place(begin_);
   }
   static bool same(std::size_t a, std::size_t b) { return class_of(a) == class_of(b); }
-  // Null for 0 bytes, more than `longest` bytes, or without room.
+  // Null for 0 bytes, beyond `longest`, or without room.
   void* take(std::size_t bytes) noexcept;
   // `bytes` as taken, or fewer.
   void give(void* block, std::size_t bytes) noexcept;
@@ -46,7 +46,7 @@ class StateHeap {
  public:
   static constexpr std::size_t region_bytes = std::size_t{128} << 10;
 
-  // Works without a region if memory is short.
+  // Without a region if memory is short.
   StateHeap();
   ~StateHeap();
   StateHeap(const StateHeap&) = delete;
@@ -69,11 +69,11 @@ class StateHeap {
 
 // Limits grids and Lua's heap by counting, libraries by the system.
 void limit_memory(std::int64_t bytes);
-// Whether a refusal to this thread's states or the engine was final since the limit was set, even if the
-// script caught the error.
+// Whether a refusal to this thread's states or the engine was final since then, even if the script caught the
+// error.
 bool memory_limit_met();
 
-// Adds the script's place and traceback to Lua's memory error; other messages are unchanged.
+// Adds place and traceback to Lua's memory error only.
 std::string placed_memory_error(const std::string& message);
 
 }  // namespace asperity::lua

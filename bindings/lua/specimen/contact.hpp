@@ -1,34 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.contact, and contacts as native values.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bindings/lua/contact/state_class.hpp"
+#include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "engine/contact/scene/scene.hpp"
 #include "engine/friction/partial_slip.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
 
 template <>
-const Class& class_of<SpecimenPair>();
+Class make_class<SpecimenPair>();
 
 // Options of c:press, c:place and c:shift, also in protocol events.
-struct PressKeys {
-  int given = 0;  // number of given controls; exactly one is allowed
-  PressRequest request;
-  std::optional<double> dwell;
-  std::vector<double> preload;
+struct PressKeys : PressRequest {
+  int given = 0;  // given controls; exactly one
 };
 const Block<PressKeys>& press_block();
-// The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws like
-// the call.
+// The presses of c:press or c:sweep; empty for other functions and values unknown in a dry run. Throws as the
+// call.
 std::vector<PressRequest> requests_of(const Call& call, const Function& function);
-// For a press by an iterator; equal to the line of c:press.
+// By an iterator; the same line as for c:press.
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state);
 struct PlaceKeys {
@@ -42,9 +41,18 @@ const Block<ShiftKeys>& shift_block();
 
 Function contact_function();
 
-// contact:shear (shear.cpp): partial slip under a tangential force below sliding.
+// Partial slip under a tangential force below sliding.
 Function shear_method();
 template <>
-const Class& class_of<PartialSlip>();
+Class make_class<PartialSlip>();
+
+// One Error reports all problems.
+Scene read_scene(Call& call);
+// In a dry run with placeholders: throws errors of read_scene and contact, as far as known.
+void look_at_scene(const Call& call);
+// In order. Keys without text become problems with this hint.
+std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems);
+const RowBlock& effect_block(const Effect& effect);
+const BlockInfo& scene_keys();
 
 }  // namespace asperity::lua

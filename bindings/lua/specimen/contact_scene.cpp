@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options of lab.contact, with one block per effect.
-#include "bindings/lua/specimen/contact_scene.hpp"
+#include "bindings/lua/specimen/contact.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "bindings/lua/registry/placeholder.hpp"
-#include "bindings/lua/registry/refinement.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
+#include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/elasticity/list.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
@@ -33,12 +31,11 @@ class ElasticityBlock final : public BlockInfo {
     for (const ElasticModel* model : elastic_models())
       for (std::size_t k = 0; k < model->options.size(); ++k) {
         infos_.push_back(row_info(model->options[k], model->defaults));
-        infos_.back().required = false;  // depends on the model
+        infos_.back().required = false;  // by model
         places_.push_back({model, k});
       }
   }
 
-  const std::string& name() const override { return name_; }
   std::vector<const OptionInfo*> options() const override {
     std::vector<const OptionInfo*> all;
     for (const OptionInfo& info : infos_) all.push_back(&info);
@@ -77,12 +74,11 @@ class ElasticityBlock final : public BlockInfo {
     if (model == nullptr) return;  // already reported
     if (places_[k - 1].model == model) return read_row(row(k), infos_[k], value, options, problems);
     problems.push_back(quoted(infos_[k].name) + " is of model=\"" + std::string(places_[k - 1].model->name) +
-                       "\", and the model is \"" + std::string(model->name) + "\"; leave one of both out");
+                       "\", and the model is \"" + std::string(model->name) + "\"; leave one out");
   }
 
-  std::string name_{elasticity_effect};
   std::vector<OptionInfo> infos_;
-  std::vector<Place> places_;  // of all options except `model`
+  std::vector<Place> places_;  // of all but `model`
 };
 const ElasticityBlock& elasticity_block() {
   static const ElasticityBlock block;
@@ -145,13 +141,12 @@ void read_effect_names(const Argument& value, const OptionInfo& info, AccuracyKe
   }
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(value, info, "a name such as \"approach\", or a list of them", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& name) {
-      if (name.is_text())
-        keys.of.emplace_back(name.text());
-      else
-        detail::wrong_type(name, info, "a list of names", problems);
-    });
+  value.elements([&](const Argument& name) {
+    if (name.is_text())
+      keys.of.emplace_back(name.text());
+    else
+      detail::wrong_type(name, info, "a list of names", problems);
+  });
 }
 
 void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
@@ -161,8 +156,8 @@ void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
         "out");
   if (keys.error && keys.estimate == Accuracy::Estimate::finer)
     problems.push_back(
-        "`error` and `estimate`=\"finer\" are both given; cells chosen for an `error` are compared with the "
-        "coarser ones tried before, so leave one of both out");
+        "`error` and `estimate`=\"finer\" are both given; `error` compares with the coarser grids that it "
+        "has tried, so leave one of the two out");
   if ((!keys.of.empty() || keys.limits) && !keys.error)
     problems.push_back(std::string(keys.limits ? "`at_most`" : "`of`") +
                        " is given without `error`; give the relative error as well, such as error=0.01");
@@ -176,53 +171,46 @@ void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
   keys.asked->of = keys.of;
 }
 
-const Block<AskedError>& limits_block() {
-  using O = AskedError;
-  static const Block<O> block{"at_most",
-                              {integer("cells", &O::most_cells, between(16, max_cells), "cells a side"),
-                               number("memory", &O::most_bytes, above(0), "bytes of memory of a press"),
-                               quantity("time", &O::most_seconds, dimension::time, above(0),
-                                        "expected for all grids together, by the plan of a press")}};
-  return block;
-}
+const Block<AskedError> limits_block{
+    {integer("cells", &AskedError::most_cells, between(16, max_cells), "cells a side"),
+     number("memory", &AskedError::most_bytes, above(0), "bytes of memory of a press"),
+     quantity("time", &AskedError::most_seconds, dimension::time, above(0),
+              "expected for all grids together, by the plan of a press")}};
 
-const Block<AccuracyKeys>& accuracy_block() {
-  using O = Accuracy;
-  using K = AccuracyKeys;
-  static const Block<K> block{
-      "accuracy",
-      {number("tolerance", &K::given_tolerance, {1e-15, 1, false, true, false},
-              "bound on every relative entry of the certificate")
-           .defaults_to("1e-06"),
-       choice("precision", &K::given_precision,
-              {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-              "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
-              "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
-              "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. "
-              "The certificate is double always. Boxes refuse it")
-           .shown_by([](const K& keys) {
-             return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
-           })
-           .defaults_to("\"double\""),
-       choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
-              "what a solve that misses its tolerance or `error` does: raise an error, or return the best it "
-              "got"),
-       custom<K>("estimate", "boolean|\"finer\"",
-                 "solves each press on other cells too, for st.error.discretisation: true on half and a "
-                 "quarter of them, which costs about a third of the press and mostly bounds the error; "
-                 "\"finer\" on thrice the cells a side, which costs about eleven times the press and is "
-                 "within a factor of three of the true error, above and below, in nine cases of ten",
-                 read_estimate)
-           .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })
-           .defaults_to("false"),
-       number("error", &K::error, {1e-6, 1, false, true, false},
-              "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
-       custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_effect_names)
-           .defaults_to("\"corrected_area_fraction\""),
-       table_of<K>("at_most", &K::limits, limits_block(), "limits of the grids for `error`")},
-      finish_accuracy};
-  return block;
-}
+const Block<AccuracyKeys> accuracy_block{
+    {number("tolerance", &AccuracyKeys::given_tolerance, {1e-15, 1, false, true, false},
+            "bound on every relative entry of the certificate")
+         .defaults_to("1e-06"),
+     choice("precision", &AccuracyKeys::given_precision,
+            {{"double", Accuracy::Precision::double_}, {"single", Accuracy::Precision::single}},
+            "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
+            "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
+            "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. The "
+            "certificate is double always. Boxes refuse it")
+         .shown_by([](const AccuracyKeys& keys) {
+           return std::string(keys.precision == Accuracy::Precision::single ? "\"single\"" : "\"double\"");
+         })
+         .defaults_to("\"double\""),
+     choice("on_failure", &Accuracy::on_failure,
+            {{"error", Accuracy::OnFailure::error}, {"best", Accuracy::OnFailure::best}},
+            "a solve that misses its tolerance or `error`: raise an error, or return the best result"),
+     custom<AccuracyKeys>(
+         "estimate", "boolean|\"finer\"",
+         "solves each press on other cells too, for st.error.discretisation: true on half and a quarter of "
+         "them, which costs about a third of the press and mostly bounds the error; \"finer\" on thrice the "
+         "cells a side, which costs about eleven times the press and is within a factor of three of the true "
+         "error, above and below, in nine cases of ten",
+         read_estimate)
+         .shown_by([](const AccuracyKeys& keys) { return std::string(estimate_text(keys.estimate)); })
+         .defaults_to("false"),
+     number("error", &AccuracyKeys::error, {1e-6, 1, false, true, false},
+            "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
+     custom<AccuracyKeys>("of", "string|string[]", "quantities of a state whose error that is",
+                          read_effect_names)
+         .defaults_to("\"corrected_area_fraction\""),
+     table_of<AccuracyKeys>("at_most", &AccuracyKeys::limits, limits_block,
+                            "limits of the grids for `error`")},
+    finish_accuracy};
 
 struct SceneKeys {
   std::optional<Surface> lower;
@@ -265,7 +253,8 @@ Option<SceneKeys> effect_option(const Effect& effect) {
   Option<SceneKeys> option = custom<SceneKeys>(
       std::string(effect.name), "table", effect.sentence,
       [&](const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
-        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        if (!value.is_table())
+          return detail::wrong_type(value, info, "a table of named keys, {} for its defaults", problems);
         collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
       });
   option.info.inner = &block;
@@ -279,7 +268,7 @@ const std::vector<Option<SceneKeys>>& effect_options() {
     for (const ElasticModel* model : elastic_models())
       if (!needs_options(*model)) type += "\"" + std::string(model->name) + "\"|";
     Option<K> elasticity =
-        custom<K>(std::string(elasticity_effect), type + "table", "how the bodies give way and recover",
+        custom<K>(std::string(elasticity_effect), type + "table", "elastic deformation of the bodies",
                   [](const Argument& value, const OptionInfo&, K& keys, Problems& problems) {
                     read_elasticity(value, keys, problems);
                   });
@@ -291,10 +280,7 @@ const std::vector<Option<SceneKeys>>& effect_options() {
   }();
   return options;
 }
-const Block<SceneKeys>& effects_block() {
-  static const Block<SceneKeys> block{"effects", effect_options()};
-  return block;
-}
+const Block<SceneKeys> effects_block{effect_options()};
 
 }  // namespace
 
@@ -331,10 +317,12 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
 }
 
 Option<SceneKeys> effects() {
-  Option<SceneKeys> option = custom<SceneKeys>(
-      "effects", "table", "what the scene computes, by name, e.g. { elasticity=\"box\" }; nothing else is",
-      read_effects);
-  option.info.inner = &effects_block();
+  Option<SceneKeys> option =
+      custom<SceneKeys>("effects", "table",
+                        "computed effects by name, e.g. { elasticity=\"box\" }; no other effect is "
+                        "computed",
+                        read_effects);
+  option.info.inner = &effects_block;
   return std::move(option).required();
 }
 
@@ -343,39 +331,37 @@ void require_boundary(SceneKeys& keys, Problems& problems) {
     problems.push_back(keys.elasticity->model().boundary);
 }
 
-const Block<SceneKeys>& scene_block() {
-  using K = SceneKeys;
-  static const Block<K> block{
-      "lab.contact",
-      {native<Surface>("lower", &K::lower, "Surface", "a surface", "the lower body, rough side up")
-           .required(),
-       custom<K>("upper", "Surface|Material",
-                 "the upper body: a rough surface that is turned over to face down, a flat of a material, or "
-                 "lab.rigid",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const Surface* surface = value.as<Surface>())
-                     keys.upper = *surface;
-                   else if (const Material* material = value.as<Material>())
-                     keys.upper = *material;
-                   else if (const Object* object = value.as_any_object(); object != nullptr && object->closed)
-                     problems.push_back("`upper` was closed");
-                   else if (value.is_text())
-                     problems.push_back("`upper` is the string \"" + std::string(value.text().substr(0, 40)) +
-                                        "\"; a flat of a material is lab.material \"" +
-                                        std::string(value.text().substr(0, 40)) + "\"");
-                   else if (!value.is_unknown())
-                     detail::wrong_type(value, info, "a surface, a material or lab.rigid", problems);
-                 })
-           .required(),
-       choice("boundary", &K::boundary, {{"free", Boundary::free}, {"periodic", Boundary::periodic}},
-              "whether the tile goes on beyond its rim; required for a half-space")
-           .defaults_to("\"free\" for boxes"),
-       effects(),
-       table_of("accuracy", &K::accuracy, accuracy_block(),
-                "how close a solve must come, and what if it does not")},
-      require_boundary};
-  return block;
-}
+const Block<SceneKeys> scene_block{
+    {native<Surface>("lower", &SceneKeys::lower, "Surface", "a surface", "the lower body, rough side up")
+         .required(),
+     custom<SceneKeys>(
+         "upper", "Surface|Material",
+         "the upper body: a rough surface that is turned over to face down, a flat of a material, or "
+         "lab.rigid",
+         [](const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
+           if (const Surface* surface = value.as<Surface>())
+             keys.upper = *surface;
+           else if (const Material* material = value.as<Material>())
+             keys.upper = *material;
+           else if (const Object* object = value.as_any_object(); object != nullptr && object->closed)
+             problems.push_back("`upper` was closed");
+           else if (value.is_text())
+             problems.push_back("`upper` is the string \"" + std::string(value.text().substr(0, 40)) +
+                                "\"; give " +
+                                (value.text() == "rigid"
+                                     ? std::string("lab.rigid")
+                                     : "lab.material \"" + std::string(value.text().substr(0, 40)) + "\""));
+           else if (!value.is_unknown())
+             detail::wrong_type(value, info, "a surface, a material or lab.rigid", problems);
+         })
+         .required(),
+     choice("boundary", &SceneKeys::boundary, {{"free", Boundary::free}, {"periodic", Boundary::periodic}},
+            "whether the tile goes on beyond its rim; required for a half-space")
+         .defaults_to("\"free\" for boxes"),
+     effects(),
+     table_of("accuracy", &SceneKeys::accuracy, accuracy_block,
+              "required accuracy of a solve, and the action on failure")},
+    require_boundary};
 
 Scene scene_of(const SceneKeys& keys, Surface lower, UpperBody upper) {
   Scene scene{std::move(lower), std::move(upper), keys.boundary.value_or(Boundary::free), *keys.elasticity,
@@ -390,18 +376,18 @@ const RowBlock& effect_block(const Effect& effect) {
   static const std::map<const Effect*, RowBlock> blocks = [] {
     std::map<const Effect*, RowBlock> made;
     for (const Effect* known : known_effects())
-      made.emplace(known, RowBlock(std::string(known->name), known->options, known->defaults));
+      made.emplace(known, RowBlock(known->options, known->defaults));
     return made;
   }();
   return blocks.at(&effect);
 }
 
 Scene read_scene(Call& call) {
-  const SceneKeys keys = call.options(scene_block());
+  const SceneKeys keys = call.options(scene_block);
   Scene scene = scene_of(keys, *keys.lower, *keys.upper);
   if (Refinement* refinement = refinement_of(call.L)) {
     scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
-    if (refinement->tolerance) scene.accuracy.asked.reset();  // the tolerance replaces a requested accuracy
+    if (refinement->tolerance) scene.accuracy.asked.reset();  // replaces a requested accuracy
   }
   return scene;
 }
@@ -412,7 +398,7 @@ void look_at_scene(const Call& call) {
   constexpr int nested = 3;
   for (const char* key : {"boundary", "effects", "accuracy"})
     if (with_key(table, key, [&](const Argument& value) { return holds_unknown(value, nested); })) return;
-  SceneKeys keys = call.options(scene_block());
+  SceneKeys keys = call.options(scene_block);
   Problems problems;
   require_boundary(keys, problems);
   if (!problems.empty()) throw Error(ErrorCode::bad_value, call.function_name() + ": " + problems.front());
@@ -424,10 +410,10 @@ void look_at_scene(const Call& call) {
   KnownBody same_size = upper != nullptr ? *upper : KnownBody{};
   same_size.grid = lower->grid;
   Scene scene = scene_of(keys, stand_in(*lower), flat ? *keys.upper : UpperBody(stand_in(same_size)));
-  scene.accuracy.estimate = Accuracy::Estimate::none;  // the estimate needs the true cells
+  scene.accuracy.estimate = Accuracy::Estimate::none;  // needs the true cells
   (void)SpecimenPair(scene);
 }
 
-const BlockInfo& scene_keys() { return scene_block(); }
+const BlockInfo& scene_keys() { return scene_block; }
 
 }  // namespace asperity::lua

@@ -31,7 +31,7 @@ Explanation::Calls& Explanation::calls_of(Planned& planned, const std::string& w
   return *known;
 }
 
-// Plans at most `most_tried` values per control; further values use the mean.
+// Plans at most `most_tried` values per control; the mean stands for more.
 Explanation::Expected Explanation::expected(const SpecimenPair& pair, const PressRequest& request,
                                             Calls& calls) {
   constexpr std::size_t most_tried = 12;
@@ -89,21 +89,6 @@ Explanation::Repeating::~Repeating() {
   if (explanation_ != nullptr) explanation_->times_ = outer_;
 }
 
-std::int64_t Explanation::Planned::solves() const {
-  std::int64_t sum = 0;
-  for (const Calls& one : calls) sum += one.times;
-  return sum;
-}
-
-Explanation::Expected Explanation::Planned::together() const {
-  Expected sum;
-  for (const Calls& one : calls) {
-    sum.transforms += one.all.transforms;
-    sum.seconds += one.all.seconds;
-  }
-  return sum;
-}
-
 std::string Explanation::text() const {
   std::string unplanned;
   for (const auto& [what, count] : unplanned_)
@@ -116,6 +101,7 @@ std::string Explanation::text() const {
   for (const Planned& planned : planned_) {
     result += planned.text;
     for (const Calls& calls : planned.calls) {
+      solves += calls.times;
       result += "  " + calls.what + ": " + times_text(calls.times);
       const std::string least = format_short(calls.least, 3), most = format_short(calls.most, 3);
       if (calls.by && calls.most > 0)
@@ -124,13 +110,16 @@ std::string Explanation::text() const {
       result += "\n";
     }
     result += "\n";
-    const Expected expected = planned.together();
+    Expected expected;  // by plan, in order
+    for (const Calls& calls : planned.calls) {
+      expected.transforms += calls.all.transforms;
+      expected.seconds += calls.all.seconds;
+    }
     transforms += expected.transforms;
     seconds += expected.seconds;
     const bool flattens = std::any_of(planned.calls.begin(), planned.calls.end(),
                                       [](const Calls& calls) { return calls.by == PressBy::flatten; });
     bytes = std::max(bytes, planned.plan.bytes_peak() + (flattens ? planned.plan.bytes_to_flatten : 0));
-    solves += planned.solves();
   }
   return result + unplanned + "together: " + std::to_string(solves) + (solves == 1 ? " press" : " presses") +
          ", about " + format_short(transforms, 3) + " transforms and " +
@@ -163,7 +152,7 @@ Json Explanation::json() const {
 
 namespace {
 
-// The contact that a call would press; null if unknown.
+// Null if unknown.
 const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   const auto contact_at = [&](int k) -> const SpecimenPair* {
     const Object* object = Argument(call.L, k).as_any_object();
@@ -182,7 +171,7 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   return own != nullptr || call.count() < 1 ? own : contact_at(2);
 }
 
-// One press, or the number of values, events or probe pressures.
+// One, or the number of values, events or probe pressures.
 std::int64_t presses_of(const Call& call) {
   const Object* self = Argument(call.L, 1).as_any_object();
   if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
@@ -194,7 +183,7 @@ std::int64_t presses_of(const Call& call) {
   // Without probe pressures raised during the run.
   if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
     const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
-    const bool probes = stage->contact->scene().elasticity.model().moves_every_node;
+    const bool probes = !stage->contact->scene().elasticity.model().is_local;
     return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
   }
   std::int64_t presses = 1;

@@ -68,8 +68,6 @@ class Explanation {
     Plan plan;
     std::string text;
     std::vector<Calls> calls{};
-    std::int64_t solves() const;
-    Expected together() const;
   };
   Calls& calls_of(Planned& planned, const std::string& what, std::optional<PressBy> by);
   static Expected expected(const SpecimenPair& pair, const PressRequest& request, Calls& calls);
@@ -79,7 +77,7 @@ class Explanation {
   std::int64_t times_ = 1;
 };
 
-// For heavy calls skipped in a dry run.
+// For skipped heavy calls.
 void note_call(Explanation& explanation, const Call& call, const Function& function);
 
 }  // namespace asperity::lua

@@ -7,12 +7,13 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/specimen/state_table.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/recording/protocol_chart.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/specimen/protocol_run.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
 
@@ -35,21 +36,21 @@ std::optional<double> pressed_to(const NumberedEvent& e) {
   const auto* press = std::get_if<PressRequest>(&e.step());
   return press != nullptr && press->by == by ? std::optional<double>(press->value) : std::nullopt;
 }
-// Empty for a step of another kind. An optional member stays a plain optional.
+// Empty for other kinds. An optional member stays a plain optional.
 template <class Kind, auto member>
 auto part_of(const NumberedEvent& e) {
   const auto* step = std::get_if<Kind>(&e.step());
   return step != nullptr ? std::optional(step->*member) : std::nullopt;
 }
 
-// Every event has every field; fields of other kinds are nil.
+// Fields of other kinds are nil.
 const RecordType<NumberedEvent>& event_type() {
   using E = NumberedEvent;
   using P = Protocol;
   static const RecordType<E> type{
       "ProtocolEvent",
       "protocol event",
-      "What is done to a contact; what does not apply to an event is nil.",
+      "One event of a contact; fields that do not apply are nil.",
       {{"index", [](const E& e) { return e.k + 1; }, "its number, from 1"},
        {"total", [](const E& e) { return e.protocol->count(); }, "number of events of the protocol"},
        {"kind", [](const E& e) { return kind(e.step()); },
@@ -71,10 +72,16 @@ const RecordType<NumberedEvent>& event_type() {
   return type;
 }
 
+}  // namespace
+
+Record event_of(const Protocol& protocol, std::size_t k) { return event_type()({&protocol, k}); }
+
+namespace {
+
 Values events(Call& call) {
   const Protocol& protocol = call.self<Protocol>();
   List list;
-  for (std::size_t k = 0; k < protocol.count(); ++k) list.items.emplace_back(event_type()({&protocol, k}));
+  for (std::size_t k = 0; k < protocol.count(); ++k) list.items.emplace_back(event_of(protocol, k));
   return {std::move(list)};
 }
 
@@ -91,7 +98,7 @@ Values on(Call& call) {
                       "close it after the loop");
         const std::size_t k = run->next();
         const std::optional<asperity::State> state = run->step(turn.session().monitor());
-        Values values{event_type()({&run->protocol(), k}), state ? object(*state) : Value()};
+        Values values{event_of(run->protocol(), k), state ? object(*state) : Value()};
         if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
           record_press(turn.session(), std::shared_ptr<SpecimenPair>(run, &run->pair()), *press, *state);
         return values;
@@ -116,7 +123,7 @@ const RecordType<LoadedSpan>& span_type() {
   static const RecordType<S> type{
       "RecordedSpan",
       "stretch of a recording",
-      "A stretch of a recording in which one thing happens; what does not apply to it is nil.",
+      "A stretch of a recording with a single event; fields that do not apply are nil.",
       {{"kind", [](const S& s) { return name(s.kind); },
         "\"rest\", \"rise\", \"hold\", \"peak\", \"fall\", \"release\" or \"turn\""},
        {"begin", &S::begin, dimension::time, "time of its first sample"},
@@ -150,7 +157,7 @@ const RecordType<Detection>& recording_type() {
   static const RecordType<D> type{
       "Recording",
       "recording",
-      "What was found in a recording of the load, and by which thresholds.",
+      "Events found in a recording of the load, and the thresholds.",
       {{"name", &D::name, "of the file"},
        {"samples", &D::samples, "number of samples"},
        {"missing", &D::missing, "rows without a load"},
@@ -182,7 +189,7 @@ struct ChartKeys {
   std::string title;
 };
 const Block<ChartKeys>& chart_block() {
-  static const Block<ChartKeys> block{"chart", {text("title", &ChartKeys::title, "above the chart")}};
+  static const Block<ChartKeys> block{{text("title", &ChartKeys::title, "above the chart")}};
   return block;
 }
 
@@ -199,15 +206,16 @@ Values chart_protocol(Call& call) {
 }
 
 struct RepeatedKeys {
-  std::int64_t times = 1;
+  std::int64_t repeats = 1;
 };
 const Block<RepeatedKeys>& repeated_block() {
   static const Block<RepeatedKeys> block{
-      "repeated", {integer("times", &RepeatedKeys::times, at_least(1), "how often it is done").required()}};
+      {integer("repeats", &RepeatedKeys::repeats, at_least(1), "number of repeats of the protocol")
+           .required()}};
   return block;
 }
 Values repeated(Call& call) {
-  return {object(call.self<Protocol>().repeated(call.options(repeated_block()).times))};
+  return {object(call.self<Protocol>().repeated(call.options(repeated_block()).repeats))};
 }
 Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
 
@@ -239,22 +247,19 @@ const Class& class_of<Protocol>() {
     c.name = "Protocol";
     c.article_name = "a protocol";
     c.sentence =
-        "What is done to a contact, event by event; an immutable value that any number of contacts may go "
-        "through. #p is the number of its events.";
+        "The loading of a contact, event by event; an immutable value for any number of contacts. #p is "
+        "the number of events.";
     c.length = length;
     c.describe = describe_protocol;
     c.native_bytes = bytes_of_protocol;
     c.equal = have_one_digest<Protocol>;
     c.digest = text_of<&Protocol::digest>;
-    c.fields = {
-        getter<Protocol>("count", "integer", "number of events",
-                         [](const Protocol& of) { return length(&of); }),
-        getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
-        getter<recording, Protocol>(
-            "recording", "Recording?",
-            "what was found in the recording that it was detected in, and by which thresholds; nil if "
-            "there is none"),
-        getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
+    c.fields = {getter<Protocol>("count", "integer", "number of events",
+                                 [](const Protocol& of) { return length(&of); }),
+                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+                getter<recording>("recording", "Recording?",
+                                  "the events and thresholds of the recording; nil without a recording"),
+                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
     c.methods = {
         {.name = "on",
          .body = on,
@@ -268,6 +273,7 @@ const Class& class_of<Protocol>() {
          .example =
              "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
          .heavy = true},
+        apply_method(),
         {.name = "events",
          .body = events,
          .sentence = "All events as a list, as p:on gives them.",
@@ -279,21 +285,21 @@ const Class& class_of<Protocol>() {
          .options = &repeated_block(),
          .returns = "Protocol",
          .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
-                    "rotate=\"90 deg\" } }:repeated{ times=8 }"},
+                    "rotate=\"90 deg\" } }:repeated{ repeats=8 }"},
         {.name = "plus",
          .body = plus,
          .sentence = "One protocol after another, without recorded times.",
-         .parameters = {{"next", "Protocol", "what is done after this one"}},
+         .parameters = {{"next", "Protocol", "the next event"}},
          .returns = "Protocol",
-         .example = "local both = protocol:plus(protocol:repeated{ times=2 })"},
+         .example = "local both = protocol:plus(protocol:repeated{ repeats=2 })"},
         {.name = "chart",
          .body = chart_protocol,
-         .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and labelled, "
-                     "over what was recorded if it was detected in a recording; without recorded times over "
-                     "the time its dwells add up to, or event by event. Returns the file.",
+         .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and "
+                     "labelled. A protocol detected in a recording is drawn over the recorded samples. "
+                     "Without recorded times the axis is the sum of dwells, or the event. Returns the "
+                     "file.",
          .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
-         .options = &chart_block(),
-         .options_optional = true,
+         .options = optional(chart_block()),
          .returns = "string",
          .example = "protocol:chart \"protocol.svg\"",
          .heavy = true},
@@ -316,7 +322,7 @@ const Module& protocol_module() {
   static const Module module = [] {
     Module m;
     m.path = "lab.protocol";
-    m.sentence = "Loading protocols: what is done to a contact, event by event, from tables or press logs.";
+    m.sentence = "Loading protocols: the events of a contact, from tables or press logs.";
     m.functions = {protocol_read_function()};
     m.call = Function{.name = "protocol",
                       .body = make_protocol,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the list of events of lab.protocol.
 #include <algorithm>
 
 #include "bindings/lua/registry/registry.hpp"
@@ -80,8 +79,7 @@ class EventReader {
       if (key.is_text()) {
         const std::string name(key.text().substr(0, 40));
         const bool known = std::find(names.begin(), names.end(), name) != names.end();
-        found.push_back(known ? "`" + name + "` stands outside the braces of an event; write { " + name +
-                                    "=... }"
+        found.push_back(known ? "`" + name + "` is outside the braces of an event; write { " + name + "=... }"
                               : "unknown key " + quoted(name) + "; a protocol is a list of events");
       } else if (const auto n = key.is_number() ? key.integer() : std::nullopt;
                  !n || *n < 1 || *n > list.length()) {
@@ -137,7 +135,7 @@ class EventReader {
     return known.size() == 1 && unknown.empty() && !unnamed ? known.front() : std::string();
   }
 
-  // An unknown key may belong inside the event's own table.
+  // It may belong inside the event's own table.
   static std::string stranger(const std::string& name, const std::vector<std::string>& known) {
     for (const OptionInfo& info : infos()) {
       if (info.inner == nullptr) continue;
@@ -153,12 +151,7 @@ class EventReader {
 
   void read_step(const std::string& name, const Argument& value) {
     if (name == "press") {
-      read_table(press_block(), name, value, [](const PressKeys& keys) {
-        PressRequest request = keys.request;
-        request.dwell = keys.dwell;
-        request.preload = keys.preload;
-        return request;
-      });
+      read_table(press_block(), name, value, [](const PressKeys& keys) { return PressRequest(keys); });
     } else if (name == "place") {
       read_table(place_block(), name, value,
                  [](const PlaceKeys& keys) { return Protocol::Place{keys.seed}; });
@@ -201,10 +194,6 @@ class EventReader {
 
 class ProtocolKeys final : public BlockInfo {
  public:
-  const std::string& name() const override {
-    static const std::string text = "lab.protocol";
-    return text;
-  }
   std::vector<const OptionInfo*> options() const override {
     std::vector<const OptionInfo*> all;
     for (const OptionInfo& info : infos()) all.push_back(&info);

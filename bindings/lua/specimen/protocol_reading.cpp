@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.protocol.read: press logs and recordings.
 #include <cmath>
 
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/table_keys.hpp"
+#include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "engine/core/files/source_file.hpp"
@@ -78,28 +77,28 @@ const Block<ReadProtocolKeys>& read_protocol_block() {
                  "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
                  "of it carries them"),
         reading("noise", &K::noise, false, "standard deviation of a reading").defaults_to("measured"),
-        reading("zero", &K::zero, true, "what the sensor reads without load, all along")
+        reading("zero", &K::zero, true, "reading of the sensor without load, throughout")
             .defaults_to("found in the rests, and followed"),
         number("zero_drift", &K::zero_drift, inside(0, 0.5),
                "how far from the rest before a rest may lie, as a share of the highest load")
             .defaults_to("0.01"),
-        number(
-            "same_load", &K::same_load, inside(0, 0.5),
-            "how far a hold may drift, and lie from the one before to be part of it, as a share of its load")
+        number("same_load", &K::same_load, inside(0, 0.5),
+               "greatest drift of a hold, and distance from the hold before to be part of it, as a share of "
+               "its load")
             .defaults_to("0.02"),
         quantity("shortest_hold", &K::shortest_hold, dimension::time, above(0),
-                 "what stays level for less is no hold")
+                 "a shorter level stretch is no hold")
             .defaults_to("four usual steps of time"),
         number("evidence", &K::evidence, above(0),
                "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
             .defaults_to("10 + 4 ln samples"),
         choice("overshoot", &K::overshoot, {{"press", Overshoot::press}, {"ignore", Overshoot::ignore}},
-               "what becomes of a load above the holds at both its sides: a press of its own, for flattening "
-               "goes by the highest load, or nothing")
+               "a load above the holds on both sides: a separate press, because flattening depends on the "
+               "highest load, or nothing")
             .defaults_to("\"press\""),
         number("least_overshoot", &K::least_overshoot, inside(0, 1),
-               "an overshoot by less is none, as a share of the load beside it; nor one within six times the "
-               "noise")
+               "a smaller overshoot is ignored, as a share of the neighbouring load; also one within six "
+               "times the noise")
             .defaults_to("0.01"),
         quantity("least_turn", &K::least_turn, dimension::angle, above(0), "a turn by less is none")
             .defaults_to("\"0.5 deg\""),
@@ -108,10 +107,10 @@ const Block<ReadProtocolKeys>& read_protocol_block() {
             .defaults_to("none: turns are as they were read"),
         choice("equal_times", &K::equal_times,
                {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
-               "what becomes of samples of a recording that share a time, as those of a fast logger with a "
-               "slow clock do: an error, or they are spread evenly until the next time")};
+               "samples with equal times, as from a fast logger with a slow clock: an error, or spread "
+               "evenly until the next time")};
     keys.insert(keys.end(), table_form_keys().begin(), table_form_keys().end());
-    return Block<K>("read", std::move(keys), [](K& given, Problems& problems) {
+    return Block<K>(std::move(keys), [](K& given, Problems& problems) {
       if (given.events == ReadAs::rows && given.detects())
         problems.push_back("with events=\"rows\" nothing is detected, so only `events` may be given");
     });
@@ -186,18 +185,17 @@ Function protocol_read_function() {
           .body = read_protocol,
           .sentence =
               "A protocol from a press log. Its columns are named with units, such as time [s], pressure "
-              "[MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, from "
-              "the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are left "
-              "out with a warning, those titled \"result ...\" without. With a row an event there may be "
-              "rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation "
-              "from where it lies, then presses for its dwell; no pressure takes the load off, and so does a "
-              "turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the "
-              "time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the "
-              "lines they came from and the thresholds, and what the noise leaves uncertain is a warning or "
-              "an error. Press times are those of the beginning of the hold.",
+              "[MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, "
+              "from the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are "
+              "left out with a warning, those titled \"result ...\" without. With a row an event there may "
+              "be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its "
+              "rotation from the present angle, then presses for its dwell; no pressure takes the load "
+              "off, and so does a turn under load. In a recording, load or pressure and the stage's angle "
+              "[deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) "
+              "lists them with the lines they came from and the thresholds, and uncertainty by noise is a "
+              "warning or an error. Press times are those of the beginning of the hold.",
           .parameters = {{"path", "string", "the file"}},
-          .options = &read_protocol_block(),
-          .options_optional = true,
+          .options = optional(read_protocol_block()),
           .returns = "Protocol",
           .example = "local protocol = lab.protocol.read \"press_log.csv\"",
           .heavy = true};

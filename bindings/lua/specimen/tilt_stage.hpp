@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.tilt_stage: the angle at which a specimen slips.
 #pragma once
 
 #include <memory>
@@ -17,7 +16,7 @@ struct TiltStage {
 };
 
 template <>
-const Class& class_of<TiltStage>();
+Class make_class<TiltStage>();
 
 Function tilt_stage_function();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts in slabs over MPI ranks as Lua values. One process has one slab.
+// Contacts in slabs over MPI ranks, one slab a process.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,7 @@
 
 namespace asperity::lua {
 
-// Collective. Throws Error{bad_state} if another rank makes another call, {not_permitted} in a case of an
-// ensemble.
+// Collective. Throws Error{bad_state} if another rank makes another call, {not_permitted} in a case.
 Team& team_of(const Call& call);
 
 struct SpreadContact {
@@ -53,11 +52,11 @@ struct SpreadState {
 };
 
 template <>
-const Class& class_of<SlabSurface>();
+Class make_class<SlabSurface>();
 template <>
-const Class& class_of<SpreadContact>();
+Class make_class<SpreadContact>();
 template <>
-const Class& class_of<SpreadState>();
+Class make_class<SpreadState>();
 
 Function spread_contact_function();
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.spread.contact: contacts over MPI ranks.
 #include <algorithm>
 
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/specimen/contact_scene.hpp"
+#include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/spread/spread.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/elasticity/list.hpp"
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 #include "engine/contact/scene/known_effects.hpp"
 #include "engine/contact/scene/press_request.hpp"
 #include "engine/core/digest.hpp"
@@ -29,16 +27,12 @@ struct spread_SceneKeys {
   Accuracy accuracy;
 };
 
-const Block<Accuracy>& spread_accuracy_block() {
-  using O = Accuracy;
-  static const Block<O> block{
-      "accuracy",
-      {number("tolerance", &O::tolerance, {1e-15, 1, false, true, false},
-              "bound on every relative entry of the certificate"),
-       choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
-              "what a solve that misses its tolerance does: raise an error, or return the best it got")}};
-  return block;
-}
+const Block<Accuracy> spread_accuracy_block{
+    {number("tolerance", &Accuracy::tolerance, {1e-15, 1, false, true, false},
+            "bound on every relative entry of the certificate"),
+     choice("on_failure", &Accuracy::on_failure,
+            {{"error", Accuracy::OnFailure::error}, {"best", Accuracy::OnFailure::best}},
+            "a solve that misses its tolerance: raise an error, or return the best result")}};
 
 void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
   const Effect* effect = require_effect(name);
@@ -89,7 +83,6 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
 const Block<spread_SceneKeys>& spread_scene_block() {
   using K = spread_SceneKeys;
   static const Block<K> block{
-      "lab.spread.contact",
       {custom<K>("lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
                    if (const SlabSurface* surface = value.as<SlabSurface>())
@@ -123,12 +116,12 @@ const Block<spread_SceneKeys>& spread_scene_block() {
                  })
            .required(),
        custom<K>("effects", "table",
-                 "what the scene computes: { elasticity=\"half_space\" }, and plasticity={ hardness= } if "
-                 "pressure is limited",
+                 "computed effects: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
+                 "is limited",
                  spread_read_effects)
            .required(),
-       table_of("accuracy", &K::accuracy, spread_accuracy_block(),
-                "how close a solve must come, and what if it does not")}};
+       table_of("accuracy", &K::accuracy, spread_accuracy_block,
+                "required accuracy of a solve, and the action on failure")}};
   return block;
 }
 
@@ -151,24 +144,19 @@ struct SpreadPress {
   std::optional<double> pressure, load, approach, indentation;
 };
 
-const Block<SpreadPress>& spread_press_block() {
-  using K = SpreadPress;
-  static const Block<K> block{
-      "press",
-      {quantity("pressure", &K::pressure, dimension::pressure, any(), "mean pressure over the tile"),
-       quantity("load", &K::load, dimension::force, any(), "force on the whole tile"),
-       quantity("approach", &K::approach, dimension::length, any(), "from first touch"),
-       quantity("indentation", &K::indentation, dimension::number, any(),
-                "approach over the peak-to-valley of the heights")},
-      [](K& keys, Problems& problems) {
-        const int given = int{keys.pressure.has_value()} + int{keys.load.has_value()} +
-                          int{keys.approach.has_value()} + int{keys.indentation.has_value()};
-        if (given != 1)
-          problems.push_back("give exactly one of `pressure`, `load`, `approach` and `indentation`; " +
-                             std::to_string(given) + " are given");
-      }};
-  return block;
-}
+const Block<SpreadPress> spread_press_block{
+    {quantity("pressure", &SpreadPress::pressure, dimension::pressure, any(), "mean pressure over the tile"),
+     quantity("load", &SpreadPress::load, dimension::force, any(), "force on the whole tile"),
+     quantity("approach", &SpreadPress::approach, dimension::length, any(), "from first touch"),
+     quantity("indentation", &SpreadPress::indentation, dimension::number, any(),
+              "approach over the peak-to-valley of the heights")},
+    [](SpreadPress& keys, Problems& problems) {
+      const int given = int{keys.pressure.has_value()} + int{keys.load.has_value()} +
+                        int{keys.approach.has_value()} + int{keys.indentation.has_value()};
+      if (given != 1)
+        problems.push_back("give exactly one of `pressure`, `load`, `approach` and `indentation`; " +
+                           std::to_string(given) + " are given");
+    }};
 
 std::string digest_of(const SpreadState& state) {
   const SlabContactAnswer& a = *state.answer;
@@ -184,7 +172,7 @@ std::string digest_of(const SpreadState& state) {
 
 Values spread_press(Call& call) {
   const SpreadContact& contact = call.self<SpreadContact>();
-  const SpreadPress keys = call.options(spread_press_block());
+  const SpreadPress keys = call.options(spread_press_block);
   const SlabSurface& surface = contact.problem.surface;
   if (keys.indentation && surface.peak == surface.valley)
     throw Error(ErrorCode::bad_value, "`indentation` is a fraction of a peak-to-valley that is zero",
@@ -220,14 +208,10 @@ Values spread_press(Call& call) {
   return {object(std::move(state))};
 }
 
-std::string describe_spread_contact(const void* self) {
-  const SlabSurface& s = static_cast<const SpreadContact*>(self)->problem.surface;
+std::string describe_spread_contact(const SpreadContact& of) {
+  const auto& s = of.problem.surface;
   return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
          std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
-}
-std::string contact_digest(const void* self) {
-  const SlabContactProblem& p = static_cast<const SpreadContact*>(self)->problem;
-  return p.surface.digest;
 }
 
 }  // namespace
@@ -252,25 +236,20 @@ Function spread_contact_function() {
 }
 
 template <>
-const Class& class_of<SpreadContact>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "SpreadContact";
-    c.article_name = "a contact over ranks";
-    c.sentence = "A surface in slabs under a flat, ready to be pressed by all ranks together.";
-    c.shareable = false;
-    c.describe = describe_spread_contact;
-    c.digest = contact_digest;
-    c.methods = {{.name = "press",
-                  .body = spread_press,
-                  .sentence = "The state under a load, found by all ranks together, each with its rows.",
-                  .options = &spread_press_block(),
-                  .returns = "SpreadState",
-                  .example = "local st = spread:press{ pressure=\"10 MPa\" }",
-                  .heavy = true}};
-    return c;
-  }();
-  return type;
+Class make_class<SpreadContact>() {
+  Class c{"SpreadContact", "a contact over ranks",
+          "A surface in slabs under a flat, ready to be pressed by all ranks together."};
+  c.shareable = false;
+  c.describe = text_of<describe_spread_contact>;
+  c.digest = from_value([](const SpreadContact& of) { return of.problem.surface.digest; });
+  c.methods = {{.name = "press",
+                .body = spread_press,
+                .sentence = "The state under a load, found by all ranks together, each with its rows.",
+                .options = &spread_press_block,
+                .returns = "SpreadState",
+                .example = "local st = spread:press{ pressure=\"10 MPa\" }",
+                .heavy = true}};
+  return c;
 }
 
 }  // namespace asperity::lua

@@ -17,11 +17,6 @@ namespace asperity::lua {
 
 namespace {
 
-void push_asked(lua_State* s, bool v) { lua_pushboolean(s, v ? 1 : 0); }
-void push_asked(lua_State* s, std::int64_t v) { lua_pushinteger(s, v); }
-void push_asked(lua_State* s, double v) { lua_pushnumber(s, v); }
-void push_asked(lua_State* s, const std::string& v) { lua_pushlstring(s, v.data(), v.size()); }
-
 [[noreturn]] void no_number(const Argument& answer, const Knobs& knobs) {
   throw Error(ErrorCode::bad_value, "`ask` returned " + answer.describe() + " for " + lua_source(knobs),
               "return one number");
@@ -56,13 +51,13 @@ InputShape read_shape(const Argument& given, const std::string& place, Problems&
 
 std::vector<Quantity> read_sample(const Argument& given, const std::string& place, Problems& problems) {
   std::vector<Quantity> sample;
-  for (std::int64_t k = 1; given.is_table() && k <= given.length(); ++k)
-    given.element(k, [&](const Argument& item) {
+  if (given.is_table())
+    given.elements([&](const Argument& item, std::int64_t k) {
       if (const auto read = quantity_of(item, place + "[" + std::to_string(k) + "]", problems))
         sample.push_back(*read);
     });
   if (sample.size() < 10)
-    problems.push_back(quoted(place) + " has fewer than 10 numbers; of a few readings give their mean, " +
+    problems.push_back(quoted(place) + " has fewer than 10 numbers; give the mean of a few readings, " +
                        "u = s / sqrt(n) and degrees = n - 1");
   return sample;
 }
@@ -106,7 +101,6 @@ void read_input(const std::string& name, const std::string& path, const Argument
     } else {
       auto read = quantity_of(given, place, problems);
       if (text == "u" && given.is_text() && given.text().find('%') != std::string_view::npos && read)
-        // The share may be read before the value.
         resolve_share(table, path, *read);
       (text == "u" ? u : value) = read;
     }
@@ -143,8 +137,9 @@ void read_calibration(const Object& object, const std::string& path, InputKeys& 
   for (std::size_t k = 0; k < report.found.parameters.size(); ++k) {
     const CalibratedParameter& of = report.found.parameters[k];
     if (!of.value || !of.standard_error) {
-      problems.push_back(quoted(path) + " gives " + quoted(of.name) +
-                         " no uncertainty; print the calibration, and calibrate what its rows determine");
+      problems.push_back(
+          quoted(path) + " gives " + quoted(of.name) +
+          " no uncertainty; print the calibration, and calibrate only parameters that its rows determine");
       continue;
     }
     UncertainInput& input = keys.inputs.emplace_back();
@@ -158,23 +153,6 @@ void read_calibration(const Object& object, const std::string& path, InputKeys& 
         keys.correlations.push_back({report.found.parameters[j].name, of.name, *both});
   }
 }
-
-// The reported share never falls.
-class ShareMonitor final : public Monitor {
- public:
-  ShareMonitor(Monitor& outer, std::function<void(double)> tell) : outer_(outer), tell_(std::move(tell)) {}
-  void progress(std::string_view, double done) override {
-    if (done > furthest_) tell_(furthest_ = std::min(done, 1.0));
-  }
-  void warn(std::string_view sentence) override { outer_.warn(sentence); }
-  void inform(std::string_view sentence) override { outer_.inform(sentence); }
-  ResultStore* results() override { return outer_.results(); }
-
- private:
-  Monitor& outer_;
-  std::function<void(double)> tell_;
-  double furthest_ = 0;
-};
 
 }  // namespace
 
@@ -199,7 +177,7 @@ void read_sweep(const std::string& name, const std::string& path, const Argument
       knob.values.push_back(*std::move(read));
     else
       problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
-                         ", and turn it into what you need inside `ask`");
+                         ", and convert it inside `ask`");
   };
   if (!value.is_table()) {
     take(value, path);
@@ -211,26 +189,23 @@ void read_sweep(const std::string& name, const std::string& path, const Argument
       problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
       return;
     }
-    for (std::int64_t k = 1; k <= length; ++k)
-      value.element(k, [&](const Argument& item) { take(item, path + "[" + std::to_string(k) + "]"); });
+    value.elements(
+        [&](const Argument& item, std::int64_t k) { take(item, path + "[" + std::to_string(k) + "]"); });
   }
   knobs.push_back(std::move(knob));
+}
+
+Map knobs_map(const Knobs& knobs) {
+  Map map;
+  for (const Knob& one : knobs)
+    std::visit([&](const auto& value) { map.items.emplace_back(one.name, Value(value)); }, one.value);
+  return map;
 }
 
 void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table) {
   if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
   lua_pushvalue(L, function.index());
-  auto fill = [&knobs](lua_State* s) {
-    lua_createtable(s, 0, static_cast<int>(knobs.size()));
-    for (const Knob& knob : knobs) {
-      lua_pushlstring(s, knob.name.data(), knob.name.size());
-      std::visit([s](const auto& v) { push_asked(s, v); }, knob.value);
-      lua_rawset(s, -3);
-    }
-    return 2;
-  };
-  if (protect(L, 1, 2, fill) != LUA_OK)
-    throw Error(ErrorCode::out_of_memory, std::string("there is no memory for ") + table);
+  push_checked(L, knobs_map(knobs), table);
 }
 
 void AskedFunction::call(const Knobs& knobs) const {
@@ -271,8 +246,10 @@ std::vector<AskedFunction::Answer> AskedRuns::operator()(const std::vector<Knobs
     if (batch_ != nullptr && !begun_) alone.emplace();
     const std::int64_t before = session_.heavy_calls;
     for (const Knobs& knobs : runs) {
-      ShareMonitor monitor(session_.monitor(),
-                           [&](double share) { done(static_cast<double>(found.size()) + share); });
+      QuietMonitor monitor(session_.monitor(), [&, furthest = 0.0](double share) mutable {
+        if (share <= furthest) return;  // never falls
+        done(static_cast<double>(found.size()) + (furthest = std::min(share, 1.0)));
+      });
       found.push_back(ask_(knobs, monitor));
       done(static_cast<double>(found.size()));
     }
@@ -281,12 +258,7 @@ std::vector<AskedFunction::Answer> AskedRuns::operator()(const std::vector<Knobs
     return found;
   }
   std::vector<Values> arguments;
-  for (const Knobs& knobs : runs) {
-    Map x;
-    for (const Knob& knob : knobs)
-      std::visit([&](const auto& value) { x.items.emplace_back(knob.name, Value(value)); }, knob.value);
-    arguments.push_back({Value(std::move(x))});
-  }
+  for (const Knobs& knobs : runs) arguments.push_back({Value(knobs_map(knobs))});
   QuietMonitor quiet(session_.monitor());
   const Session::Reporting reporting(session_, quiet);
   const std::vector<BatchedAnswer> answers =

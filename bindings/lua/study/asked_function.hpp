@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function `ask` of a budget or a sensitivity, from a table of inputs and knobs to one number; parallel
-// runs; uncertain inputs.
+// The function `ask` of a budget or a sensitivity, from a table of inputs and knobs to one number.
 #pragma once
 
 #include <functional>
@@ -14,26 +13,14 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/part_monitor.hpp"
 #include "engine/statistics/uncertain_input.hpp"
 #include "engine/study/budget.hpp"
 #include "engine/study/study_setting.hpp"
 
 namespace asperity::lua {
 
-// Drops progress: a study reports its own.
-class QuietMonitor final : public Monitor {
- public:
-  explicit QuietMonitor(Monitor& outer) : outer_(outer) {}
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { outer_.warn(sentence); }
-  ResultStore* results() override { return outer_.results(); }
-
- private:
-  Monitor& outer_;
-};
-
-// Pushes the function and its knobs. `table` names the table in an out-of-memory error.
+Map knobs_map(const Knobs& knobs);
+// `table` names the table in an out-of-memory error.
 void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table);
 
 // Valid while the function keeps its stack index.
@@ -45,7 +32,7 @@ class AskedFunction {
     double value = 0;
     double seconds = 0;
   };
-  // Throws Error for a failure of the function (with the knobs) and for an answer other than one number.
+  // Throws Error for a failure (with the knobs) and for an answer other than one number.
   Answer operator()(const Knobs& knobs, Monitor& monitor) const;
   // For a dry run: accepts an unknown answer.
   void try_once(const Knobs& knobs) const;
@@ -58,14 +45,14 @@ class AskedFunction {
   Session& session_;
 };
 
-// Calls for many runs. The first batch is serial in the script's state. After a heavy call, later batches use
-// threads: each call sees only its own changes and has one thread, for comparable times.
+// Many runs. The first batch is serial in the script's state. After a heavy call, later batches use threads:
+// each call sees only its own changes and has one thread, for comparable times.
 class AskedRuns {
  public:
   AskedRuns(const Call& call, const Argument& ask);
 
-  // `done`: finished runs of the batch, with the share of a serial run. Throws like AskedFunction for the
-  // first failure.
+  // `done`: finished runs of the batch, with the share of a serial run. Throws as AskedFunction for the first
+  // failure.
   std::vector<AskedFunction::Answer> operator()(const std::vector<Knobs>& runs,
                                                 const std::function<void(double)>& done);
   int at_a_time() const { return batch_ != nullptr ? thread_count() : 1; }
@@ -94,33 +81,21 @@ struct InputKeys {
   std::vector<InputCorrelation> correlations;
   bool unknown = false;
 };
-// For example `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }`.
+// inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" }, law=calibration }
 void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems);
 
 template <class O>
-Option<O> inputs_option() {
-  return custom<O>(
-      "inputs", "table",
-      "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, "
-      "or "
-      "a share such as \"5 %\". shape=\"uniform\" lies anywhere within √3 u, \"triangular\" within √6 u; "
-      "\"lognormal\" has mean `value` and deviation u; else it is normal, with degrees=n-1 if u comes from n "
-      "readings (Student's t). { sample={…} } is a list of draws of the quantity itself. A calibration "
-      "gives all its parameters, under their own names and with their correlation. `ask` gets each as a "
-      "plain SI "
-      "number",
-      [](const Argument& value, const OptionInfo& info, O& keys, Problems& problems) {
-        read_inputs(value, info, keys, problems);
-      });
-}
-
-template <class O>
-Option<O> ask_option(std::string sentence) {
-  return custom<O>("ask", "function", std::move(sentence),
-                   [](const Argument& value, const OptionInfo& info, O&, Problems& problems) {
-                     if (!value.is_function()) detail::wrong_type(value, info, "a function(x)", problems);
-                   })
-      .required();
+Option<O> inputs_option(InputKeys O::*member) {
+  return custom<O>("inputs", "table",
+                   "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the "
+                   "same unit, or a share such as \"5 %\". shape=\"uniform\" lies anywhere within √3 u, "
+                   "\"triangular\" within √6 u; \"lognormal\" has mean `value` and deviation u; else it is "
+                   "normal, with degrees=n-1 if u comes from n readings (Student's t). { sample={…} } is a "
+                   "list of draws of the quantity itself. A calibration gives all its parameters, under "
+                   "their own names and with their correlation. `ask` gets each as a plain SI number",
+                   [member](const Argument& value, const OptionInfo& info, O& keys, Problems& problems) {
+                     read_inputs(value, info, keys.*member, problems);
+                   });
 }
 
 constexpr const char* knob_kinds = "a number, a string or a boolean";

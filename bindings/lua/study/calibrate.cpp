@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.calibrate: options and the Lua model of parameters q (SI) and a row of rows().
+// lab.calibrate: a model of parameters q (SI) and a row of rows().
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -9,14 +9,14 @@
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/calibration.hpp"
-#include "bindings/lua/run/notebook.hpp"
-#include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/run.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/study/calibrate.hpp"
 
 namespace asperity::lua {
 
@@ -28,13 +28,13 @@ using Rows = asperity::Table;
 
 struct CalibrateKeys : CalibrationKeys {
   std::shared_ptr<const Rows> data;
-  std::vector<CalibrationParameter> parameters;  // by name: Lua tables have no order
+  std::vector<CalibrationParameter> parameters;  // by name: Lua has no order
   std::vector<Dimension> dimensions;
   std::string replicate;  // its key
   std::vector<double> faces;
 };
 
-// SI or a quantity. The first quantity sets the dimension.
+// In SI, or the first quantity's dimension.
 std::optional<double> parameter_number(const Argument& value, const std::string& key,
                                        std::optional<Dimension>& dimension, Problems& problems) {
   if (value.is_number()) return value.number();
@@ -144,39 +144,32 @@ void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& key
   }
 }
 
-const Block<CalibrateKeys>& calibrate_block() {
-  using K = CalibrateKeys;
-  static const Block<K> block{
-      "lab.calibrate",
-      {custom<K>("model", "function",
-                 "function(q, row) returning y, one number: q holds the parameters by name in SI, row the "
-                 "cells of a row by column as rows() gives them; nil where it has no value",
-                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-                   if (!value.is_function()) detail::wrong_type(value, info, "a function(q, row)", problems);
-                 })
-           .required(),
-       custom<K>("data", "Table|Notebook", "the measured rows", read_data).required(),
-       text("y", &K::y, "the column that the model is to give").required(),
-       custom<K>(
-           "parameters", "table",
-           "each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, "
-           "or its start alone. lower and upper may be left out; step is that of differences, relative "
-           "(0.001), and wants to be larger for a model with a tolerance of its own",
-           read_parameters)
-           .required(),
-       custom<K>(
-           "replicate", "table",
-           "a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and "
-           "their scatter a part of u that rows of one specimen share; intervals are linearised alone",
-           read_faces),
-       u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
-       where_key(&K::where)}};
-  return block;
-}
+const Block<CalibrateKeys> calibrate_block{
+    {function<CalibrateKeys>(
+         "model", "a function(q, row)",
+         "function(q, row) returning y, one number: q holds the parameters by name in SI, row the cells of a "
+         "row by column as rows() gives them; nil where it has no value")
+         .required(),
+     custom<CalibrateKeys>("data", "Table|Notebook", "the measured rows", read_data).required(),
+     text("y", &CalibrateKeys::y, "the column that the model is to give").required(),
+     custom<CalibrateKeys>(
+         "parameters", "table",
+         "each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, or its "
+         "start alone. lower and upper may be left out; step is that of differences, relative (0.001), and "
+         "wants to be larger for a model with a tolerance of its own",
+         read_parameters)
+         .required(),
+     custom<CalibrateKeys>(
+         "replicate", "table",
+         "a key of q with numbers, as in { seed={ 1, 2, 3, 4 } }: the model is the mean over them, and their "
+         "scatter a part of u that rows of one specimen share; intervals are linearised alone",
+         read_faces),
+     u_option(), scatter_option(), specimen_option(), basis_option(), confidence_option(), profile_option(),
+     where_key(&CalibrateKeys::where)}};
 
 // --- the model
 
-// The Lua function; its rows, q and names of parameters are on the stack.
+// The rows are on the stack.
 class CalibratedFunction {
  public:
   CalibratedFunction(const Call& call, const Argument& function, const Rows& rows, const CalibrateKeys& keys,
@@ -189,29 +182,14 @@ class CalibratedFunction {
         faces_(keys.faces),
         numbers_(numbers) {
     if (!faces_.empty()) parameters_.push_back({keys.replicate, faces_.front(), {}, {}});
-    const auto count = static_cast<int>(parameters_.size());
-    if (lua_checkstack(L, count + 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+    if (lua_checkstack(L, 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     list_ = rows_of_table(rows);
-    const Value list = list_;
-    auto fill = [&](lua_State* s) {
-      luaL_checkstack(s, count + 20, nullptr);
-      push(s, list);
-      lua_createtable(s, 0, count);
-      for (const CalibrationParameter& parameter : parameters_) {
-        lua_pushlstring(s, parameter.name.data(), parameter.name.size());
-        lua_pushvalue(s, -1);
-        lua_pushnumber(s, parameter.start);
-        lua_rawset(s, 2);
-      }
-      return 2 + count;
-    };
-    if (protect(L, 0, 2 + count, fill) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "no memory for the rows of the calibration");
-    rows_ = lua_gettop(L) - count - 1;
+    push_checked(L, list_, "the rows of the calibration");
+    rows_ = lua_gettop(L);
     find_heavy(call, function);
   }
 
-  // Every call is heavy: call rarely.
+  // True: call rarely.
   bool heavy() const { return heavy_; }
 
   std::vector<double> operator()(std::span<const CalibrationQuery> queries,
@@ -229,13 +207,8 @@ class CalibratedFunction {
       return values;
     }
     std::vector<Values> arguments;
-    for (const CalibrationQuery& query : queries) {
-      Map q;
-      const std::vector<double> given = values_of(query);
-      for (std::size_t k = 0; k < parameters_.size(); ++k)
-        q.items.emplace_back(parameters_[k].name, Value(given[k]));
-      arguments.push_back({Value(std::move(q)), list_.items[query.row]});
-    }
+    for (const CalibrationQuery& query : queries)
+      arguments.push_back({named(values_of(query)), list_.items[query.row]});
     const Session::Reporting reporting(session_, monitor_);
     const std::vector<BatchedAnswer> answers = batch_->answers(arguments, done);
     for (std::size_t k = 0; k < answers.size(); ++k) {
@@ -251,19 +224,7 @@ class CalibratedFunction {
   double operator()(std::span<const double> q, std::size_t row) {
     const Argument::StackGuard guard(L);
     lua_pushvalue(L, function_);
-    lua_pushvalue(L, rows_ + 1);
-    for (std::size_t k = 0; k < q.size(); ++k) lua_pushvalue(L, rows_ + 2 + static_cast<int>(k));
-    auto set = [q](lua_State* s) {
-      for (std::size_t k = 0; k < q.size(); ++k) {
-        lua_pushvalue(s, 2 + static_cast<int>(k));
-        lua_pushnumber(s, q[k]);
-        lua_rawset(s, 1);
-      }
-      return 0;
-    };
-    if (protect(L, 1 + static_cast<int>(q.size()), 0, set) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "no memory for the parameters of the model");
-    lua_pushvalue(L, rows_ + 1);
+    push_checked(L, named(q), "the parameters of the model");
     lua_rawgeti(L, rows_, static_cast<lua_Integer>(row) + 1);
     int status = LUA_OK;
     {
@@ -281,7 +242,7 @@ class CalibratedFunction {
   }
 
  private:
-  // Calls the model twice for the first row: a model with a cache is not heavy.
+  // Calls the model twice for the first row: a cached model is not heavy.
   void find_heavy(const Call& call, const Argument& function) {
     if (list_.items.empty() || parameters_.empty()) return;
     std::int64_t before = session_.heavy_calls;
@@ -304,6 +265,11 @@ class CalibratedFunction {
     return q;
   }
 
+  Map named(std::span<const double> q) const {
+    Map map;
+    for (std::size_t k = 0; k < q.size(); ++k) map.items.emplace_back(parameters_[k].name, q[k]);
+    return map;
+  }
   std::vector<double> start() const {
     std::vector<double> q;
     for (const CalibrationParameter& parameter : parameters_) q.push_back(parameter.start);
@@ -334,13 +300,13 @@ class CalibratedFunction {
   bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
-  std::vector<CalibrationParameter> parameters_;  // and the replicate, if any
+  std::vector<CalibrationParameter> parameters_;  // and any replicate
   std::vector<double> faces_;
   const std::vector<std::size_t>& numbers_;
 };
 
 Values run_calibration(Call& call) {
-  const CalibrateKeys keys = call.options(calibrate_block());
+  const CalibrateKeys keys = call.options(calibrate_block);
   if (keys.data == nullptr)
     throw Error(ErrorCode::bad_state, "`data` has no rows", "give a table of measured rows");
   CalibrationInput input = calibration_input(*keys.data, keys);
@@ -371,20 +337,19 @@ Values run_calibration(Call& call) {
 }  // namespace
 
 Function calibrate_function() {
-  return {
-      .name = "calibrate",
-      .body = run_calibration,
-      .sentence =
-          "Fits parameters of a law or a model to measured rows by least squares, and says what the rows "
-          "tell of each: estimate, linearised interval (Student's t), interval by profile likelihood (F), "
-          "correlation, and a verdict. What the rows do not determine is given no number, and the "
-          "combination that they do determine is named. Derivatives are taken by the program.",
-      .options = &calibrate_block(),
-      .returns = "Calibration",
-      .example =
-          "print(lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "
-          "parameters={ mu0={ start=0.3, lower=0 }, rise=0 } })",
-      .heavy = true};
+  return {.name = "calibrate",
+          .body = run_calibration,
+          .sentence =
+              "Fits parameters of a law or a model to measured rows by least squares, and reports for "
+              "each: estimate, linearised interval (Student's t), interval by profile likelihood (F), "
+              "correlation, and a verdict. A parameter that the rows do not determine gets no number; the "
+              "combination that they determine is named. Derivatives are taken by the program.",
+          .options = &calibrate_block,
+          .returns = "Calibration",
+          .example =
+              "print(lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, "
+              "y=\"mu\", parameters={ mu0={ start=0.3, lower=0 }, rise=0 } })",
+          .heavy = true};
 }
 
 }  // namespace asperity::lua

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.sensitivity: shares of uncertain inputs in the variance of an answer.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -14,29 +13,26 @@ namespace asperity::lua {
 
 namespace {
 
-struct SensitivityKeys : InputKeys {
+struct SensitivityKeys {
+  InputKeys given;
   std::optional<std::int64_t> runs;
   std::uint64_t seed = 1;
 };
 
-const Block<SensitivityKeys>& sensitivity_block() {
-  using K = SensitivityKeys;
-  static const Block<K> block{
-      "lab.sensitivity",
-      {ask_option<K>("function(x) returning the answer, one number, for a table of the inputs; it must give "
-                     "the same for the same x, so keep seeds fixed inside"),
-       inputs_option<K>().required(),
-       integer("runs", &K::runs, between(3, 100000),
-               "how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), "
-               "doubled up to three times while the leave-one-out error is above 5 %"),
-       integer("seed", &K::seed, at_least(0), "of the values at which `ask` is called")},
-      [](K& keys, Problems& problems) {
-        if (!keys.correlations.empty())
-          problems.emplace_back(
-              "`inputs` are correlated, and shares are of independent ones; ask lab.budget");
-      }};
-  return block;
-}
+const Block<SensitivityKeys> sensitivity_block{
+    {function<SensitivityKeys>("ask", "a function(x)",
+                               "function(x) returning the answer, one number, for a table of the inputs; it "
+                               "must give the same for the same x, so keep seeds fixed inside")
+         .required(),
+     inputs_option(&SensitivityKeys::given).required(),
+     integer("runs", &SensitivityKeys::runs, between(3, 100000),
+             "how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), "
+             "doubled up to three times while the leave-one-out error is above 5 %"),
+     integer("seed", &SensitivityKeys::seed, at_least(0), "of the values at which `ask` is called")},
+    [](SensitivityKeys& keys, Problems& problems) {
+      if (!keys.given.correlations.empty())
+        problems.emplace_back("`inputs` are correlated, and shares need independent ones; use lab.budget");
+    }};
 
 Knobs knobs_of_inputs(const std::vector<UncertainInput>& inputs, const std::vector<double>& values) {
   Knobs knobs;
@@ -46,27 +42,28 @@ Knobs knobs_of_inputs(const std::vector<UncertainInput>& inputs, const std::vect
 }
 
 Values dry_sensitivity(Call& call, const SensitivityKeys& keys, const AskedFunction& ask) {
-  if (!keys.unknown) {
-    check_inputs(keys.inputs);
+  if (!keys.given.unknown) {
+    check_inputs(keys.given.inputs);
     std::vector<double> values;
-    for (const UncertainInput& input : keys.inputs) values.push_back(input.value);
-    ask.try_once(knobs_of_inputs(keys.inputs, values));
+    for (const UncertainInput& input : keys.given.inputs) values.push_back(input.value);
+    ask.try_once(knobs_of_inputs(keys.given.inputs, values));
   }
   call.session().gave_placeholders = true;
   return {Object{&class_of<Sensitivity>(), nullptr, false}};
 }
 
 Values make_sensitivity(Call& call) {
-  SensitivityKeys keys = call.options(sensitivity_block());
+  SensitivityKeys keys = call.options(sensitivity_block);
   return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
     if (call.session().dry_run) return dry_sensitivity(call, keys, AskedFunction(call, function));
     AskedRuns ask(call, function);
-    ChaosRequest request{keys.inputs, static_cast<std::size_t>(keys.runs.value_or(0)), keys.seed};
+    ChaosRequest request{keys.given.inputs, static_cast<std::size_t>(keys.runs.value_or(0)), keys.seed};
     RunProgress progress(call.session().monitor(), "sensitivity");
     std::size_t finished = 0, total = 0;
     const auto batch = [&](std::span<const std::vector<double>> points) {
       std::vector<Knobs> knobs;
-      for (const std::vector<double>& values : points) knobs.push_back(knobs_of_inputs(keys.inputs, values));
+      for (const std::vector<double>& values : points)
+        knobs.push_back(knobs_of_inputs(keys.given.inputs, values));
       const auto show = [&](double done) {
         const double all = static_cast<double>(finished) + done;
         progress.report("run " + std::to_string(std::min(static_cast<std::size_t>(all) + 1, total)) + " of " +
@@ -79,7 +76,7 @@ Values make_sensitivity(Call& call) {
       finished += answers.size();
       return answers;
     };
-    // The first run decides whether the others are parallel.
+    // The first run decides whether to run in parallel.
     Sensitivity found = sensitivity_of_batches(
         request,
         [&](std::span<const std::vector<double>> points) {
@@ -108,25 +105,22 @@ struct SharedInput {
   double halved = 0;
 };
 
-const RecordType<SharedInput>& share_type() {
-  using S = SharedInput;
-  static const RecordType<S> type{
-      "InputShare",
-      "share",
-      "What an uncertain input contributes to the variance of an answer.",
-      {{"name", [](const S& s) { return s.share.name; }, "of the input"},
-       {"value", [](const S& s) { return s.input.value; }, "that was given, SI"},
-       {"u", [](const S& s) { return s.input.uncertainty; }, "standard uncertainty that was given, SI"},
-       {"first", [](const S& s) { return s.share.first; },
-        "first-order share: of the variance, what the input does by itself"},
-       {"first_error", [](const S& s) { return s.share.first_error; }, "standard error of `first`"},
-       {"total", [](const S& s) { return s.share.total; },
-        "total share: all that the input does, together with others too"},
-       {"total_error", [](const S& s) { return s.share.total_error; }, "standard error of `total`"},
-       {"deviation_when_halved", &S::halved,
-        "standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly"}}};
-  return type;
-}
+const RecordType<SharedInput> share_type{
+    "InputShare",
+    "share",
+    "Contribution of an uncertain input to the variance of an answer.",
+    {{"name", [](const SharedInput& s) { return s.share.name; }, "of the input"},
+     {"value", [](const SharedInput& s) { return s.input.value; }, "that was given, SI"},
+     {"u", [](const SharedInput& s) { return s.input.uncertainty; },
+      "standard uncertainty that was given, SI"},
+     {"first", [](const SharedInput& s) { return s.share.first; },
+      "first-order share of the variance, by the input alone"},
+     {"first_error", [](const SharedInput& s) { return s.share.first_error; }, "standard error of `first`"},
+     {"total", [](const SharedInput& s) { return s.share.total; },
+      "total share: all that the input does, together with others too"},
+     {"total_error", [](const SharedInput& s) { return s.share.total_error; }, "standard error of `total`"},
+     {"deviation_when_halved", &SharedInput::halved,
+      "standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly"}}};
 
 std::vector<SharedInput> shared_inputs(const Sensitivity& of) {
   std::vector<SharedInput> list;
@@ -141,11 +135,11 @@ Function sensitivity_function() {
   return {.name = "sensitivity",
           .body = make_sensitivity,
           .sentence =
-              "Which uncertain input an answer hangs on: first-order and total shares of its variance with "
-              "their own errors, by polynomial chaos, and which input to measure better next. The "
-              "leave-one-out error of the fit is printed: below 5 % of the variance shares are good, to 20 % "
-              "rough, above they are refused. Inputs are taken as independent.",
-          .options = &sensitivity_block(),
+              "Ranks the uncertain inputs of an answer: first-order and total shares of the variance with "
+              "their errors, by polynomial chaos, and the input to measure better next. The leave-one-out "
+              "error of the fit is printed: below 5 % of the variance shares are good, to 20 % rough, "
+              "above they are refused. Inputs are taken as independent.",
+          .options = &sensitivity_block,
           .returns = "Sensitivity",
           .example =
               "print(lab.sensitivity{ ask=function(x) return x.alpha + x.tau0 / x.pressure end, inputs={ "
@@ -154,43 +148,36 @@ Function sensitivity_function() {
 }
 
 template <>
-const Class& class_of<Sensitivity>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Sensitivity";
-    c.article_name = "a sensitivity";
-    c.sentence = "Which uncertain input an answer hangs on. print() shows the table of shares.";
-    c.describe = lines_of<Sensitivity>;
-    c.fields = {
-        getter<Sensitivity>("mean", "number", "of the answer over the inputs",
-                            [](const Sensitivity& of) { return of.chaos.mean; }),
-        getter<&Sensitivity::deviation>("deviation", "number",
-                                        "standard deviation of the answer over the inputs"),
-        getter<Sensitivity>("runs", "integer", "how often `ask` was called",
-                            [](const Sensitivity& of) { return of.chaos.runs; }),
-        getter<Sensitivity>("degree", "integer", "of the polynomial; 0 of an answer that is always the same",
-                            [](const Sensitivity& of) { return of.chaos.degree; }),
-        getter<Sensitivity>("leave_one_out", "number",
-                            "what the fit of the other runs misses each by: mean square over the variance",
-                            [](const Sensitivity& of) { return of.chaos.leave_one_out; }),
-        getter<Sensitivity>("approximate", "boolean",
-                            "whether that is above 5 %, so that the shares are known nearly and no better",
-                            [](const Sensitivity& of) { return of.chaos.trust() != ChaosTrust::good; }),
-        getter<Sensitivity>("measure_next", "string?",
-                            "the input whose better measurement narrows the answer most, the first by name "
-                            "in a tie; nil if the answer depends on no input",
-                            [](const Sensitivity& of) {
-                              return (of.chaos.variance != 0)
-                                         ? std::optional(of.chaos.shares[of.order.front()].name)
-                                         : std::nullopt;
-                            }),
-        getter<Sensitivity>("inputs", "InputShare[]", "the shares, beginning with the input to measure next",
-                            [](const Sensitivity& of) { return share_type().list(shared_inputs(of)); }),
-    };
-    c.results = {&share_type()};
-    return c;
-  }();
-  return type;
+Class make_class<Sensitivity>() {
+  Class c{"Sensitivity", "a sensitivity",
+          "Which uncertain input an answer hangs on. print() shows the table of shares."};
+  c.describe = lines_of<Sensitivity>;
+  c.fields = {
+      getter<&Sensitivity::chaos, &PolynomialChaos::mean>("mean", "number", "of the answer over the inputs"),
+      getter<&Sensitivity::deviation>("deviation", "number",
+                                      "standard deviation of the answer over the inputs"),
+      getter<&Sensitivity::chaos, &PolynomialChaos::runs>("runs", "integer", "how often `ask` was called"),
+      getter<&Sensitivity::chaos, &PolynomialChaos::degree>(
+          "degree", "integer", "of the polynomial; 0 of an answer that is always the same"),
+      getter<&Sensitivity::chaos, &PolynomialChaos::leave_one_out>(
+          "leave_one_out", "number",
+          "what the fit of the other runs misses each by: mean square over the variance"),
+      getter<Sensitivity>("approximate", "boolean",
+                          "whether that is above 5 %, so that the shares are known nearly and no better",
+                          [](const Sensitivity& of) { return of.chaos.trust() != ChaosTrust::good; }),
+      getter<Sensitivity>("measure_next", "string?",
+                          "the input whose better measurement narrows the answer most, the first by name in "
+                          "a tie; nil if the answer depends on no input",
+                          [](const Sensitivity& of) {
+                            return (of.chaos.variance != 0)
+                                       ? std::optional(of.chaos.shares[of.order.front()].name)
+                                       : std::nullopt;
+                          }),
+      getter<Sensitivity>("inputs", "InputShare[]", "the shares, beginning with the input to measure next",
+                          [](const Sensitivity& of) { return share_type.list(shared_inputs(of)); }),
+  };
+  c.results = {&share_type};
+  return c;
 }
 
 }  // namespace asperity::lua

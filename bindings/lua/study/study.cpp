@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/study/study.hpp"
+#include "bindings/lua/study/asked_function.hpp"
 
 #include <cmath>
 #include <functional>
@@ -12,22 +13,11 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/study/study_chart.hpp"
-#include "engine/study/study_text.hpp"
+#include "engine/study/study_result.hpp"
 
 namespace asperity::lua {
 
 namespace {
-
-Value knob(const KnobValue& value) {
-  return std::visit([](const auto& v) { return Value(v); }, value);
-}
-
-Map knobs_map(const Knobs& knobs) {
-  Map map;
-  for (const Knob& one : knobs) map.items.emplace_back(one.name, knob(one.value));
-  return map;
-}
 
 Value finite(double value) { return std::isfinite(value) ? Value(value) : Value(); }
 
@@ -75,16 +65,12 @@ Values chart_study(Call& call) {
 struct CheapestKeys {
   double error = 0;
 };
-const Block<CheapestKeys>& cheapest_block() {
-  static const Block<CheapestKeys> block{
-      "cheapest",
-      {Option<CheapestKeys>(number("error", &CheapestKeys::error, above(0),
-                                   "greatest error, relative to the truth (absolute where the truth is 0)"))
-           .required()}};
-  return block;
-}
+const Block<CheapestKeys> cheapest_block{
+    {number("error", &CheapestKeys::error, above(0),
+            "greatest error, relative to the truth (absolute where the truth is 0)")
+         .required()}};
 Values cheapest_setting(Call& call) {
-  const double error = call.options(cheapest_block()).error;
+  const double error = call.options(cheapest_block).error;
   auto study = call.shared_self<Study>();
   const StudyRow& row = cheapest(study->result, error);
   const auto place = static_cast<std::size_t>(&row - study->result.rows.data());
@@ -92,20 +78,8 @@ Values cheapest_setting(Call& call) {
 }
 
 std::string describe_study(const void* self) { return study_text(static_cast<const Study*>(self)->result); }
-std::string describe_choice(const void* self) {
-  const auto& choice = *static_cast<const StudyChoice*>(self);
+std::string describe_choice(const StudyChoice& choice) {
   return lua_source(choice.study->result.knobs_of(choice.found()));
-}
-
-template <auto read>
-Getter of_study(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
-  return getter<Study>(
-      name, type, sentence, [](const Study& of) { return std::invoke(read, of.result); }, dimension);
-}
-template <auto read>
-Getter of_row(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
-  return getter<StudyChoice>(
-      name, type, sentence, [](const StudyChoice& of) { return std::invoke(read, of.found()); }, dimension);
 }
 
 }  // namespace
@@ -145,93 +119,84 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
 }
 
 template <>
-const Class& class_of<Study>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "Study";
-    c.article_name = "a study";
-    c.sentence =
-        "What a study of work and precision found. print() shows its rows and the cheapest setting for 10 %, "
-        "1 % and 0.1 %.";
-    c.describe = describe_study;
-    c.fields = {
-        of_study<&StudyResult::truth>("truth", "number", "the value that errors are measured against"),
-        of_study<&StudyResult::truth_seconds>("truth_seconds", "number",
-                                              "what that value took; 0 if it was given", dimension::time),
-        of_study<&StudyResult::relative>(
-            "relative", "boolean",
-            "whether `error` is relative to the truth; it is absolute where the truth is 0"),
-        of_study<&StudyResult::calls>("calls", "integer", "how often `ask` was called"),
-        of_study<&StudyResult::asked_seconds>("seconds", "number", "time inside `ask`, over all calls",
-                                              dimension::time),
-        of_study<&StudyResult::overhead>("overhead", "number",
-                                         "time of the study itself, over that inside `ask`"),
-    };
-    c.methods = {
-        {.name = "rows",
-         .body = rows_of_study,
-         .sentence =
-             "One table a setting: way, the knobs, value, error (relative to the truth), absolute_error, "
-             "held_error (greatest error among it and the finer settings of its way), seconds (median), "
-             "seconds_low and seconds_high (fastest and slowest run), first_seconds (of the first run, which "
-             "is not timed), runs, steady (all answers the same bits), pareto (nothing is both faster and "
-             "closer), failed, left_out and the reason.",
-         .returns = "table[]",
-         .example =
-             "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
-        {.name = "chart",
-         .body = chart_study,
-         .sentence = "Draws error against time on logarithmic axes, a line per way, bars from the fastest to "
-                     "the slowest run, rings about what nothing beats, and marks at the rim for settings "
-                     "that failed or were left out; returns the file.",
-         .parameters = {{"path", "string?",
-                         "an .svg, .png or .pdf under the run directory; default <name>.svg"}},
-         .returns = "string",
-         .example = "study:chart \"work_precision.svg\"",
-         .heavy = true},
-        {.name = "cheapest",
-         .body = cheapest_setting,
-         .sentence = "The fastest setting whose error, and that of every finer measured setting of its way, "
-                     "is at most the one asked for: a setting that comes near the truth by accident, where "
-                     "the error changes its sign, is not taken. Settings count as finer along the list of "
-                     "their way (turned round where `cells` falls or `tolerance` rises). Of settings whose "
-                     "answers are the same bits the one listed first is taken, unless another takes less "
-                     "than half its time. An error says what the best reached was.",
-         .options = &cheapest_block(),
-         .returns = "StudyChoice",
-         .example = "local best = study:cheapest{ error=1e-3 } print(best, best.seconds, best.error)"},
-    };
-    return c;
-  }();
-  return type;
+Class make_class<Study>() {
+  Class c{"Study", "a study",
+          "Result of a study of work and precision. print() shows its rows and the cheapest setting for 10 "
+          "%, 1 % and 0.1 %."};
+  c.describe = describe_study;
+  c.fields = {
+      getter<&Study::result, &StudyResult::truth>("truth", "number",
+                                                  "the value that errors are measured against"),
+      getter<&Study::result, &StudyResult::truth_seconds>(
+          "truth_seconds", "number", "what that value took; 0 if it was given", dimension::time),
+      getter<&Study::result, &StudyResult::relative>(
+          "relative", "boolean",
+          "whether `error` is relative to the truth; it is absolute where the truth is 0"),
+      getter<&Study::result, &StudyResult::calls>("calls", "integer", "how often `ask` was called"),
+      getter<&Study::result, &StudyResult::asked_seconds>(
+          "seconds", "number", "time inside `ask`, over all calls", dimension::time),
+      getter<&Study::result, &StudyResult::overhead>("overhead", "number",
+                                                     "time of the study itself, over that inside `ask`"),
+  };
+  c.methods = {
+      {.name = "rows",
+       .body = rows_of_study,
+       .sentence = "One table a setting: way, the knobs, value, error (relative to the truth), "
+                   "absolute_error, held_error (greatest error among it and the finer settings of its way), "
+                   "seconds (median), seconds_low and seconds_high (fastest and slowest run), first_seconds "
+                   "(of the first run, which is not timed), runs, steady (all answers the same bits), pareto "
+                   "(nothing is both faster and closer), failed, left_out and the reason.",
+       .returns = "table[]",
+       .example =
+           "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
+      {.name = "chart",
+       .body = chart_study,
+       .sentence = "Draws error against time on logarithmic axes, a line per way, bars from the fastest to "
+                   "the slowest run, rings around unbeaten settings, and marks at the rim for settings "
+                   "that failed or were left out; returns the file.",
+       .parameters = {{"path", "string?",
+                       "an .svg, .png or .pdf under the run directory; default <name>.svg"}},
+       .returns = "string",
+       .example = "study:chart \"work_precision.svg\"",
+       .heavy = true},
+      {.name = "cheapest",
+       .body = cheapest_setting,
+       .sentence = "The fastest setting with at most the requested error, if every finer measured setting "
+                   "of the same way has it too: a setting near the truth by accident, where the error "
+                   "changes its sign, is not taken. Settings count as finer along the list of their way "
+                   "(turned round where `cells` falls or `tolerance` rises). Among settings with "
+                   "bit-identical answers the first listed is taken, unless another takes less than half "
+                   "its time. If no setting is good enough, the error names the best.",
+       .options = &cheapest_block,
+       .returns = "StudyChoice",
+       .example = "local best = study:cheapest{ error=1e-3 } print(best, best.seconds, best.error)"},
+  };
+  return c;
 }
 
 template <>
-const Class& class_of<StudyChoice>() {
-  static const Class type = [] {
-    Class c;
-    c.name = "StudyChoice";
-    c.article_name = "a setting of a study";
-    c.sentence = "A setting that a study chose. print() shows its knobs as Lua source, to be pasted.";
-    c.describe = describe_choice;
-    c.fields = {
-        getter<StudyChoice>(
-            "knobs", "table", "its knobs, as `ask` was given them",
-            [](const StudyChoice& of) { return knobs_map(of.study->result.knobs_of(of.found())); }),
-        getter<StudyChoice>("way", "string", "the name of its way",
-                            [](const StudyChoice& of) { return of.study->result.way_of(of.found()).name; }),
-        of_row<&StudyRow::seconds>("seconds", "number", "median of its runs", dimension::time),
-        of_row<&StudyRow::value>("value", "number", "its answer"),
-        of_row<&StudyRow::error>("error", "number", "its error, relative to the truth"),
-        of_row<&StudyRow::absolute_error>("absolute_error", "number", "its distance from the truth"),
-        of_row<&StudyRow::held_error>("held_error", "number",
-                                      "greatest error among it and the finer settings of its way"),
-        of_row<&StudyRow::confirmed>("confirmed", "integer",
-                                     "how many finer settings of its way were measured"),
-    };
-    return c;
-  }();
-  return type;
+Class make_class<StudyChoice>() {
+  Class c{"StudyChoice", "a setting of a study",
+          "A setting that a study chose. print() shows its knobs as Lua source, to be pasted."};
+  c.describe = text_of<describe_choice>;
+  c.fields = {
+      getter<StudyChoice>(
+          "knobs", "table", "its knobs, as `ask` was given them",
+          [](const StudyChoice& of) { return knobs_map(of.study->result.knobs_of(of.found())); }),
+      getter<StudyChoice>("way", "string", "the name of its way",
+                          [](const StudyChoice& of) { return of.study->result.way_of(of.found()).name; }),
+      getter<&StudyChoice::found, &StudyRow::seconds>("seconds", "number", "median of its runs",
+                                                      dimension::time),
+      getter<&StudyChoice::found, &StudyRow::value>("value", "number", "its answer"),
+      getter<&StudyChoice::found, &StudyRow::error>("error", "number", "its error, relative to the truth"),
+      getter<&StudyChoice::found, &StudyRow::absolute_error>("absolute_error", "number",
+                                                             "its distance from the truth"),
+      getter<&StudyChoice::found, &StudyRow::held_error>(
+          "held_error", "number", "greatest error among it and the finer settings of its way"),
+      getter<&StudyChoice::found, &StudyRow::confirmed>("confirmed", "integer",
+                                                        "how many finer settings of its way were measured"),
+  };
+  return c;
 }
 
 }  // namespace asperity::lua

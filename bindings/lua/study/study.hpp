@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision, budget, sensitivity and calibrate: functions, results as Lua values, records.
 #pragma once
 
 #include <cstddef>
@@ -31,29 +30,25 @@ struct StudyChoice {
 };
 
 template <>
-const Class& class_of<Study>();
+Class make_class<Study>();
 template <>
-const Class& class_of<StudyChoice>();
+Class make_class<StudyChoice>();
 
-// Journal lines of a study; the rows also go to <name>.csv. Without a run they do nothing.
+// Journal lines of a study; rows also in <name>.csv. Nothing without a run.
 void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request);
 void record_calls(RunDirectory* run, const std::string& name, std::span<const StudyRun> calls);
 void record_result(RunDirectory* run, const std::string& name, const StudyResult& result);
 
-// Cost against accuracy, by several ways.
 Function work_precision_function();
 
-// Total error of a number, and what it costs to halve each part.
 Function budget_function();
 template <>
-const Class& class_of<Budget>();
+Class make_class<Budget>();
 
-// Shares of uncertain inputs in the variance of an answer.
 Function sensitivity_function();
 template <>
-const Class& class_of<Sensitivity>();
+Class make_class<Sensitivity>();
 
-// Fit of a Lua model to a table.
 Function calibrate_function();
 
 }  // namespace asperity::lua

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.work_precision: cost against accuracy, by several ways over their settings.
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -18,8 +17,7 @@ namespace {
 
 // --- options
 
-struct StudyKeys {
-  StudyRequest request;
+struct StudyKeys : StudyRequest {
   std::string name = "work_precision";
   bool unknown = false;  // a dry run met an unknown knob
 };
@@ -51,7 +49,7 @@ void read_way(const Argument& table, const std::string& path, StudyKeys& keys, P
   }
   if (!problems.empty()) return;
   try {
-    keys.request.ways.push_back(make_way(std::move(name), std::move(knobs)));
+    keys.ways.push_back(make_way(std::move(name), std::move(knobs)));
   } catch (const Error& error) {
     problems.push_back(error.what());
   }
@@ -61,21 +59,20 @@ void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, P
   if (!value.is_table() || value.length() == 0)
     return detail::wrong_type(
         value, info, "a list of ways, such as { { name=\"finer grid\", cells={128, 256} } }", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& way) {
-      if (way.is_unknown())
-        keys.unknown = true;
-      else
-        read_way(way, info.name + "[" + std::to_string(k) + "]", keys, problems);
-    });
+  value.elements([&](const Argument& way, std::int64_t k) {
+    if (way.is_unknown())
+      keys.unknown = true;
+    else
+      read_way(way, info.name + "[" + std::to_string(k) + "]", keys, problems);
+  });
 }
 
 void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
   if (value.is_number()) {
-    keys.request.truth = value.number();
+    keys.truth = value.number();
   } else if (value.is_text()) {
     try {
-      keys.request.truth = parse_quantity(value.text()).value;
+      keys.truth = parse_quantity(value.text()).value;
     } catch (const Error& error) {
       problems.push_back(quoted(info.name) + ": " + error.what());
     }
@@ -91,60 +88,33 @@ void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, 
       else
         knobs.push_back({std::string(key.text()), *read});
     });
-    std::sort(knobs.begin(), knobs.end(), [](const Knob& a, const Knob& b) { return a.name < b.name; });
-    keys.request.truth = std::move(knobs);
+    sort_knobs(knobs);
+    keys.truth = std::move(knobs);
   } else {
     detail::wrong_type(value, info, "the exact value, or a table of the knobs of a finer setting", problems);
   }
 }
 
-struct AtMost {
-  std::optional<double> seconds;
-};
-
-const Block<StudyKeys>& study_block() {
-  using K = StudyKeys;
-  Option<AtMost> at_most =
-      quantity("at_most", &AtMost::seconds, dimension::time, above(0),
-               "longest time for the whole study, the truth included; it is quoted first, and "
-               "settings that would not fit are left out");
-  Option<K> budget;
-  budget.info = at_most.info;
-  budget.read = [read = at_most.read](const Argument& value, const OptionInfo& info, K& keys,
-                                      Problems& problems) {
-    AtMost given;
-    read(value, info, given, problems);
-    keys.request.at_most = given.seconds;
-  };
-  Option<K> repeats =
-      custom<K>("repeats", "integer", "timed runs of each setting, after a first one that is not timed",
-                [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                  if (auto n = detail::read_integer(value, info, between(1, 100000), problems))
-                    keys.request.repeats = static_cast<int>(*n);
-                });
-  repeats.info.range_text = "from 1 to 100000";
-  repeats.info.default_text = "5";
-  static const Block<K> block{
-      "lab.work_precision",
-      {custom<K>("ask", "function",
-                 "function(knobs) returning the quantity, one number; nil (and a message) or an error where "
-                 "a setting fails",
-                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-                   if (!value.is_function()) detail::wrong_type(value, info, "a function(knobs)", problems);
-                 })
-           .required(),
-       custom<K>("truth", "number|table",
-                 "the exact value, or the knobs of a finer setting whose answer is taken for it", read_truth)
-           .required(),
-       custom<K>("try", "table[]",
-                 "the ways: tables with a `name`, and knobs that `ask` understands; a knob given as a list "
-                 "is swept, from coarse to fine, and several lists go along together",
-                 read_ways)
-           .required(),
-       std::move(repeats), std::move(budget),
-       text("name", &K::name, "of the study and of <name>.csv, where its rows are kept")}};
-  return block;
-}
+const Block<StudyKeys> study_block{
+    {function<StudyKeys>("ask", "a function(knobs)",
+                         "function(knobs) returning the quantity, one number; nil (and a message) or an "
+                         "error where a setting fails")
+         .required(),
+     custom<StudyKeys>("truth", "number|table",
+                       "the exact value, or the knobs of a finer setting whose answer is taken for it",
+                       read_truth)
+         .required(),
+     custom<StudyKeys>("try", "table[]",
+                       "the ways: tables with a `name`, and knobs that `ask` understands; a knob given as a "
+                       "list is swept, from coarse to fine, and several lists go along together",
+                       read_ways)
+         .required(),
+     integer("repeats", &StudyRequest::repeats, between(1, 100000),
+             "timed runs of each setting, after a first one that is not timed"),
+     quantity("at_most", &StudyRequest::at_most, dimension::time, above(0),
+              "longest time for the whole study, the truth included; it is quoted first, and settings that "
+              "would not fit are left out"),
+     text("name", &StudyKeys::name, "of the study and of <name>.csv, where its rows are kept")}};
 
 StudyAnswer read_answer(lua_State* L, const Knobs& knobs) {
   const Argument value(L, -2), message(L, -1);
@@ -178,7 +148,7 @@ class LuaWork final : public StudyWork {
     return answer;
   }
 
-  // Keeps garbage collection out of the measured times.
+  // Garbage collection stays out of measured times.
   void settle() override { lua_gc(L, LUA_GCCOLLECT); }
 
   void record(std::span<const StudyRun> runs) override { record_calls(session_.run.get(), name_, runs); }
@@ -195,17 +165,17 @@ std::string own_name(Session& session, const std::string& name) {
   return count == 1 ? name : name + "-" + std::to_string(count);
 }
 
-// Calls `ask` once, for the first setting.
+// For the first setting only.
 Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
   if (!keys.unknown) {
-    const Knobs& knobs = keys.request.ways.front().settings.front();
+    const Knobs& knobs = keys.ways.front().settings.front();
     LuaWork work(call, ask, keys.name);
     work.prepare(knobs);
     const int bottom = lua_gettop(call.L) - 2;
     if (lua_pcall(call.L, 1, 2, 0) != LUA_OK) {
       stop_flag().check();
       throw Error(ErrorCode::bad_value,
-                  keys.request.ways.front().name + " " + lua_source(knobs) + ": " + error_text(call.L, -1));
+                  keys.ways.front().name + " " + lua_source(knobs) + ": " + error_text(call.L, -1));
     }
     if (!Argument(call.L, -2).is_unknown()) read_answer(call.L, knobs);
     lua_settop(call.L, bottom);
@@ -215,18 +185,18 @@ Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
 }
 
 Values work_precision(Call& call) {
-  StudyKeys keys = call.options(study_block());
+  StudyKeys keys = call.options(study_block);
   Session& session = call.session();
   if (session.is_case)
     throw Error(ErrorCode::not_permitted,
-                "a case of an ensemble cannot make a study, which takes times: other cases run beside it",
+                "a case of an ensemble cannot measure the times of a study: other cases run at the same time",
                 "go over the cases in a `for` loop, one study after the other");
   return with_key(call.argument(1), "ask", [&](const Argument& ask) -> Values {
     if (session.dry_run) return dry_study(call, keys, ask);
     auto study = std::make_shared<Study>();
     study->name = own_name(session, keys.name);
     LuaWork work(call, ask, study->name);
-    WorkPrecision runner(std::move(keys.request), work, session.monitor());
+    WorkPrecision runner(keys, work, session.monitor());
     record_request(session.run.get(), study->name, runner.result().request);
     try {
       runner.run();
@@ -246,11 +216,11 @@ Function work_precision_function() {
   return {.name = "work_precision",
           .body = work_precision,
           .sentence =
-              "Measures what accuracy costs: asks for one quantity by several ways over their settings, "
-              "times each as the median of `repeats` runs, and compares with the truth. Every setting is run "
-              "once untimed for its answer, then all are timed in rounds; a setting that fails keeps its "
-              "row. What the study will take is said first on standard error.",
-          .options = &study_block(),
+              "Measures the cost of accuracy: computes one quantity by several ways over their settings, "
+              "times each as the median of `repeats` runs, and compares with the truth. Every setting is "
+              "run once untimed for its answer, then all are timed in rounds; a setting that fails keeps "
+              "its row. The expected time of the study is first printed on standard error.",
+          .options = &study_block,
           .returns = "Study",
           .example =
               "local study = lab.work_precision{ ask=function(knobs) return lab.surface.sine{ "

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bindings/lua/registry/registry.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"

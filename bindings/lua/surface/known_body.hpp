@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Known facts about a surface that a dry run does not make: material and, from the call, cells and size. A
-// dry run thus refuses the same contacts as the run.
+// Known facts about a surface that a dry run does not make: material and, from the call, cells and size. The
+// dry run refuses contacts as the run does.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ std::shared_ptr<const KnownBody> known_body(const Argument& value);
 // From the call's options and the surface before the colon; null if unknown.
 std::shared_ptr<const KnownBody> known_result(const Call& call, const Function& function);
 
-// For trial scenes: a small surface of this material and, if known, size.
+// For trial scenes: small, of this material and any known size.
 Surface stand_in(const KnownBody& body);
 
 }  // namespace asperity::lua

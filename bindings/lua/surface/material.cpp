@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.material: a known name or a table of properties.
 #include "bindings/lua/registry/record_type.hpp"
-#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/surface/surface.hpp"
 
 namespace asperity::lua {
 
 namespace {
 
-const Block<Material>& material_block() {
-  static const Block<Material> block{
-      "lab.material",
-      {
-          quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus"),
-          number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio"),
-          quantity("hardness", &Material::hardness, dimension::pressure, above(0).or_never(),
-                   "indentation hardness; effects.plasticity tells how two bodies share what yields"),
-          quantity("density", &Material::density, dimension::density, above(0), "mass per volume"),
-          text("name", &Material::name, "what to call it"),
-      }};
-  return block;
-}
+const Block<Material> material_block{{
+    quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus"),
+    number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio"),
+    quantity("hardness", &Material::hardness, dimension::pressure, above(0).or_never(),
+             "indentation hardness; effects.plasticity states the shares of two yielding bodies"),
+    quantity("density", &Material::density, dimension::density, above(0), "mass per volume"),
+    text("name", &Material::name, "its name"),
+}};
 
 Values make_material(Call& call) {
   const Argument first = call.argument(1);
@@ -27,14 +21,13 @@ Values make_material(Call& call) {
   if (first.is_nil())
     throw Error(ErrorCode::bad_value, "lab.material was given nothing (nil)",
                 "give a name, such as lab.material \"Al-2011\", or a table of properties");
-  Material material = call.options(material_block());
+  Material material = call.options(material_block);
   if (material.name.empty()) material.name = "unnamed";
   check(material);
   return {object(std::move(material))};
 }
 
-std::string describe_material(const void* self) {
-  const auto& m = *static_cast<const Material*>(self);
+std::string describe_material(const Material& m) {
   if (m.rigid) return "rigid body";
   std::string text = m.name;
   if (m.young) text += ": E " + format_quantity(*m.young, dimension::pressure);
@@ -54,42 +47,31 @@ bool equal_materials(const void* a, const void* b) {
 }  // namespace
 
 Function material_function() {
-  Function f;
-  f.name = "material";
-  f.body = make_material;
-  f.sentence = "A material by name (lab.materials lists them), or from a table of properties.";
-  f.options = &material_block();
-  f.returns = "Material";
-  f.example = "local al = lab.material \"Al-2011\"";
-  return f;
+  return {.name = "material",
+          .body = make_material,
+          .sentence = "A material by name (lab.materials lists them), or from a table of properties.",
+          .options = &material_block,
+          .returns = "Material",
+          .example = "local al = lab.material \"Al-2011\""};
 }
-
-Value materials_list() {
-  List list;
-  for (const Material& material : named_materials()) list.items.push_back(object(material));
-  return list;
-}
-
-Value rigid_value() { return object(rigid_material()); }
 
 template <>
-const Class& class_of<Material>() {
-  static const Class type = {
+Class make_class<Material>() {
+  return {
       .name = "Material",
       .article_name = "a material",
       .sentence =
-          "What a body is made of; an effect reads the properties it needs and names any that is missing.",
-      .fields = {getter<&Material::name>("name", "string", "what it is called"),
+          "The material of a body; an effect reads the properties it needs and names any that is missing.",
+      .fields = {getter<&Material::name>("name", "string", "its name"),
                  getter<&Material::young>("young", "number", "Young's modulus", dimension::pressure),
                  getter<&Material::poisson>("poisson", "number", "Poisson's ratio"),
                  getter<&Material::hardness>("hardness", "number", "indentation hardness",
                                              dimension::pressure),
                  getter<&Material::density>("density", "number", "mass per volume", dimension::density),
-                 getter<&Material::source>("source", "string", "where the numbers come from")},
-      .describe = describe_material,
+                 getter<&Material::source>("source", "string", "source of the numbers")},
+      .describe = text_of<describe_material>,
       .equal = equal_materials,
   };
-  return type;
 }
 
 }  // namespace asperity::lua

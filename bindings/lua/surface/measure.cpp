@@ -17,12 +17,10 @@ namespace asperity::lua {
 namespace {
 constexpr const char* measured_sentence =
     "how many points were measured, the others left out; nil where every point was";
-}  // namespace
 
-const RecordType<Roughness>& roughness_type(bool areal) {
+std::vector<RecordField<Roughness>> roughness_fields(bool areal) {
   using R = Roughness;
-  using Fields = std::vector<RecordField<R>>;
-  static const Fields both{
+  std::vector<RecordField<R>> fields{
       {"Ra", &R::Ra, dimension::length, "mean magnitude of the heights about their mean"},
       {"Rq", &R::Rq, dimension::length, "root mean square of the heights about their mean"},
       {"amplitude", &R::amplitude, dimension::length, "peak to valley"},
@@ -34,192 +32,151 @@ const RecordType<Roughness>& roughness_type(bool areal) {
       {"peak", &R::peak, dimension::length, "the greatest height, as stored"},
       {"valley", &R::valley, dimension::length, "the least height, as stored"},
       {"mean", &R::mean, dimension::length, "of the heights, as stored"}};
-  static const Fields measured{{"measured", &R::measured, measured_sentence}};
-  const auto with_measured = [](Fields all) {
-    all.insert(all.end(), measured.begin(), measured.end());
-    return all;
-  };
-  static const Fields areal_names{{"Sa", &R::Ra, dimension::length, "Ra by its areal name"},
-                                  {"Sq", &R::Rq, dimension::length, "Rq by its areal name"},
-                                  {"Sz", &R::amplitude, dimension::length, "amplitude by its areal name"},
-                                  {"Ssk", &R::skewness, "skewness by its areal name"},
-                                  {"Sku", &R::kurtosis, "kurtosis by its areal name"},
-                                  {"Sdq", &R::rms_slope, "rms_slope by its areal name"}};
-  static const RecordType<R> of_profile{"Roughness", "roughness",
-                                        "Amplitude and slope statistics of a profile (ISO 21920-2).",
-                                        with_measured(both)};
-  static const RecordType<R> of_surface{"ArealRoughness", "roughness",
-                                        "Amplitude and slope statistics of a surface (ISO 25178-2).", [&] {
-                                          Fields all = both;
-                                          all.insert(all.end(), areal_names.begin(), areal_names.end());
-                                          return with_measured(std::move(all));
-                                        }()};
-  return areal ? of_surface : of_profile;
+  if (areal)
+    fields.insert(fields.end(), {{"Sa", &R::Ra, dimension::length, "Ra by its areal name"},
+                                 {"Sq", &R::Rq, dimension::length, "Rq by its areal name"},
+                                 {"Sz", &R::amplitude, dimension::length, "amplitude by its areal name"},
+                                 {"Ssk", &R::skewness, "skewness by its areal name"},
+                                 {"Sku", &R::kurtosis, "kurtosis by its areal name"},
+                                 {"Sdq", &R::rms_slope, "rms_slope by its areal name"}});
+  fields.emplace_back("measured", &R::measured, measured_sentence);
+  return fields;
 }
+}  // namespace
 
-const RecordType<MeasuredSpectrum>& spectrum_type() {
-  using S = MeasuredSpectrum;
-  static const RecordType<S> type{
-      "Spectrum",
-      "spectrum",
-      "Power spectral density, one entry of each list a shell of waves that holds any, by rising q.",
-      {{"q", &S::q, "wave number of each shell, rad/m: the mean over its waves"},
-       {"C", &S::C, "power spectral density of each shell, m^4 of a surface, m^3 of a profile"},
-       {"count", &S::count, "waves of each shell, those of both signs counted"},
-       {"rms_height", &S::rms_height, dimension::length,
-        "root of the power of all waves: Rq without a window"},
-       {"rms_slope", &S::rms_slope, "root mean square slope of the waves that interpolate the heights"},
-       {"measured", &S::measured, measured_sentence},
-       {"window",
-        [](const S& s) {
-          constexpr std::array windows = {"automatic", "none", "hann"};
-          return windows[static_cast<std::size_t>(s.window)];
-        },
-        "the taper that was used, \"none\" or \"hann\""},
-       {"units", [](const S& s) { return s.areal ? "q in rad/m, C in m^4" : "q in rad/m, C in m^3"; },
-        "of q and C, in words"}}};
-  return type;
-}
+const RecordType<Roughness> profile_roughness_type{
+    "Roughness", "roughness", "Amplitude and slope statistics of a profile (ISO 21920-2).",
+    roughness_fields(false)};
+const RecordType<Roughness> areal_roughness_type{"ArealRoughness", "roughness",
+                                                 "Amplitude and slope statistics of a surface (ISO 25178-2).",
+                                                 roughness_fields(true)};
 
-const RecordType<FractalDimension>& fractal_dimension_type() {
-  using F = FractalDimension;
-  static const RecordType<F> type{
-      "FractalDimension",
-      "fractal dimension",
-      "The fractal dimension of profiles, and what it was found from. Of exact fractional Brownian profiles "
-      "of D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; "
-      "psd 0.99, 1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: "
-      "structure and madogram 1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep "
-      "heights 1.11, 1.49, 1.91.",
-      {{"D", &F::D, "fractal dimension of the profiles, from 1 to 2"},
-       {"error", &F::error,
-        "standard deviation of D over the profiles, of one, standard error of its line; with \"box\" the "
-        "bias of counting boxes too, as measured on fractional Brownian profiles"},
-       {"lengths", &F::lengths,
-        "what the method measures at each step, averaged over the profiles: m^2 of \"structure\" and "
-        "\"psd\", m of \"madogram\", plain numbers of the others"},
-       {"steps", &F::steps, "in samples; with \"psd\" wavelengths"},
-       {"r_squared", &F::r_squared, "of the line through the lengths, both on logarithmic axes"},
-       {"profiles", &F::profiles, "how many gave a D"},
-       {"measured", &F::measured, measured_sentence},
-       {"resolved", &F::resolved,
-        "whether D can be believed, as far as the method itself can tell: not where the dimension runs from "
-        "step to step, as below the shortest wave of a face or the reach of a tip"},
-       {"reason", [](const F& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
-        "why it is not resolved; nil where it is"}}};
-  return type;
-}
+const RecordType<MeasuredSpectrum> spectrum_type{
+    "Spectrum",
+    "spectrum",
+    "Power spectral density, one entry of each list a shell of waves that holds any, by rising q.",
+    {{"q", &MeasuredSpectrum::q, "wave number of each shell, rad/m: the mean over its waves"},
+     {"C", &MeasuredSpectrum::C, "power spectral density of each shell, m^4 of a surface, m^3 of a profile"},
+     {"count", &MeasuredSpectrum::count, "waves of each shell, those of both signs counted"},
+     {"rms_height", &MeasuredSpectrum::rms_height, dimension::length,
+      "root of the power of all waves: Rq without a window"},
+     {"rms_slope", &MeasuredSpectrum::rms_slope,
+      "root mean square slope of the waves that interpolate the heights"},
+     {"measured", &MeasuredSpectrum::measured, measured_sentence},
+     {"window",
+      [](const MeasuredSpectrum& s) {
+        constexpr std::array windows = {"automatic", "none", "hann"};
+        return windows[static_cast<std::size_t>(s.window)];
+      },
+      "the taper that was used, \"none\" or \"hann\""},
+     {"units",
+      [](const MeasuredSpectrum& s) { return s.areal ? "q in rad/m, C in m^4" : "q in rad/m, C in m^3"; },
+      "of q and C, in words"}}};
 
-const Block<SpectrumOptions>& spectrum_block() {
-  using O = SpectrumOptions;
-  static const Block<O> block{
-      "spectrum",
-      {choice("window", &O::window,
-              {{"automatic", Window::automatic}, {"none", Window::none}, {"hann", Window::hann}},
-              "taper towards the rim; automatic: none for periodic surfaces, otherwise hann"),
-       integer("bins", &O::bins, at_least(0),
-               "shells of equal ratio; 0: one a multiple of the fundamental")}};
-  return block;
-}
+const RecordType<FractalDimension> fractal_dimension_type{
+    "FractalDimension",
+    "fractal dimension",
+    "The fractal dimension of profiles, and the data of the fit. For exact fractional Brownian profiles of "
+    "D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; psd "
+    "0.99, 1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: structure "
+    "and madogram 1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep heights "
+    "1.11, 1.49, 1.91.",
+    {{"D", &FractalDimension::D, "fractal dimension of the profiles, from 1 to 2"},
+     {"error", &FractalDimension::error,
+      "standard deviation of D over the profiles, of one, standard error of its line; with \"box\" the bias "
+      "of counting boxes too, as measured on fractional Brownian profiles"},
+     {"lengths", &FractalDimension::lengths,
+      "what the method measures at each step, averaged over the profiles: m^2 of \"structure\" and \"psd\", "
+      "m of \"madogram\", plain numbers of the others"},
+     {"steps", &FractalDimension::steps, "in samples; with \"psd\" wavelengths"},
+     {"r_squared", &FractalDimension::r_squared, "of the line through the lengths, both on logarithmic axes"},
+     {"profiles", &FractalDimension::profiles, "how many gave a D"},
+     {"measured", &FractalDimension::measured, measured_sentence},
+     {"resolved", &FractalDimension::resolved,
+      "whether D can be believed, as far as the method itself can tell: not where the dimension runs from "
+      "step to step, as below the shortest wave of a face or the reach of a tip"},
+     {"reason",
+      [](const FractalDimension& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
+      "why it is not resolved; nil where it is"}}};
 
-const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
+const Block<SpectrumOptions> spectrum_block{
+    {choice("window", &SpectrumOptions::window,
+            {{"automatic", Window::automatic}, {"none", Window::none}, {"hann", Window::hann}},
+            "taper towards the rim; automatic: none for periodic surfaces, otherwise hann"),
+     integer("bins", &SpectrumOptions::bins, at_least(0),
+             "shells of equal ratio; 0: one a multiple of the fundamental")}};
+
+namespace {
+std::vector<Option<FractalDimensionOptions>> fractal_dimension_options() {
   using O = FractalDimensionOptions;
-  auto make = [](bool areal) {
-    std::vector<Option<O>> options = {
-        choice("method", &O::method,
-               {{"length", DimensionMethod::length},
-                {"psd", DimensionMethod::psd},
-                {"structure", DimensionMethod::structure},
-                {"box", DimensionMethod::box},
-                {"madogram", DimensionMethod::madogram}},
-               "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
-               "function, box counting or madogram; the `lengths` of the result are what the method measures "
-               "at each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse "
-               "points not measured"),
-        custom<O>("steps", "integer[]", "steps in samples, e.g. {1, 2, 4, 8, 16}",
-                  [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
-                    if (!value.is_table() || value.length() < 2)
-                      return detail::wrong_type(value, info, "a list of two or more whole numbers", problems);
-                    for (std::int64_t k = 1; k <= value.length(); ++k)
-                      value.element(k, [&](const Argument& step) {
-                        if (auto n = detail::read_integer(step, info, between(1, 1 << 30), problems))
-                          o.steps.push_back(static_cast<int>(*n));
-                      });
-                  })
-            .defaults_to("{1, 2, 4, 8, 16}"),
-        flag("offsets", &O::offsets, "method length: average over all starting points"),
-        quantity("tip", &O::tip, dimension::length, above(0),
-                 "radius of the tip that traced it: steps below its reliability cut-off are not believed"),
-        flag("pooled", &O::pooled,
-             "one line through the average over profiles instead of the mean of each one's D"),
-        custom<O>("wrap", "boolean", "steps continue across the rim",
-                  [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
-                    if (value.is_boolean())
-                      o.wrap = value.boolean();
-                    else
-                      detail::wrong_type(value, info, "true or false", problems);
-                  })
-            .defaults_to("false"),
-    };
-    if (areal)
-      options.push_back(choice("along", &O::along, {{"x", Along::x}, {"y", Along::y}, {"both", Along::both}},
-                               "which profiles: rows, columns or both"));
-    return Block<O>("fractal_dimension", std::move(options));
+  return {
+      choice("method", &O::method,
+             {{"length", DimensionMethod::length},
+              {"psd", DimensionMethod::psd},
+              {"structure", DimensionMethod::structure},
+              {"box", DimensionMethod::box},
+              {"madogram", DimensionMethod::madogram}},
+             "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
+             "function, box counting or madogram; the `lengths` of the result are what the method measures "
+             "at each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse points "
+             "not measured"),
+      integers("steps", &O::steps, 2, 1 << 30, "steps in samples, e.g. {1, 2, 4, 8, 16}")
+          .defaults_to("{1, 2, 4, 8, 16}"),
+      flag("offsets", &O::offsets, "method length: average over all starting points"),
+      quantity("tip", &O::tip, dimension::length, above(0),
+               "radius of the tip that traced it: steps below its reliability cut-off are not believed"),
+      flag("pooled", &O::pooled,
+           "one line through the average over profiles instead of the mean of each one's D"),
+      flag("wrap", &O::wrap, "steps continue across the rim").defaults_to("false"),
   };
-  static const Block<O> of_surface = make(true), of_profile = make(false);
-  return surface ? of_surface : of_profile;
 }
+}  // namespace
 
-const Block<GaussianFilter>& filter_block() {
-  using O = GaussianFilter;
-  static const Block<O> block{
-      "filtered",
-      {quantity("short_wave", &O::short_wave, dimension::length, above(0),
-                "waves shorter than this are attenuated"),
-       quantity(
-           "long_wave", &O::long_wave, dimension::length, above(0).or_never(),
-           "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes"),
-       flag("robust", &O::robust,
-            "the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO "
-            "16610-31, -71; biweights of the residuals)")}};
-  return block;
-}
+const Block<FractalDimensionOptions> profile_fractal_dimension_block{fractal_dimension_options()};
+const Block<FractalDimensionOptions> areal_fractal_dimension_block{[] {
+  std::vector<Option<FractalDimensionOptions>> options = fractal_dimension_options();
+  options.push_back(choice("along", &FractalDimensionOptions::along,
+                           {{"x", Along::x}, {"y", Along::y}, {"both", Along::both}},
+                           "which profiles: rows, columns or both"));
+  return options;
+}()};
+
+const Block<GaussianFilter> filter_block{
+    {quantity("short_wave", &GaussianFilter::short_wave, dimension::length, above(0),
+              "waves shorter than this are attenuated"),
+     quantity(
+         "long_wave", &GaussianFilter::long_wave, dimension::length, above(0).or_never(),
+         "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes"),
+     flag("robust", &GaussianFilter::robust,
+          "the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO "
+          "16610-31, -71; biweights of the residuals)")}};
 
 void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double length, double spacing) {
   const auto warn = [&](const char* key, double wave, const std::string& why) {
-    call.session().monitor().warn(where(call.L) + call.function_name() + ": " + quoted(key) + " is " +
-                                  format_quantity(wave, dimension::length) + ", and " + why);
+    call.warn(quoted(key) + " is " + format_quantity(wave, dimension::length) + ", and " + why);
   };
-  // Tolerance for a cut-off equal to the length up to rounding.
+  // For a cut-off equal to the length.
   constexpr double rounding = 1e-9;
   if (filter.long_wave && std::isfinite(*filter.long_wave) && *filter.long_wave > length * (1 + rounding))
     warn("long_wave", *filter.long_wave,
-         "no wave is longer than the " + format_quantity(length, dimension::length) +
-             " there are: little more than the mean is taken away");
+         "the length is " + format_quantity(length, dimension::length) +
+             ": little more than the mean is removed");
   if (filter.short_wave && std::isfinite(*filter.short_wave) && *filter.short_wave > length * (1 + rounding))
     warn("short_wave", *filter.short_wave,
-         "no wave is longer than the " + format_quantity(length, dimension::length) +
-             " there are: little more than the mean is left");
+         "the length is " + format_quantity(length, dimension::length) +
+             ": little more than the mean is left");
   if (filter.short_wave && *filter.short_wave < 2 * spacing * (1 - rounding))
     warn("short_wave", *filter.short_wave,
          "points " + format_quantity(spacing, dimension::length) + " apart carry no wave so short");
 }
 
-const Block<LevelKeys>& level_block() {
-  static const Block<LevelKeys> block{
-      "levelled",
-      {integer("degree", &LevelKeys::degree, between(0, max_levelling_degree),
-               "of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form")}};
-  return block;
-}
+const Block<LevelKeys> level_block{
+    {integer("degree", &LevelKeys::degree, between(0, max_levelling_degree),
+             "of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form")}};
 
-const Block<CutKeys>& cut_block() {
-  static const Block<CutKeys> block{
-      "cut",
-      {number("fraction", &CutKeys::fraction, between(0, 1),
-              "of the peak-to-valley; heights above max - fraction * peak-to-valley are brought down to it")
-           .required()}};
-  return block;
-}
+const Block<CutKeys> cut_block{
+    {number("fraction", &CutKeys::fraction, between(0, 1),
+            "of the peak-to-valley; heights above max - fraction * peak-to-valley are brought down to it")
+         .required()}};
 
 }  // namespace asperity::lua

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // p:profile_parameters{...}: ISO 21920-2 parameters of a trace, filtered and sectioned by ISO 21920-3.
-// p:primary_parameters{...}: parameters without an L-filter.
+// p:primary_parameters{...}: without an L-filter.
 #include <cctype>
 #include <string>
 #include <utility>
@@ -27,23 +27,18 @@ struct ProfileParameterKeys {
   double threshold = 0.1;
 };
 
-const Block<ProfileParameterKeys>& profile_parameters_block() {
-  using O = ProfileParameterKeys;
-  static const Block<O> block{
-      "profile_parameters",
-      {quantity("section", &O::section, dimension::length, above(0),
-                "length of a section and nesting index Nic of the L-filter; this or `class`"),
-       text("class", &O::setting,
-            "setting class of ISO 21920-3, \"Sc1\" to \"Sc5\": it gives `section` and `S`"),
-       integer("sections", &O::sections, between(1, 1000), "how many"),
-       integer("F", &O::F, between(0, max_levelling_degree),
-               "F-operation: degree of the polynomial taken away first; without it none"),
-       quantity("S", &O::S, dimension::length, above(0),
-                "nesting index Nis of the S-filter: shorter waves are attenuated; without it none"),
-       number("threshold", &O::threshold, between(0, 1),
-              "of Rp and Rv: lower hills and dales are no elements of Rsm and Rc")}};
-  return block;
-}
+const Block<ProfileParameterKeys> profile_parameters_block{
+    {quantity("section", &ProfileParameterKeys::section, dimension::length, above(0),
+              "length of a section and nesting index Nic of the L-filter; this or `class`"),
+     text("class", &ProfileParameterKeys::setting,
+          "setting class of ISO 21920-3, \"Sc1\" to \"Sc5\": it gives `section` and `S`"),
+     integer("sections", &ProfileParameterKeys::sections, between(1, 1000), "how many"),
+     integer("F", &ProfileParameterKeys::F, between(0, max_levelling_degree),
+             "F-operation: degree of the polynomial taken away first; without it none"),
+     quantity("S", &ProfileParameterKeys::S, dimension::length, above(0),
+              "nesting index Nis of the S-filter: shorter waves are attenuated; without it none"),
+     number("threshold", &ProfileParameterKeys::threshold, between(0, 1),
+            "of Rp and Rv: lower hills and dales are no elements of Rsm and Rc")}};
 
 struct PrimaryParameterKeys {
   std::optional<int> F;
@@ -52,21 +47,16 @@ struct PrimaryParameterKeys {
   double threshold = 0.1;
 };
 
-const Block<PrimaryParameterKeys>& primary_parameters_block() {
-  using O = PrimaryParameterKeys;
-  static const Block<O> block{
-      "primary_parameters",
-      {integer("F", &O::F, between(0, max_levelling_degree),
-               "F-operation: degree of the polynomial taken away first; without it none"),
-       quantity("S", &O::S, dimension::length, above(0),
-                "nesting index Nis of the S-filter: shorter waves are attenuated, half of it is cut off at "
-                "either end; without it none"),
-       integer("sections", &O::sections, between(1, 1000),
-               "equal parts of the evaluation length; one, the whole of it, unless asked"),
-       number("threshold", &O::threshold, between(0, 1),
-              "of Pp and Pv: lower hills and dales are no elements of Psm and Pc")}};
-  return block;
-}
+const Block<PrimaryParameterKeys> primary_parameters_block{
+    {integer("F", &PrimaryParameterKeys::F, between(0, max_levelling_degree),
+             "F-operation: degree of the polynomial taken away first; without it none"),
+     quantity("S", &PrimaryParameterKeys::S, dimension::length, above(0),
+              "nesting index Nis of the S-filter: shorter waves are attenuated, half of it is cut off at "
+              "either end; without it none"),
+     integer("sections", &PrimaryParameterKeys::sections, between(1, 1000),
+             "equal parts of the evaluation length; one unless given"),
+     number("threshold", &PrimaryParameterKeys::threshold, between(0, 1),
+            "of Pp and Pv: lower hills and dales are no elements of Psm and Pc")}};
 
 struct MeasuredProfile {
   ProfileParameters values;
@@ -74,7 +64,7 @@ struct MeasuredProfile {
   double section;
 };
 
-// Converts "Rz" of the roughness profile to "Pz", also in sentences.
+// "Rz" becomes "Pz", also in sentences.
 std::string named_of(char kind, std::string text) {
   for (std::size_t k = 0; k + 1 < text.size(); ++k) {
     const bool begins = k == 0 || text[k - 1] == ' ' || text[k - 1] == '_';
@@ -84,7 +74,7 @@ std::string named_of(char kind, std::string text) {
   return text;
 }
 
-// Fields of both profiles, with the profile's letter.
+// With the profile's letter.
 std::vector<RecordField<MeasuredProfile>> fields_of(char kind) {
   using M = MeasuredProfile;
   const auto sectioned = [](SectionedValue ProfileParameters::*member) {
@@ -148,35 +138,25 @@ std::vector<RecordField<MeasuredProfile>> fields_of(char kind) {
   return fields;
 }
 
-const RecordType<MeasuredProfile>& profile_parameters_type() {
-  static const RecordType<MeasuredProfile> type{
-      "ProfileParameters", "profile parameters",
-      "The parameters of ISO 21920-2 of a trace after F-operation, S- and L-filter, half a section cut off "
-      "at either end.",
-      fields_of('R')};
-  return type;
-}
+const RecordType<MeasuredProfile> profile_parameters_type{
+    "ProfileParameters", "profile parameters",
+    "The parameters of ISO 21920-2 of a trace after F-operation, S- and L-filter, half a section cut off at "
+    "either end.",
+    fields_of('R')};
 
-const RecordType<MeasuredProfile>& primary_parameters_type() {
-  static const RecordType<MeasuredProfile> type{
-      "PrimaryParameters", "primary parameters",
-      "The P parameters of ISO 21920-2 of a trace after F-operation and S-filter, with its long waves.",
-      fields_of('P')};
-  return type;
-}
-
-void warn_of_call(Call& call, const std::string& sentence) {
-  call.session().monitor().warn(where(call.L) + call.function_name() + ": " + sentence);
-}
+const RecordType<MeasuredProfile> primary_parameters_type{
+    "PrimaryParameters", "primary parameters",
+    "The P parameters of ISO 21920-2 of a trace after F-operation and S-filter, with its long waves.",
+    fields_of('P')};
 
 void warn_of_coarse_samples(Call& call, const Profile& trace, const std::optional<double>& S) {
   if (S && trace.spacing() > *S / 5 * (1 + 1e-9))
-    warn_of_call(call, "samples are " + metres(trace.spacing()) +
-                           " apart, more than a fifth of the nesting index S, " + metres(*S));
+    call.warn("samples are " + metres(trace.spacing()) +
+              " apart, more than a fifth of the nesting index S, " + metres(*S));
 }
 
 Values profile_parameters_of(Call& call) {
-  const ProfileParameterKeys keys = call.options(profile_parameters_block());
+  const ProfileParameterKeys keys = call.options(profile_parameters_block);
   if (keys.section.has_value() == keys.setting.has_value())
     refuse(keys.section ? "both `section` and `class` are given" : "neither `section` nor `class` is given",
            "give the length of a section, as in `section=\"0.8 mm\"`, or a class, `class=\"Sc3\"`" +
@@ -197,63 +177,53 @@ Values profile_parameters_of(Call& call) {
   const Profile& trace = call.self<Profile>();
   PreparedProfile prepared = prepared_profile(trace, preparation);
   if (prepared.sections < keys.sections)
-    warn_of_call(call, "the trace holds " + std::to_string(prepared.sections) +
-                           " sections once its ends are cut, not " + std::to_string(keys.sections));
+    call.warn("the trace holds " + std::to_string(prepared.sections) +
+              " sections once its ends are cut, not " + std::to_string(keys.sections));
   warn_of_coarse_samples(call, trace, preparation.S);
   ProfileParameters values =
       profile_parameters(prepared.profile, {.sections = prepared.sections, .threshold = keys.threshold});
-  return {profile_parameters_type()({std::move(values), std::move(prepared), preparation.section})};
+  return {profile_parameters_type({std::move(values), std::move(prepared), preparation.section})};
 }
 
 Values primary_parameters_of(Call& call) {
-  const PrimaryParameterKeys keys = call.options(primary_parameters_block());
+  const PrimaryParameterKeys keys = call.options(primary_parameters_block);
   const Profile& trace = call.self<Profile>();
   Profile profile = primary_profile(trace, keys.F, keys.S);
   warn_of_coarse_samples(call, trace, keys.S);
   ProfileParameters values =
       profile_parameters(profile, {.sections = keys.sections, .threshold = keys.threshold});
   const double section = profile.length() / keys.sections;
-  return {primary_parameters_type()({std::move(values), {std::move(profile), keys.sections}, section})};
-}
-
-Values bearing_of_profile(Call& call) {
-  return {object(MaterialRatioCurve(call.self<Profile>().measured_heights()))};
+  return {primary_parameters_type({std::move(values), {std::move(profile), keys.sections}, section})};
 }
 
 }  // namespace
 
-Function profile_bearing_method() {
-  return {.name = "bearing",
-          .body = bearing_of_profile,
-          .sentence =
-              "The material ratio curve (Abbott-Firestone) of the measured heights, exact and not binned: "
-              "Rmr(c) is its ratio(c), Rmc(p) its height(p).",
-          .returns = "MaterialRatioCurve",
-          .example = "print(p:bearing():ratio(0))"};
-}
-Function profile_parameters_method() {
-  return {.name = "profile_parameters",
-          .body = profile_parameters_of,
-          .sentence =
-              "The parameters of ISO 21920-2: the trace is filtered, half a section cut off at either end, "
-              "and the rest evaluated in sections. Neither section nor class is guessed.",
-          .options = &profile_parameters_block(),
-          .returns = "ProfileParameters",
-          .example = "print(p:profile_parameters{ section=\"0.1 mm\", F=1 }.Rz)"};
-}
-Function primary_parameters_method() {
+std::vector<Function> profile_parameter_methods() {
   return {
-      .name = "primary_parameters",
-      .body = primary_parameters_of,
-      .sentence =
-          "The P parameters of ISO 21920-2 (Pa, Pq, Pz, Pt, …): of the trace as it was measured, over its "
-          "whole length, without an L-filter. A tilt left in dominates them: `F=1`.",
-      .options = &primary_parameters_block(),
-      .options_optional = true,
-      .returns = "PrimaryParameters",
-      .example = "print(p:primary_parameters{ F=1 }.Pq)"};
+      {.name = "profile_parameters",
+       .body = profile_parameters_of,
+       .sentence = "The parameters of ISO 21920-2: the trace is filtered, half a section cut off at either "
+                   "end, and the rest evaluated in sections. Neither section nor class is guessed.",
+       .options = &profile_parameters_block,
+       .returns = "ProfileParameters",
+       .example = "print(p:profile_parameters{ section=\"0.1 mm\", F=1 }.Rz)"},
+      {.name = "primary_parameters",
+       .body = primary_parameters_of,
+       .sentence = "The P parameters of ISO 21920-2 (Pa, Pq, Pz, Pt, …): of the trace as it was measured, "
+                   "over its whole length, without an L-filter. A tilt left in dominates them: `F=1`.",
+       .options = optional(primary_parameters_block),
+       .returns = "PrimaryParameters",
+       .example = "print(p:primary_parameters{ F=1 }.Pq)"},
+      {.name = "bearing",
+       .body = method([](const Profile& p) { return MaterialRatioCurve(p.measured_heights()); }),
+       .sentence = "The material ratio curve (Abbott-Firestone) of the measured heights, exact and not "
+                   "binned: Rmr(c) is its ratio(c), Rmc(p) its height(p).",
+       .returns = "MaterialRatioCurve",
+       .example = "print(p:bearing():ratio(0))"}};
 }
-const RecordInfo& profile_parameters_result() { return profile_parameters_type(); }
-const RecordInfo& primary_parameters_result() { return primary_parameters_type(); }
+
+std::vector<const RecordInfo*> profile_parameter_results() {
+  return {&profile_parameters_type, &primary_parameters_type};
+}
 
 }  // namespace asperity::lua

@@ -1,79 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of surfaces made in one process (lab.surface) or in slabs over several (lab.spread).
+// Keys of lab.surface (one process) and lab.spread (slabs).
 #pragma once
 
 #include <vector>
 
-#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"
+#include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 
 namespace asperity::lua {
 
 struct SineKeys : GridKeys, SineOptions {};
-inline std::vector<Option<SineKeys>> sine_keys() {
-  return {Option<SineKeys>(cells_key()).required(),
-          Option<SineKeys>(size_key()).required(),
-          Option<SineKeys>(quantity("amplitude", &SineOptions::amplitude, dimension::length, at_least(0),
-                                    "height of a crest above the mean"))
-              .required(),
-          Option<SineKeys>(quantity("wavelength", &SineOptions::wavelength, dimension::length, above(0),
-                                    "length of a wave"))
-              .defaults_to("size"),
-          integer("directions", &SineOptions::directions, between(1, 2),
-                  "1: cos along x; 2: cos along x times cos along y"),
-          material_key()};
-}
-
-inline void check_sine_keys(SineKeys& keys, Problems&) {
-  keys.grid = keys.make();
-  (void)sine_factors(keys);
-}
-
 struct SelfAffineKeys : GridKeys, SelfAffineOptions {};
-inline std::vector<Option<SelfAffineKeys>> self_affine_keys() {
-  using O = SelfAffineOptions;
-  using K = SelfAffineKeys;
-  return {Option<K>(cells_key()).required(),
-          Option<K>(size_key()).required(),
-          Option<K>(number("hurst", &O::hurst, {0, 1, true, false, false}, "Hurst exponent H; D = 3 - H"))
-              .required(),
-          quantity("rms_height", &O::rms_height, dimension::length, above(0),
-                   "root mean square height; or give rms_slope or ra"),
-          number("rms_slope", &O::rms_slope, above(0),
-                 "spectral root mean square slope; or give rms_height or ra"),
-          quantity("ra", &O::ra, dimension::length, above(0),
-                   "mean absolute height; or give rms_height or rms_slope"),
-          Option<K>(quantity("long_wave", &O::long_wave, dimension::length, above(0), "longest wave"))
-              .defaults_to("size"),
-          Option<K>(quantity("roll_off", &O::roll_off, dimension::length, above(0),
-                             "wave above which the spectrum is flat"))
-              .defaults_to("long_wave"),
-          Option<K>(quantity("short_wave", &O::short_wave, dimension::length, above(0),
-                             "shortest wave, at least two cells"))
-              .required(),
-          integer("seed", &O::seed, at_least(0), "of the random waves"),
-          material_key()};
-}
-inline void check_self_affine_keys(SelfAffineKeys& keys, Problems& problems) {
-  const int given = (keys.rms_height ? 1 : 0) + (keys.rms_slope ? 1 : 0) + (keys.ra ? 1 : 0);
-  if (given != 1)
-    problems.push_back("give exactly one of `rms_height`, `rms_slope` and `ra`, which sets the amplitude; " +
-                       std::to_string(given) + " are given");
-  keys.grid = keys.make();
-  if (problems.empty()) require_makeable(keys);
-}
+extern const Block<SineKeys> sine_block;
+extern const Block<SelfAffineKeys> self_affine_block;
+extern const Block<GridKeys> flat_block;
+// The caller reads the function `height`.
+extern const Block<GridKeys> from_function_block;
 
-// `height` is only checked here; the caller reads the function.
-inline std::vector<Option<GridKeys>> from_function_keys() {
-  return {cells_key().required(), size_key().required(),
-          custom<GridKeys>("height", "function", "function(x, y) returning the height, all in metres",
-                           [](const Argument& value, const OptionInfo& info, GridKeys&, Problems& problems) {
-                             if (!value.is_function())
-                               detail::wrong_type(value, info, "a function(x, y)", problems);
-                           })
-              .required(),
-          material_key()};
+// For generator and exact heights. The caller reads a `phases` function.
+
+// K: WeierstrassMandelbrotOptions or derived.
+template <class K>
+std::vector<Option<K>> weierstrass_mandelbrot_keys() {
+  using O = WeierstrassMandelbrotOptions;
+  auto phases = custom<K>("phases", "\"golden\"|function",
+                          "how the phases are drawn instead of from `seed`: the golden sequence that anyone "
+                          "can reproduce, or function(m, n) returning radians",
+                          [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                            if (value.is_text() && value.text() == "golden") {
+                              keys.phases = WavePhases::golden;
+                            } else if (value.is_function()) {
+                              keys.phases = WavePhases::function;
+                            } else {
+                              detail::wrong_type(
+                                  value, info, "\"golden\" or a function(m, n) returning radians", problems);
+                            }
+                          });
+  return {cells_option<O>(&O::nx, &O::ny).required(),
+          number("D", &O::D, between(2, 3), "fractal dimension of the surface").required(),
+          number("span", &O::span, above(0), "length of the x side in units of L"),
+          quantity("L", &O::L, dimension::length, above(0), "sample length"),
+          quantity("G", &O::G, dimension::length, above(0), "fractal roughness, the height scale"),
+          number("gamma", &O::gamma, above(1), "ratio of neighbouring wave numbers"),
+          integer("M", &O::M, between(1, 4096), "number of ridges (directions)"),
+          integer("n_max", &O::n_max, at_least(0), "highest frequency index"),
+          integer("seed", &O::seed, at_least(0), "of the random phases"),
+          std::move(phases),
+          choice("band", &O::band, {{"all", WaveBand::all}, {"resolved", WaveBand::resolved}},
+                 "every wave as published (those past Nyquist alias), or only what the grid carries"),
+          material_key(&O::material)};
 }
 
 }  // namespace asperity::lua

@@ -48,7 +48,7 @@ std::string Access::misdirected(const HttpRequest& request) const {
     };
     if (std::ranges::none_of(hosts_, own)) return "the request comes from a page of another origin";
   }
-  // Browsers send Sec-Fetch-Site even without an Origin.
+  // Sent by browsers even without an Origin.
   if (request.headers.contains("sec-fetch-site")) {
     const std::string* site = request.header("sec-fetch-site");
     if (site == nullptr || (*site != "same-origin" && *site != "none")) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Access control. A request must name this server as Host (against DNS rebinding) and must not come from
-// another origin. All requests except for the page's own files must carry a token, which is compared in
-// constant time.
+// another origin. All requests except for the page's own files need a token, which is compared in constant
+// time.
 #pragma once
 
 #include <cstddef>

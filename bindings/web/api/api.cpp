@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/web/api/api.hpp"
 
+#include <sha2.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <set>
 #include <utility>
 
 #include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
-#include "bindings/web/runs/answers.hpp"
+#include "bindings/web/api/answers.hpp"
+#include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
+#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::web {
@@ -19,7 +26,15 @@ namespace {
 
 constexpr std::size_t longest_script = std::size_t{1} << 20, longest_name = 200;
 
-HttpResponse not_there() { return problem_answer(404, "there is no such thing here"); }
+Json facts_of(const PageRun& run) {
+  return Json::object({{"id", run.id}, {"name", run.request.name}, {"state", name(run.state())}});
+}
+
+HttpResponse too_many_answers() {
+  return problem_answer(429, "too many requests of this person are open", "close other pages");
+}
+
+HttpResponse not_there() { return problem_answer(404, "there is nothing at this address"); }
 
 std::pair<std::string, std::string> split(const std::string& path) {
   const std::size_t slash = path.find('/');
@@ -36,15 +51,136 @@ bool is_json(std::string type) {
   return type == "application/json";
 }
 
+// Content policy: load from this server only; scripts are its files and `inline_scripts`.
+void add_safe_headers(HttpResponse& response, const std::string& inline_scripts = {}) {
+  response.headers.emplace_back(
+      "Content-Security-Policy",
+      "default-src 'none'; script-src 'self'" + inline_scripts +
+          "; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; connect-src 'self'; "
+          "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
+          "frame-ancestors 'none'");
+  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  response.headers.emplace_back("Referrer-Policy", "no-referrer");
+  response.headers.emplace_back("X-Frame-Options", "DENY");
+  response.headers.emplace_back("Cross-Origin-Opener-Policy", "same-origin");
+  response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+// "sha256-<base64>" of each inline script.
+void add_inline_scripts(std::string_view page, std::set<std::string>& digests) {
+  constexpr std::string_view begin = "<script>", end = "</script>";
+  for (std::size_t at = 0; (at = page.find(begin, at)) != std::string_view::npos;) {
+    at += begin.size();
+    const std::string_view script = page.substr(at, page.find(end, at) - at);
+    std::array<std::uint8_t, SHA256_DIGEST_LENGTH> digest{};
+    SHA2_CTX context;
+    SHA256Init(&context);
+    SHA256Update(&context, reinterpret_cast<const std::uint8_t*>(script.data()), script.size());
+    SHA256Final(digest.data(), &context);
+    digests.insert("sha256-" + base64({reinterpret_cast<const char*>(digest.data()), digest.size()}));
+  }
+}
+
+constexpr const char* documents_need =
+    "the site of the documents is missing: `./lab docs` builds it in build/site of the source folder, and an "
+    "installed program looks in share/asperity/site; start the server again after that";
+
 }  // namespace
 
-Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page)
+const char* const page_needs =
+    "the page was not built: it needs npm (Debian's package npm); with it, configure and build again, "
+    "`cmake --build build/release`";
+
+PageFiles::PageFiles(const std::optional<std::filesystem::path>& folder, std::string root, std::string needs)
+    : root_(std::move(root)), needs_(std::move(needs)) {
+  constexpr std::size_t largest = std::size_t{32} << 20;
+  if (!folder) return;
+  std::int64_t bytes = 0;
+  std::set<std::string> inline_scripts;
+  for (const PlainFile& file : plain_files(*folder, 1000, bytes)) {
+    if (file.name[0] == '.' || file.name.find("/.") != std::string::npos || file.name.ends_with(".map"))
+      continue;
+    auto content = read_plain_file(*folder, file.name, largest);
+    if (!content) continue;
+    if (file.name.ends_with(".html")) add_inline_scripts(*content, inline_scripts);
+    const std::string tag = "\"" + Digester().add(*content).hex() + "\"";
+    files_[root_ + file.name] = {*std::move(content), media_type(file.name), tag};
+  }
+  for (const std::string& script : inline_scripts) inline_scripts_ += " '" + script + "'";
+  if (!files_.contains(root_ + "index.html")) files_.clear();
+}
+
+HttpResponse PageFiles::answer(const HttpRequest& request) const {
+  if (!built()) return {.status = request.path == "/" ? 503 : 404, .body = needs_ + "\n"};
+  const auto found = files_.find(request.path == root_ ? root_ + "index.html" : request.path);
+  if (found == files_.end()) return {.status = 404, .body = "there is no such page\n"};
+  const File& file = found->second;
+  HttpResponse response{.headers = {{"ETag", file.tag}, {"Cache-Control", "no-cache"}}, .type = file.type};
+  const std::string* known = request.header("if-none-match");
+  if (known != nullptr && *known == file.tag)
+    response.status = 304;
+  else
+    response.body = file.content;
+  return response;
+}
+
+void RoomBoard::predict(std::size_t person, const std::string& lesson, const Json& numbers) {
+  if (!numbers.is_object())
+    throw Error(ErrorCode::bad_value, "`numbers` is no object", "give numbers by name");
+  if (numbers.members().size() > most_numbers)
+    throw Error(ErrorCode::bad_value, std::to_string(numbers.members().size()) + " numbers are predicted",
+                "give at most " + std::to_string(most_numbers));
+  std::map<std::string, double> given;
+  for (const auto& [name, value] : numbers.members()) {
+    if (name.size() > longest_name)
+      throw Error(ErrorCode::bad_value, "a name has " + std::to_string(name.size()) + " bytes",
+                  "give at most " + std::to_string(longest_name));
+    if (!value.is_number() || !std::isfinite(value.number()))
+      throw Error(ErrorCode::bad_value, "the prediction `" + name + "` is no finite number", "give a number");
+    given[name] = value.number();
+  }
+  const std::lock_guard lock(mutex_);
+  auto& predictions = of_[person].predictions;
+  if (given.empty()) {
+    predictions.erase(lesson);
+    return;
+  }
+  if (!predictions.contains(lesson) && predictions.size() >= most_lessons)
+    throw Error(ErrorCode::bad_value, "there are predictions of " + std::to_string(most_lessons) + " lessons",
+                "take some back");
+  predictions[lesson] = std::move(given);
+}
+
+void RoomBoard::ask_for_help(std::size_t person, bool wanted) {
+  const std::lock_guard lock(mutex_);
+  of_[person].help = wanted;
+}
+
+Json RoomBoard::predictions_of(std::size_t person) const {
+  Json::List list;
+  const std::lock_guard lock(mutex_);
+  if (const auto found = of_.find(person); found != of_.end())
+    for (const auto& [lesson, numbers] : found->second.predictions)
+      for (const auto& [name, value] : numbers)
+        list.push_back(Json::object({{"lesson", lesson}, {"name", name}, {"value", value}}));
+  return list;
+}
+
+bool RoomBoard::needs_help(std::size_t person) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = of_.find(person);
+  return found != of_.end() && found->second.help;
+}
+
+Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page,
+         const std::optional<std::filesystem::path>& documents)
     : setup_(std::move(setup)),
       access_(access),
       runs_(runs),
       live_(live),
       page_(std::move(page)),
-      streams_(setup_.classroom ? 24 : 300, 600) {}
+      documents_(documents, "/docs/", documents_need),
+      streams_({.places = 600, .each = setup_.classroom ? 24 : 300}) {}
 
 std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
   auto refused = [](HttpResponse response) {
@@ -89,16 +225,20 @@ std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
 }
 
 HttpResponse Api::answer(const HttpRequest& request) {
+  const bool document = request.path.starts_with("/docs/");
   HttpResponse response;
   try {
-    response = request.path.starts_with("/api/") ? route(request) : page_.answer(request);
+    response = request.path.starts_with("/api/") ? route(request)
+               : request.path == "/docs" ? HttpResponse{.status = 308, .headers = {{"Location", "/docs/"}}}
+               : document                ? documents_.answer(request)
+                                         : page_.answer(request);
   } catch (const Error& error) {
     const bool theirs = error.code() != ErrorCode::bad_state && error.code() != ErrorCode::internal;
     response = problem_answer(theirs ? 400 : 503, error.sentence(), error.hint());
   } catch (const std::exception& error) {
     response = problem_answer(500, error.what());
   }
-  add_safe_headers(response);
+  add_safe_headers(response, document ? documents_.inline_scripts() : "");
   return response;
 }
 
@@ -122,8 +262,9 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (path.starts_with("live/") && !get) return of_live(*person, request, path.substr(5));
   if (path.starts_with("runs/")) {
     const auto [id, rest] = split(path.substr(5));
-    const auto run = is_teacher(*person) ? runs_.find(id) : runs_.find(*person, id);
-    if (run != nullptr) return of_run(*person, request, run, rest);
+    const auto run = runs_.find(id);
+    if (run != nullptr && (run->owner == *person || is_teacher(*person)))
+      return of_run(*person, request, run, rest);
   }
   return not_there();
 }
@@ -136,6 +277,7 @@ HttpResponse Api::about(std::size_t person) const {
                                                             {"output_bytes", limits.output_bytes},
                                                             {"runs", setup_.at_once}})},
                                    {"classroom", setup_.classroom},
+                                   {"documents", documents_.built()},
                                    {"help", board_.needs_help(person)},
                                    {"teacher", is_teacher(person)}}));
 }
@@ -176,8 +318,7 @@ HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const 
   const GivenKnobs knobs = knobs_member(body, "knobs");
   const std::string view = body.find("view") == nullptr ? "" : text_member(body, "view", longest_name);
   const auto share = streams_.take(person, std::chrono::milliseconds(0));
-  if (share == nullptr)
-    return problem_answer(429, "as many answers are under way to this person as may be", "close other pages");
+  if (share == nullptr) return too_many_answers();
   const std::int64_t move = live_.move(*session, knobs, view);
   HttpResponse response;
   response.type = "application/octet-stream";
@@ -207,19 +348,15 @@ HttpResponse Api::begin_run(std::size_t person, const HttpRequest& request) {
 
 HttpResponse Api::runs_of(std::size_t person) const {
   Json::List list;
-  for (const auto& run : runs_.of(person))
-    list.push_back(
-        Json::object({{"id", run->id}, {"name", run->request.name}, {"state", name(run->state())}}));
+  for (const auto& run : runs_.all())
+    if (run->owner == person) list.push_back(facts_of(*run));
   return json_answer(list);
 }
 
 HttpResponse Api::room() const {
   Json::List list;
   for (const auto& run : runs_.all())
-    list.push_back(Json::object({{"id", run->id},
-                                 {"name", run->request.name},
-                                 {"state", name(run->state())},
-                                 {"owner", access_.people()[run->owner].name}}));
+    list.push_back(facts_of(*run).set("owner", access_.people()[run->owner].name));
   return json_answer(list);
 }
 
@@ -234,18 +371,10 @@ HttpResponse Api::people() const {
 
 HttpResponse Api::predict(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
-  const std::string lesson = text_member(body, "lesson", RoomBoard::longest_name);
-  std::map<std::string, double> numbers;
   const Json* given = body.find("numbers");
-  if (given == nullptr || !given->is_object())
-    throw Error(ErrorCode::bad_value, "`numbers` is no object", "give numbers by name");
-  for (const auto& [name, value] : given->members()) {
-    if (!value.is_number())
-      throw Error(ErrorCode::bad_value, "the prediction `" + name + "` is no number", "give a number");
-    numbers[name] = value.number();
-  }
-  board_.predict(person, lesson, numbers);
-  return json_answer(Json::object({{"kept", static_cast<std::int64_t>(numbers.size())}}));
+  const Json numbers = given == nullptr ? Json() : *given;
+  board_.predict(person, text_member(body, "lesson", RoomBoard::longest_name), numbers);
+  return json_answer(Json::object({{"kept", numbers.members().size()}}));
 }
 
 HttpResponse Api::help(std::size_t person, const HttpRequest& request) {
@@ -258,13 +387,11 @@ HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const s
                          const std::string& rest) {
   if (rest.empty()) {
     if (request.method == "DELETE") runs_.stop(*run);
-    return json_answer(
-        Json::object({{"id", run->id}, {"name", run->request.name}, {"state", name(run->state())}}));
+    return json_answer(facts_of(*run));
   }
   if (request.method != "GET") return problem_answer(405, "this can only be read");
   const auto share = streams_.take(person, std::chrono::milliseconds(0));
-  if (share == nullptr)
-    return problem_answer(429, "as many answers are under way to this person as may be", "close other pages");
+  if (share == nullptr) return too_many_answers();
   HttpResponse response = rest == "events"             ? events_answer(run, request)
                           : rest.starts_with("files/") ? file_answer(*run, rest.substr(6))
                           : rest.starts_with("views/") ? view_answer(*run, rest.substr(6))

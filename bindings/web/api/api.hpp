@@ -1,23 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The server's answers. The page's files need the right Host only; paths under /api need a token. An error is
-// {error: {message, hint?}}. A person sees only their own runs; the first person of a classroom, its teacher,
-// sees all: /api/room lists runs, /api/people predictions (POST /api/predictions) and requests for help (POST
-// /api/help).
+// The server's answers. The page's files and the documents under /docs/ need the right Host only; paths under
+// /api need a token. An error is {error: {message, hint?}}. A person sees only their own runs; the first
+// person of a classroom, its teacher, sees all: /api/room lists runs, /api/people predictions (POST
+// /api/predictions) and requests for help (POST /api/help).
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bindings/web/api/access.hpp"
-#include "bindings/web/api/page_files.hpp"
-#include "bindings/web/api/room_board.hpp"
 #include "bindings/web/http/http.hpp"
 #include "bindings/web/runs/live_sessions.hpp"
 #include "bindings/web/runs/run_queue.hpp"
-#include "bindings/web/runs/shares.hpp"
+#include "bindings/web/runs/turns.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
+
+// Read once at server start: no request reads the disk.
+class PageFiles {
+ public:
+  // `folder`: none if not built; `needs` then explains the build. `root`: address of the folder, "/".
+  PageFiles(const std::optional<std::filesystem::path>& folder, std::string root, std::string needs);
+  bool built() const { return !files_.empty(); }
+  // Digests as in a content policy: " 'sha256-…' 'sha256-…'".
+  const std::string& inline_scripts() const { return inline_scripts_; }
+  HttpResponse answer(const HttpRequest& request) const;
+
+ private:
+  struct File {
+    std::string content, type, tag;
+  };
+  std::map<std::string, File> files_;  // by path: "/index.html"
+  std::string root_, needs_, inline_scripts_;
+};
+
+// A sentence about building the page.
+extern const char* const page_needs;
+
+// Predictions and requests for help in a classroom. In memory, bounded for each person. Thread-safe.
+class RoomBoard {
+ public:
+  static constexpr std::size_t longest_name = 60, most_lessons = 40, most_numbers = 12;
+
+  // Replaces the person's predictions for a lesson; empty `numbers` (by name) delete them. Throws
+  // Error{bad_value} beyond these limits or for a value that is no finite number.
+  void predict(std::size_t person, const std::string& lesson, const Json& numbers);
+  void ask_for_help(std::size_t person, bool wanted);
+
+  Json predictions_of(std::size_t person) const;
+  bool needs_help(std::size_t person) const;
+
+ private:
+  struct Notes {
+    std::map<std::string, std::map<std::string, double>> predictions;
+    bool help = false;
+  };
+
+  mutable std::mutex mutex_;
+  std::map<std::size_t, Notes> of_;
+};
 
 struct ApiSetup {
   RunLimits limits;
@@ -29,7 +77,9 @@ struct ApiSetup {
 
 class Api final : public HttpHandler {
  public:
-  Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page);
+  // `documents`: their site's folder, none if not built.
+  Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page,
+      const std::optional<std::filesystem::path>& documents);
 
   std::optional<HttpResponse> refuse(const HttpRequest& head) override;
   HttpResponse answer(const HttpRequest& request) override;
@@ -58,9 +108,10 @@ class Api final : public HttpHandler {
   RunQueue& runs_;
   LiveSessions& live_;
   const PageFiles page_;
+  const PageFiles documents_;
   RoomBoard board_;
-  Shares checks_{1, 4, 2};  // two for quick checks
-  Shares streams_;          // long-lived answers
+  Turns checks_{{.places = 4, .for_quick = 2}};  // two for quick checks
+  Turns streams_;                                // long-lived answers
 };
 
 }  // namespace asperity::web

@@ -2,25 +2,27 @@
 #include "bindings/web/confined/confined_command.hpp"
 
 #include <pwd.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
 
-#include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/disk_bound.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/plain_streams.hpp"
-#include "bindings/web/confined/barrier_report.hpp"
-#include "bindings/web/confined/command_follower.hpp"
-#include "bindings/web/confined/command_request.hpp"
+#include "bindings/cli/watchdog.hpp"
+#include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/files/temporary_folder.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
@@ -38,7 +40,7 @@ constexpr double usual_seconds = 600;
 constexpr std::int64_t usual_disk = std::int64_t{1} << 30;
 constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} << 20;
 
-// Null if missing or unreadable; later code reports the error.
+// Null if unreadable; later code reports the error.
 Json manifest_in(const std::string& folder) {
   std::error_code problem;
   // Opening a pipe would block.
@@ -104,7 +106,7 @@ bool holds_the_home(const fs::path& folder) {
          });
 }
 
-// Folders within the script's reach, under their real names and their names in the command.
+// The script's folders, under their real names and their names in the command.
 class Places {
  public:
   void add(const std::string& named, const fs::path& real, bool write) {
@@ -173,16 +175,96 @@ std::vector<std::string> open_ways(const BarrierReport& report, const std::strin
                       ")");
   }
   if (!refused.empty())
-    throw Error(
-        ErrorCode::not_permitted,
-        "this system does not give every barrier that `--confined` promises; missing: " +
-            joined(reasons, " and ") +
-            (report.missing.empty() ? "" : ", for it is without " + joined(report.missing, " and ")),
-        "a kernel with Landlock (Linux 5.13) or user namespaces and the part asperity-sandbox.so give them; "
-        "`--without-barriers " +
-            joined(open, ",") + "` does without");
+    throw Error(ErrorCode::not_permitted,
+                "this system lacks barriers of `--confined`: " + joined(reasons, " and ") +
+                    (report.missing.empty() ? "" : "; it has no " + joined(report.missing, " and ")),
+                "use a kernel with Landlock (Linux 5.13) or user namespaces and asperity-sandbox.so, or give "
+                "`--without-barriers " +
+                    joined(open, ",") + "`");
   return open;
 }
+
+// Stop signals and Ctrl-Z.
+Descriptor signals_to_pass_on() {
+  sigset_t set = cli::stop_signals();
+  struct sigaction suspend {};
+  if (::sigaction(SIGTSTP, nullptr, &suspend) == 0 && suspend.sa_handler != SIG_IGN) sigaddset(&set, SIGTSTP);
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  return Descriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+// Follows the process of a command: passes on output and signals. Blocks the stop signals in this thread and
+// later threads.
+class CommandFollower final : public Follower {
+ public:
+  CommandFollower(const ConfinedRequest& request, FollowBounds bounds)
+      : CommandFollower(request, std::move(bounds), signals_to_pass_on()) {}
+
+  // Returns the exit status.
+  int carry_through() {
+    std::signal(SIGPIPE, SIG_IGN);  // runs on without readers
+    const int status = follow();
+    std::fwrite(error_tail_.data(), 1, error_tail_.size(), stderr);
+    if (const std::string removed =
+            cli::keep_within(bounds_.directory, bounds_.directory_bytes, bounds_.files);
+        !removed.empty())
+      std::fprintf(stderr, "asperity: %s\n", removed.c_str());
+    if (!ended_for_.empty()) {
+      std::fprintf(stderr, "asperity: the run was ended: %s\n", ended_for_.c_str());
+      return cli::failed;
+    }
+    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    std::fprintf(stderr, "asperity: %s\n", death_text(WTERMSIG(status)).c_str());
+    return 128 + WTERMSIG(status);
+  }
+
+ private:
+  // First: signals are blocked before the process and its threads begin.
+  CommandFollower(const ConfinedRequest& request, FollowBounds bounds, Descriptor signals)
+      : Follower(request, bounds.directory.string(), bounds), signals_(std::move(signals)) {
+    process_.events.reset();
+    also_watched_.push_back({signals_.get(), POLLIN, 0});
+  }
+
+  void take(const Descriptor& from, std::string_view text) override {
+    if (&from == &process_.error) return pass_on_errors(text);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fflush(stdout);
+  }
+
+  void look(Clock::time_point) override {
+    for (signalfd_siginfo met{}; ::read(signals_.get(), &met, sizeof met) == sizeof met;) {
+      const int signal = static_cast<int>(met.ssi_signo);
+      process_.send(signal == SIGTSTP ? SIGSTOP : signal);
+      if (signal != SIGTSTP) continue;
+      ::raise(SIGSTOP);
+      process_.send(SIGCONT);
+    }
+  }
+
+  // Only progress lines may overwrite themselves.
+  void pass_on_errors(std::string_view text) {
+    if (::isatty(STDERR_FILENO) == 0) {
+      std::fwrite(text.data(), 1, text.size(), stderr);
+      return;
+    }
+    const std::string_view erase = cli::erase_line;
+    std::string all = std::exchange(error_tail_, "") + std::string(text);
+    std::size_t begin = 0;
+    for (std::size_t at; (at = all.find(erase, begin)) != std::string::npos; begin = at + erase.size()) {
+      std::fwrite(all.data() + begin, 1, at - begin, stderr);
+      cli::erase_shown_line();
+    }
+    std::size_t end = all.size();
+    for (std::size_t k = 1; k < erase.size() && begin + k <= all.size(); ++k)
+      if (all.ends_with(erase.substr(0, k)) && process_.error.get() >= 0) end = all.size() - k;
+    error_tail_ = all.substr(end);
+    std::fwrite(all.data() + begin, 1, end - begin, stderr);
+  }
+
+  Descriptor signals_;
+  std::string error_tail_;
+};
 
 class Undertaking {
  public:
@@ -192,7 +274,7 @@ class Undertaking {
   int carry_through() {
     check_options();
     if (replay_ != nullptr) take_record(replay_->recorded, "replay");
-    // Before any change: a refused run stays as it is.
+    // First: a refused run stays as it is.
     if (run_.resume) refuse_links(*run_.resume);
     if (run_.resume) take_record(*run_.resume, "go on with");
     if (!run_.script.empty()) read_script();
@@ -238,16 +320,14 @@ class Undertaking {
  private:
   void check_options() const {
     if (run_.trust)
-      throw Error(
-          ErrorCode::bad_value,
-          "`--trust` gives a script the whole of Lua and files anywhere, and `--confined` keeps it in",
-          "leave one of them out");
+      throw Error(ErrorCode::bad_value, "`--trust` and `--confined` exclude each other",
+                  "leave one of them out");
     if (cli::launched_rank(run_.shard.has_value()))
       throw Error(ErrorCode::bad_value, "a confined run was started as one of the ranks of mpirun",
                   "start it alone, or share the cases of ensembles by `--shard` and `--store`");
   }
 
-  // A record may come from elsewhere: it grants no access to files.
+  // A foreign record grants no access to files.
   void take_record(const std::string& folder, const char* purpose) {
     const Json manifest = manifest_in(folder);
     if (manifest.is_null()) return;
@@ -260,7 +340,7 @@ class Undertaking {
     if (replay_ != nullptr) places_.add(folder, canonical(folder, "replay"), false);
   }
 
-  // The run directory gets a copy of the script, which is published with the results.
+  // The run directory publishes a copy of the script with the results.
   void read_script() {
     const fs::path given(run_.script);
     run_.text = cli::read_script(run_.script);
@@ -277,12 +357,11 @@ class Undertaking {
       if (std::ranges::find(read_, folder) == read_.end())
         missing += (missing.empty() ? "" : " ") + ("--read " + folder);
     if (missing.empty()) return;
-    throw Error(ErrorCode::bad_value,
-                "the run was recorded with `" + missing + "`, which lets its script read there",
+    throw Error(ErrorCode::bad_value, "the run was recorded with `" + missing + "`",
                 std::string("add it to ") + purpose_ + " the run so");
   }
 
-  // Made and locked by this process, which outlives the child and removes files beyond the limits.
+  // Made and locked here: this process outlives the child and removes files beyond the limits.
   void make_folders() {
     RunSetup setup;
     setup.script_name = run_.script.empty() ? "replay" : run_.script;
@@ -318,15 +397,16 @@ class Undertaking {
   }
 
   int follow(const std::vector<std::string>& barriers) {
-    CommandBounds bounds;
-    bounds.seconds = run_.limit_time.value_or(usual_seconds);
-    bounds.directory_bytes = run_.limit_disk.value_or(usual_disk);
-    bounds.files = most_files;
+    const FollowBounds bounds{.seconds = run_.limit_time.value_or(usual_seconds),
+                              .directory = directory_,
+                              .directory_bytes = run_.limit_disk.value_or(usual_disk),
+                              .files = most_files,
+                              .disk_option = " (--limit-disk)"};
     run_.limit_time = bounds.seconds;
     run_.limit_disk = bounds.directory_bytes;
     run_.limit_memory =
         run_.limit_memory.value_or(std::max(memory::of_machine() / 2, std::int64_t{256} << 20));
-    // Stored results are part of the directory's limit.
+    // Stored results count in the directory's limit.
     if (!run_.store)
       run_.store_limit =
           std::min(run_.store_limit.value_or(bounds.directory_bytes), bounds.directory_bytes / 2);
@@ -343,17 +423,16 @@ class Undertaking {
     held.threads = request.threads = threads;
     held.processor_seconds = static_cast<std::int64_t>(bounds.seconds + 5) * threads + 1;
     request.barriers = barriers;
-    request.command = command_json(run_, replay_);
+    request.command = {run_, replay_ == nullptr ? std::nullopt : std::optional(*replay_)};
     if (prepared_.lock) request.lock = prepared_.lock->descriptor();
-    CommandFollower follower(request, directory_, bounds);
-    return follower.follow();
+    return CommandFollower(request, bounds).carry_through();
   }
 
   std::optional<std::string> manifest_text() const {
     return read_plain_file(directory_, "manifest.json", most_script_bytes);
   }
 
-  // A script that escaped Lua could rewrite its manifest and then be resumed or replayed without barriers.
+  // A script that escaped Lua could rewrite its manifest and be repeated without barriers.
   void keep_on_record(const std::optional<std::string>& before) const {
     std::error_code problem;
     const fs::path file = directory_ / "manifest.json";
@@ -377,14 +456,6 @@ class Undertaking {
   fs::path directory_;  // without links
 };
 
-int carried_through(const cli::RunCommand& run, const cli::ReplayCommand* replay) {
-  try {
-    return Undertaking(run, replay).carry_through();
-  } catch (const std::exception& error) {
-    return cli::refused(error);
-  }
-}
-
 }  // namespace
 
 bool to_be_confined(const cli::RunCommand& command) {
@@ -395,19 +466,22 @@ bool to_be_confined(const cli::ReplayCommand& command) {
   return command.run.confined || was_confined(manifest_in(command.recorded));
 }
 
-int run_behind_barriers(const cli::RunCommand& command) { return carried_through(command, nullptr); }
-
-int replay_behind_barriers(const cli::ReplayCommand& command) {
-  return carried_through(command.run, &command);
+int run_behind_barriers(const cli::RunCommand& command) {
+  return Undertaking(command, nullptr).carry_through();
 }
 
-int carry_out(const Json& command, int lock) {
+int replay_behind_barriers(const cli::ReplayCommand& command) {
+  return Undertaking(command.run, &command).carry_through();
+}
+
+int carry_out(CarriedCommand command, int lock) {
   cli::make_errors_plain();
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
-  CarriedCommand carried = command_of(command);
-  cli::RunCommand& run = carried.replay ? carried.replay->run : carried.run;
+  cli::RunCommand& run = command.run;
   if (lock >= 0) run.lock = RunLock::inherited(run.resume ? *run.resume : run.out.value_or("."), lock);
-  return carried.replay ? cli::replay(*carried.replay) : cli::run(run);
+  if (!command.replay) return cli::run(run);
+  command.replay->run = run;
+  return cli::replay(*command.replay);
 }
 
 }  // namespace asperity::web

@@ -2,26 +2,24 @@
 // `asperity run --confined` for a foreign script. The program starts itself as a confined process
 // (confined.hpp), which reads the script and the --read folders, writes the run directory and the given
 // store, and reaches no other file, process or network. This side passes on output, exit status and signals,
-// draws charts, and enforces limits of time and disk. A confined run is resumed and replayed confined.
+// draws charts, and enforces limits of time and disk. Resume and replay are confined too.
 #pragma once
 
-#include "bindings/cli/commands/replay_command.hpp"
-#include "bindings/cli/commands/run_command.hpp"
-#include "engine/core/files/json.hpp"
+#include "bindings/web/confined/confined_request.hpp"
 
 namespace asperity::web {
 
-// By option, or because the recorded run was confined.
+// By option or recorded run.
 bool to_be_confined(const cli::RunCommand& command);
 bool to_be_confined(const cli::ReplayCommand& command);
 
-// Exit status: of the command; 1 if a limit was exceeded; 2 if a required barrier is missing or the command
-// cannot be confined.
+// Exit status: of the command; 1 beyond a limit; 2 if a required barrier is missing or the command cannot be
+// confined.
 int run_behind_barriers(const cli::RunCommand& command);
 int replay_behind_barriers(const cli::ReplayCommand& command);
 
 // In the confined process: returns the command's exit status. `lock`: open lock file of the run directory, or
 // -1.
-int carry_out(const Json& command, int lock);
+int carry_out(CarriedCommand command, int lock);
 
 }  // namespace asperity::web

@@ -2,11 +2,14 @@
 #include "bindings/web/confined/event_channel.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "bindings/cli/terminal_monitor.hpp"
-#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/dry_run.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "bindings/web/sandbox/frames.hpp"
@@ -22,17 +25,10 @@ namespace {
 constexpr int most_views = 200, first_views = 20;
 
 const char* stop_name(StopReason reason) {
-  switch (reason) {
-    case StopReason::interrupt:
-      return "interrupt";
-    case StopReason::time_limit:
-      return "time";
-    case StopReason::memory_limit:
-      return "memory";
-    case StopReason::none:
-      break;
-  }
-  return "";
+  return reason == StopReason::interrupt      ? "interrupt"
+         : reason == StopReason::time_limit   ? "time"
+         : reason == StopReason::memory_limit ? "memory"
+                                              : "";
 }
 
 Json field_or_null(const Json& fields, std::string_view name) {
@@ -47,11 +43,116 @@ std::shared_ptr<const T> as(const lua::Value& value) {
   return std::static_pointer_cast<const T>(object->pointer);
 }
 
+static_assert(std::endian::native == std::endian::little, "views are little-endian, as this machine must be");
+
+void add_field(View& view, const std::string& name, const std::string& unit, const Field& field,
+               const Grid& grid) {
+  ReducedField small = reduced(field);
+  view.fields.push_back(Json::object({{"name", name},
+                                      {"unit", unit},
+                                      {"nx", small.nx},
+                                      {"ny", small.ny},
+                                      {"size_x", grid.size_x},
+                                      {"size_y", grid.size_y},
+                                      {"from_nx", grid.nx},
+                                      {"from_ny", grid.ny},
+                                      {"reduction", reduction_text(small, grid.nx, grid.ny)}}));
+  view.values.push_back(std::move(small.values));
+}
+
 }  // namespace
 
-Json error_parts(const std::string& text) {
+ReducedField reduced(const Field& field, int most) {
+  const auto block_of = [&](int nodes) { return std::max(1, (nodes + most - 1) / most); };
+  ReducedField small;
+  small.block_x = block_of(field.nx());
+  small.block_y = block_of(field.ny());
+  small.nx = (field.nx() + small.block_x - 1) / small.block_x;
+  small.ny = (field.ny() + small.block_y - 1) / small.block_y;
+  std::vector<double> sums(static_cast<std::size_t>(small.nx));
+  std::vector<int> missing(sums.size());
+  for (int j = 0; j < small.ny; ++j) {
+    std::ranges::fill(sums, 0.0);
+    std::ranges::fill(missing, 0);
+    const int first = j * small.block_y, end = std::min(first + small.block_y, field.ny());
+    for (int row = first; row < end; ++row) {
+      const auto values = field.row(row);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t block = i / static_cast<std::size_t>(small.block_x);
+        if (std::isnan(values[i]))
+          ++missing[block];
+        else
+          sums[block] += values[i];
+      }
+    }
+    for (int i = 0; i < small.nx; ++i) {
+      const int wide = std::min(small.block_x, field.nx() - i * small.block_x);
+      const int there = wide * (end - first) - missing[static_cast<std::size_t>(i)];
+      small.values.push_back(there > 0 ? static_cast<float>(sums[static_cast<std::size_t>(i)] / there)
+                                       : std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  return small;
+}
+
+std::string reduction_text(const ReducedField& field, int from_nx, int from_ny) {
+  if (field.block_x == 1 && field.block_y == 1) return "none";
+  const bool even = from_nx % field.block_x == 0 && from_ny % field.block_y == 0;
+  return "mean of " + std::to_string(field.block_x) + " x " + std::to_string(field.block_y) + " nodes" +
+         (even ? "" : ", fewer at the far edges");
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
+    unsigned word = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      word = word << 8 | (b < count ? static_cast<unsigned char>(bytes[k + b]) : 0U);
+    for (std::size_t d = 0; d < 4; ++d) text += d <= count ? digits[word >> (18 - 6 * d) & 63] : '=';
+  }
+  return text;
+}
+
+View view_of(const Surface& surface, const std::string& title) {
+  View view{title};
+  add_field(view, "height", "m", surface.measured_heights(), surface.grid());
+  if (!surface.complete())
+    view.fields[0].set("not_measured",
+                       static_cast<std::int64_t>(surface.grid().nodes() - surface.measured()));
+  return view;
+}
+
+View view_of(const State& state, const std::string& title) {
+  View view{title};
+  struct Shown {
+    const char *name, *unit;
+  };
+  for (const Shown& shown :
+       {Shown{"pressure", "Pa"}, Shown{"gap", "m"}, Shown{"contact", ""}, Shown{"plastic", "m"}}) {
+    try {
+      add_field(view, shown.name, shown.unit, *state.field(shown.name), state.grid());
+    } catch (const Error& error) {
+      // The contact lacks this effect.
+      if (error.code() != ErrorCode::bad_state) throw;
+    }
+  }
+  return view;
+}
+
+Json to_json(const View& view) {
+  Json::List fields = view.fields;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    fields[k].set("data", base64({reinterpret_cast<const char*>(view.values[k].data()),
+                                  view.values[k].size() * sizeof(float)}));
+  return Json::object({{"title", view.title}, {"fields", std::move(fields)}});
+}
+
+Json error_event(const std::string& text) {
   constexpr std::string_view mark = "\nstack traceback:\n";
-  Json parts = Json::object();
+  Json parts = Json::object({{"type", "error"}});
   const std::size_t trace = text.find(mark);
   std::string message = text.substr(0, trace);
   if (const std::string line = lua::line_of(message); !line.empty() && line != "?" && line.size() < 9) {
@@ -70,17 +171,15 @@ std::string Seen::title() const {
   return surface ? call : call + " at " + format_quantity(state->pressure(), dimension::pressure);
 }
 
-View Seen::view() const {
-  return surface ? view_of(*surface, title(), line) : view_of(*state, title(), line);
-}
+View Seen::view() const { return surface ? view_of(*surface, title()) : view_of(*state, title()); }
 
-std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua::Values& results) {
+std::vector<Seen> seen_in(const std::string& call, const lua::Values& results) {
   std::vector<Seen> all;
   for (const lua::Value& value : results) {
     if (auto surface = as<Surface>(value))
-      all.push_back({std::move(surface), nullptr, call, line});
+      all.push_back({std::move(surface), nullptr, call});
     else if (auto state = as<asperity::State>(value))
-      all.push_back({nullptr, std::move(state), call, line});
+      all.push_back({nullptr, std::move(state), call});
   }
   return all;
 }
@@ -96,34 +195,37 @@ std::optional<Json> told_of(std::string_view event, const Json& fields) {
       told.set("columns", std::move(columns));
     return told;
   }
+  if (event == "study end") return Json::object({{"type", "study"}, {"name", field_or_null(fields, "name")}});
+  if (event == "chart") {
+    const Json study = field_or_null(fields, "study"), notebook = field_or_null(fields, "notebook");
+    if (!study.is_null()) return Json::object({{"type", "chart"}, {"study", study}});
+    if (notebook.is_null()) return {};
+    return Json::object(
+        {{"type", "chart"}, {"notebook", notebook}, {"chart", field_or_null(fields, "unhashed")}});
+  }
   if (event != "expect") return {};
   const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");
   const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
   return Json::object({{"type", "expectation"}, {"text", text}, {"held", field_or_null(fields, "passed")}});
 }
 
-void EventChannel::send(const std::string& type, Json fields) {
-  Json event = Json::object({{"type", type}});
-  for (const auto& [name, value] : fields.members()) event.set(name, value);
+void EventChannel::send(const Json& event) {
   const std::lock_guard lock(mutex_);
   write_all(descriptor_, event.text() + "\n");
 }
 
 void EventChannel::progress(std::string_view task, double done, double seconds_left) {
-  Json fields = Json::object({{"task", task}, {"fraction", std::clamp(done, 0.0, 1.0)}});
-  if (seconds_left >= 0) {
-    fields.set("eta_s", seconds_left);
-    fields.set("text", "about " + cli::duration_text(seconds_left) + " left");
-  }
-  send("progress", std::move(fields));
+  Json event = Json::object({{"type", "progress"}, {"task", task}, {"fraction", std::clamp(done, 0.0, 1.0)}});
+  if (seconds_left >= 0) event.set("eta_s", seconds_left);
+  send(event);
 }
 
 void EventChannel::recorded(std::string_view event, const Json& fields) {
-  if (const std::optional<Json> told = told_of(event, fields)) send(told->find("type")->string(), *told);
+  if (const std::optional<Json> told = told_of(event, fields)) send(*told);
 }
 
-void EventChannel::found(const std::string& call, std::int64_t line, const lua::Values& results) {
-  for (Seen& seen : seen_in(call, line, results)) see(std::move(seen));
+void EventChannel::found(const std::string& call, const lua::Values& results) {
+  for (Seen& seen : seen_in(call, results)) see(std::move(seen));
 }
 
 bool EventChannel::has_time_for_views() const {
@@ -151,16 +253,18 @@ void EventChannel::keep_view(const Seen& seen) {
     const Json view = to_json(seen.view());
     std::filesystem::create_directories(views_);
     write_atomically(std::filesystem::path(views_) / (name + ".json"), view.text());
-    send("view", Json::object({{"name", name}, {"title", seen.title()}}));
+    send(Json::object({{"type", "view"}, {"name", name}, {"title", seen.title()}}));
   } catch (const std::exception&) {
-    views_.clear();  // a full disk must not end the run
+    views_.clear();  // a full disk ends no run
   }
   spent_ += Clock::now() - begun;
 }
 
-void EventChannel::made_knobs(const Json& knobs) { send("knobs", Json::object({{"knobs", knobs}})); }
+void EventChannel::made_knobs(const Json& knobs) {
+  send(Json::object({{"type", "knobs"}, {"knobs", knobs}}));
+}
 
-void EventChannel::mistake(const std::string& message) { send("error", error_parts(message)); }
+void EventChannel::mistake(const std::string& message) { send(error_event(message)); }
 
 void EventChannel::ended(int status, StopReason stopped, const std::string& why) {
   if (last_.surface || last_.state) {
@@ -168,12 +272,13 @@ void EventChannel::ended(int status, StopReason stopped, const std::string& why)
     keep_view(last_);
     last_ = {};
   }
-  if (left_out_ > 0) send("views_left_out", Json::object({{"count", left_out_}}));
+  if (left_out_ > 0) send(Json::object({{"type", "views_left_out"}, {"count", left_out_}}));
   const bool asked = stopped == StopReason::interrupt || why.starts_with("os.exit(");
-  if (!why.empty() && status != 0 && !asked) send("error", error_parts(why));
-  send("ended",
-       Json::object(
-           {{"exit", status}, {"stopped", stop_name(stopped)}, {"why", why.substr(0, why.find('\n'))}}));
+  if (!why.empty() && status != 0 && !asked) send(error_event(why));
+  send(Json::object({{"type", "ended"},
+                     {"exit", status},
+                     {"stopped", stop_name(stopped)},
+                     {"why", why.substr(0, why.find('\n'))}}));
 }
 
 }  // namespace asperity::web

@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
-#include "bindings/cli/unlinked_files.hpp"
+#include "bindings/cli/disk_bound.hpp"
 #include "bindings/cli/watchdog.hpp"
-#include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/web/confined/event_channel.hpp"
@@ -34,7 +34,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/plot/gnuplot.hpp"
-#include "engine/run/result_memory.hpp"
+#include "engine/run/result_files.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::web {
@@ -49,7 +49,7 @@ constexpr std::size_t most_live_events = 5000, most_live_views = 200;
 constexpr auto time_before_a_newer =
     std::chrono::milliseconds(250);     // before a run yields to a newer question
 constexpr double most_patience = 2;     // s, for slow runs
-constexpr double answered_soon = 0.05;  // s; slower runs answer on fewer cells first
+constexpr double answered_soon = 0.05;  // s; else fewer cells first
 constexpr double least_factor = 1.0 / 16;
 
 double seconds_since(Clock::time_point begun) {
@@ -92,7 +92,7 @@ class Questions {
     return waiting_.has_value();
   }
 
-  // During its lifetime, a newer question interrupts the run, from `makes_way` on.
+  // A newer question interrupts the run, from `makes_way` on.
   class Running {
    public:
     Running(Questions& questions, lua_State* L, Clock::time_point makes_way) : questions_(questions) {
@@ -249,7 +249,7 @@ class LiveScript {
       if (!answered) too_coarse_ = factor;
     }
     // A newer question replaces the full answer after a coarse one. Without a coarse answer, the run gets the
-    // last run's time; otherwise a moving knob would get no answers.
+    // last run's time: a moving knob needs answers.
     if (answered && questions_.newer()) return say_outdated(question);
     const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
     pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
@@ -258,7 +258,7 @@ class LiveScript {
                                                       std::chrono::duration_cast<Clock::duration>(usual)))});
   }
 
-  // The cell factor for a quick answer: half the cells a side take about a quarter of the time.
+  // Half the cells a side take about a quarter of the time.
   double coarse_factor() const {
     double factor = 1, seconds = whole_seconds_;
     for (; seconds > answered_soon && factor > least_factor && factor > 2 * too_coarse_; seconds /= 4)
@@ -271,7 +271,7 @@ class LiveScript {
   std::shared_ptr<RunDirectory> make_run(const Question& question) const;
   std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
                          Json& knobs);
-  void say(const Question& question, const Pass& pass, Found found, Json answer);
+  void say(const Question& question, Found found, Json answer);
   void say_outdated(const Question& question) {
     send(Json::object({{"move", question.move}, {"part", "outdated"}}), {});
   }
@@ -292,9 +292,9 @@ class LiveScript {
   Printed printed_;
   cli::UnlinkedFilesBound unlinked_;
   Questions questions_;
-  double whole_seconds_ = 0;  // s, last full run that computed something
+  double whole_seconds_ = 0;  // s, last full computation
   bool first_ = true;
-  double too_coarse_ = 0;  // too few cells for the script, e.g. for its waves
+  double too_coarse_ = 0;  // too few cells for the script
 };
 
 bool LiveScript::pass(const Question& question, const Pass& pass) {
@@ -314,7 +314,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   const StopReason stopped = stop_flag().reason();
   stop_flag().clear();
   const double seconds = seconds_since(begun);
-  // The first run fills the result memory; runs without computation count only if slower.
+  // The first run fills the result memory; recalled runs count only if slower.
   const ResultMemory::Counts now = memory_.counts();
   if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
     whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
@@ -328,12 +328,8 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
     found.events.push_back(output_event("out", text));
   if (const std::string text = monitor.text(); !text.empty())
     found.events.push_back(output_event("err", text));
-  if (!found.failure.empty()) {
-    Json error = error_parts(found.failure);
-    error.set("type", "error");
-    found.events.push_back(std::move(error));
-  }
-  // The error may come from coarse cells; the full answer decides.
+  if (!found.failure.empty()) found.events.push_back(error_event(found.failure));
+  // Perhaps due to coarse cells: the full answer decides.
   if (pass.factor < 1 && !found.failure.empty()) return false;
   Json answer = Json::object({{"move", question.move},
                               {"part", pass.factor < 1 ? "coarse" : "whole"},
@@ -343,7 +339,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
                               {"recalled", now.found - before.found},
                               {"knobs", std::move(knobs)}});
   if (found.exit) answer.set("exit", *found.exit);
-  say(question, pass, std::move(found), std::move(answer));
+  say(question, std::move(found), std::move(answer));
   return true;
 }
 
@@ -381,14 +377,14 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
     if (found.events.size() < most_live_events) found.events.push_back(*std::move(told));
   });
   session.onlooker = [&found](const std::string& call, const lua::Values& results) {
-    for (Seen& seen : seen_in(call, 0, results)) {
+    for (Seen& seen : seen_in(call, results)) {
       if (found.seen.size() < most_live_views)
         found.seen.push_back(std::move(seen));
       else
         ++found.left_out;
     }
   };
-  // The process continues after os.exit: the next move needs the result memory.
+  // After os.exit the process stays for its result memory.
   lua_State* running_state = nullptr;
   session.exit_hook = [&](int code) {
     found.exit = code;
@@ -420,7 +416,7 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
                             : lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
-void LiveScript::say(const Question& question, const Pass&, Found found, Json answer) {
+void LiveScript::say(const Question& question, Found found, Json answer) {
   Json::List views;
   std::map<std::string, int> of_kind;
   const Seen* looked_at = nullptr;
@@ -429,7 +425,7 @@ void LiveScript::say(const Question& question, const Pass&, Found found, Json an
     const std::string kind = seen.kind();
     const std::string name = kind + "-" + std::to_string(++of_kind[kind]);
     views.push_back(Json::object({{"name", name}, {"title", seen.title()}}));
-    // The last view, unless the requested one exists.
+    // The requested view, else the last.
     if (name_of_it != question.view || question.view.empty()) {
       looked_at = &seen;
       name_of_it = name;

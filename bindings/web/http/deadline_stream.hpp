@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A connection for cpp-httplib with its missing limits: a request must arrive within a time and a number of
-// bytes, and a client that does not fetch its answer is dropped.
+// A connection for cpp-httplib with its missing limits: time and bytes of a request, and time to fetch the
+// answer.
 #pragma once
 
 #include <httplib.h>
@@ -13,6 +13,12 @@
 #include "bindings/web/http/http.hpp"
 
 namespace asperity::web {
+
+// Why the head of a request is not valid HTTP/1.1 (RFC 9112), or "". A strict parser before the library: two
+// parsers could disagree about the end of a request (line ends, folded lines, spaces before a colon, two
+// lengths, chunks), and bytes of one request could then pass as another. Such a head is refused and its
+// connection closed. At most one length, in digits; no chunked body.
+std::string_view head_problem(std::string_view head);
 
 class DeadlineStream final : public httplib::Stream {
  public:
@@ -31,8 +37,9 @@ class DeadlineStream final : public httplib::Stream {
   bool is_writable() const override;
   ssize_t read(char* to, std::size_t size) override;
   ssize_t write(const char* from, std::size_t size) override;
-  void get_remote_ip_and_port(std::string& address, int& port) const override;
-  void get_local_ip_and_port(std::string& address, int& port) const override;
+  // Nobody reads addresses.
+  void get_remote_ip_and_port(std::string&, int&) const override {}
+  void get_local_ip_and_port(std::string&, int&) const override {}
   int socket() const override { return socket_; }
   using httplib::Stream::write;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The interface between the program and the part asperity-serve.so (bindings/web/http), which contains
 // cpp-httplib. The part bounds a client's cost before the program sees a request: bytes, times to arrive and
-// to be fetched, connections. At the limit, the connection with the longest wait for a request is closed, so
-// that slow clients keep nobody out.
+// to be fetched, connections. At the limit, the connection with the longest wait for a request is closed:
+// slow clients keep nobody out.
 #pragma once
 
 #include <chrono>
@@ -41,9 +41,9 @@ struct HttpSetup {
   std::size_t most_head_bytes = std::size_t{32} << 10;
   std::size_t most_body_bytes = std::size_t{2} << 20;
   std::size_t most_connections = 256;
-  std::chrono::seconds to_arrive{10};  // from the first byte or the start of the connection
+  std::chrono::seconds to_arrive{10};  // from connection or first byte
   std::chrono::seconds to_rest{10};    // between two requests
-  std::chrono::seconds to_fetch{10};   // blocked in sending; one second more per 16 KiB sent
+  std::chrono::seconds to_fetch{10};   // blocked in sending; 1 s more per 16 KiB
 };
 
 // Called by many threads. Must not throw.
@@ -59,12 +59,12 @@ class HttpServer {
  public:
   virtual ~HttpServer() = default;
   virtual int port() const = 0;
-  // Returns after stop(), which any thread may call.
+  // Returns after stop(), from any thread.
   virtual void serve() = 0;
   virtual void stop() = 0;
 };
 
-// Symbol `asperity_http_server` of the part. Null if the server cannot listen, with the reason in `problem`.
+// Symbol `asperity_http_server` of the part. Null if the server cannot listen (`problem`).
 using MakeHttpServer = HttpServer*(const HttpSetup& setup, HttpHandler& handler, std::string& problem);
 
 }  // namespace asperity::web

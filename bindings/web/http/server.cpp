@@ -1,26 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http/http.hpp. The library's
-// unpacking, compression, ranges and forms are disabled, because a short request could make them expensive.
+// The part asperity-serve.so: cpp-httplib within the bounds of bindings/web/http/http.hpp. Its unpacking,
+// compression, ranges and forms are disabled: a short request could make them expensive.
 #include <httplib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <list>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
 
-#include "bindings/web/http/connections.hpp"
 #include "bindings/web/http/deadline_stream.hpp"
 #include "bindings/web/http/http.hpp"
-#include "bindings/web/http/request_head.hpp"
 
 namespace asperity::web {
 
 namespace {
+
+// Connections in wait for their client. Thread-safe.
+class Connections {
+ public:
+  // Until end(), the connection may be shut down.
+  class Waiting {
+   public:
+    Waiting(Connections& connections, int socket) : connections_(connections) {
+      const std::lock_guard lock(connections_.mutex_);
+      number_ = ++connections_.last_;
+      connections_.waiting_.emplace(number_, socket);
+    }
+    ~Waiting() { end(); }
+    void end() {
+      const std::lock_guard lock(connections_.mutex_);
+      connections_.waiting_.erase(number_);
+    }
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+   private:
+    Connections& connections_;
+    std::uint64_t number_;
+  };
+
+  void make_room() {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.empty()) return;
+    // The connection's thread leaves the list before closing the socket.
+    ::shutdown(waiting_.begin()->second, SHUT_RDWR);
+    waiting_.erase(waiting_.begin());
+  }
+  void shut_down_all() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [number, socket] : waiting_) ::shutdown(socket, SHUT_RDWR);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::uint64_t last_ = 0;
+  std::map<std::uint64_t, int> waiting_;  // oldest first
+};
+
+// A bounded number of threads, one for each connection, reused for a while. At the limit, a waiting
+// connection makes room.
+class ConnectionThreads final : public httplib::TaskQueue {
+ public:
+  ConnectionThreads(std::size_t most, Connections& connections) : most_(most), connections_(connections) {}
+
+  void enqueue(std::function<void()> serve) override {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back(std::move(serve));
+    if (queue_.size() <= idle_) {
+      changed_.notify_one();
+      return;
+    }
+    if (threads_ < most_) {
+      try {
+        std::thread([this] { work(); }).detach();
+        ++threads_;
+        return;
+      } catch (const std::system_error&) {
+        // No more threads: as at the limit.
+      }
+    }
+    connections_.make_room();
+  }
+
+  void shutdown() override {
+    std::unique_lock lock(mutex_);
+    over_ = true;
+    changed_.notify_all();
+    connections_.shut_down_all();
+    changed_.wait(lock, [&] { return threads_ == 0; });
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      ++idle_;
+      const bool woken =
+          changed_.wait_for(lock, std::chrono::seconds(30), [&] { return over_ || !queue_.empty(); });
+      --idle_;
+      if (queue_.empty() && (over_ || !woken)) break;
+      const std::function<void()> serve = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      serve();
+      lock.lock();
+    }
+    --threads_;
+    changed_.notify_all();
+  }
+
+  const std::size_t most_;
+  Connections& connections_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<std::function<void()>> queue_;
+  std::size_t threads_ = 0, idle_ = 0;
+  bool over_ = false;
+};
 
 struct Here {
   Connections::Waiting* waiting = nullptr;
@@ -68,8 +181,13 @@ class Server final : public HttpServer, private httplib::Server {
 
   bool begin(std::string& problem);
   int port() const override { return port_; }
-  void serve() override { listen_after_bind(); }
+  void serve() override {
+    listen_after_bind();
+    over_ = true;
+  }
+  // The base class ignores an early stop.
   void stop() override {
+    while (!is_running() && !over_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     httplib::Server::stop();
     connections_.shut_down_all();
   }
@@ -83,13 +201,14 @@ class Server final : public HttpServer, private httplib::Server {
   HttpHandler& handler_;
   Connections connections_;
   int port_ = 0;
+  std::atomic<bool> over_ = false;
 };
 
 bool Server::begin(std::string& problem) {
   new_task_queue = [this] { return new ConnectionThreads(setup_.most_connections, connections_); };
   set_payload_max_length(setup_.most_body_bytes);
   set_tcp_nodelay(true);
-  // The library's default lets another program of this user share the port.
+  // By default another program of this user could share the port.
   set_socket_options([](int socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -116,7 +235,7 @@ bool Server::begin(std::string& problem) {
     problem = std::strerror(errno);
     return false;
   }
-  // A whole classroom connects at once; the library's backlog is five.
+  // For a whole classroom; the library's backlog is five.
   ::listen(svr_sock_, 512);
   return true;
 }

@@ -17,23 +17,27 @@ const allowed = new Set(['MIT', 'ISC', 'BSD-2-Clause', 'BSD-3-Clause', '0BSD', '
 rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 
-// A saved run contains its script as text, and the script's digest in the content policy. The digest is computed
-// here, because browsers offer no digests to a page over plain HTTP from another machine.
-const player = await build({
-  absWorkingDir: here,
-  entryPoints: ['src/saved/player.ts'],
-  bundle: true,
-  format: 'iife',
-  target: 'es2022',
-  minify: true,
-  legalComments: 'none',
-  charset: 'utf8',
-  write: false,
-  logLevel: 'warning',
-});
-const playerText = player.outputFiles[0].text.trim();
-if (/<\/script|<!--/i.test(playerText)) throw new Error('the script of a saved run would end its own element');
-const playerDigest = `sha256-${createHash('sha256').update(playerText, 'utf8').digest('base64')}`;
+// A saved run contains its style and script as text, and the script's digest in the content policy. The digest is
+// computed here, because browsers offer no digests to a page over plain HTTP from another machine.
+async function textOf(file) {
+  const made = await build({
+    absWorkingDir: here,
+    entryPoints: [file],
+    bundle: true,
+    format: 'iife',
+    target: 'es2022',
+    minify: true,
+    legalComments: 'none',
+    charset: 'utf8',
+    write: false,
+    logLevel: 'warning',
+  });
+  return made.outputFiles[0].text.trim();
+}
+const script = await textOf('src/saved/player.ts');
+if (/<\/script|<!--/i.test(script)) throw new Error('the script of a saved run would end its own element');
+const digest = `sha256-${createHash('sha256').update(script, 'utf8').digest('base64')}`;
+const saved = { style: await textOf('src/saved/saved.css'), script, digest };
 
 const result = await build({
   absWorkingDir: here,
@@ -46,7 +50,7 @@ const result = await build({
   minify: true,
   legalComments: 'none',
   metafile: true,
-  define: { SAVED_PLAYER: JSON.stringify({ text: playerText, digest: playerDigest }) },
+  define: { SAVED: JSON.stringify(saved) },
   charset: 'utf8',
   logLevel: 'warning',
 });

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/web/runs/live_sessions.hpp"
 
-#include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
+#include <limits>
 #include <utility>
 
-#include "bindings/web/confined/disk_bound.hpp"
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/disk.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity::web {
@@ -24,42 +20,7 @@ namespace asperity::web {
 namespace {
 
 constexpr std::size_t longest_answer = std::size_t{8} << 20;
-constexpr std::int64_t moves_of_a_session = 20;  // least processor time of a session, in moves
 constexpr auto turn_patience = std::chrono::seconds(8);
-
-ConfinedRequest live_request(const RunRequest& asked, const LiveSetup& setup) {
-  const RunLimits& limits = setup.limits;
-  ConfinedRequest request{.work = Work::live, .confinement = {}};
-  request.confinement.memory_bytes = limits.memory_bytes;
-  request.confinement.file_bytes = limits.directory_bytes;
-  request.confinement.processor_seconds =
-      moves_of_a_session * static_cast<std::int64_t>(limits.seconds + 1) * std::max(1, limits.threads);
-  request.script = asked.script;
-  request.name = "script.lua";
-  request.seed = asked.seed;
-  request.seconds = limits.seconds;
-  request.threads = limits.threads;
-  request.barriers = setup.barriers;
-  return request;
-}
-
-std::filesystem::path live_folder(const std::filesystem::path& folder) {
-  if (::mkdir(folder.c_str(), 0700) != 0) throw_file_error("make the folder", folder, errno);
-  return folder;
-}
-
-// Discards output, except for the last lines, which explain a crash.
-void drain(Descriptor& from, std::string* tail) {
-  char piece[16384];
-  for (int most = 16; from.get() >= 0 && most > 0; --most) {
-    const ssize_t got = ::read(from.get(), piece, sizeof piece);
-    if (got == 0) from.reset();
-    if (got <= 0) return;
-    if (tail == nullptr) continue;
-    tail->append(piece, static_cast<std::size_t>(got));
-    if (tail->size() > 2000) tail->erase(0, tail->size() - 2000);
-  }
-}
 
 std::string frame_of(const Json& json) {
   const std::string text = json.text();
@@ -74,8 +35,8 @@ LiveSession::LiveSession(std::string name, std::size_t of, std::string in, const
     : id(std::move(name)),
       owner(of),
       tab(std::move(in)),
-      request_(live_request(request, setup)),
-      folder_(live_folder(setup.folder / ("live-" + id))),
+      request_(confined_request(Work::live, request, setup.limits, setup.barriers)),
+      folder_(private_folder(setup.folder / ("live-" + id))),
       setup_(setup),
       wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   thread_ = std::thread([this] { work(); });
@@ -138,82 +99,87 @@ bool LiveSession::answer(std::int64_t move, std::string& piece, std::chrono::mil
   return false;
 }
 
+// Follows the process of a session: passes on questions and answers.
+class LiveFollower final : public Follower {
+ public:
+  LiveFollower(LiveSession& session, FollowBounds bounds)
+      : Follower(session.request_, bounds.directory.string(), bounds), session_(session) {
+    // A hostile process that never reads must not block this thread.
+    const timeval most{1, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
+    also_watched_ = {{socket_, POLLIN, 0}, {session.wake_.get(), POLLIN, 0}};
+  }
+
+  // Returns the reason of the end.
+  std::string follow_to_end() {
+    follow();
+    take_answers();
+    if (!ended_for_.empty()) return ended_for_;
+    return last_words_.empty() ? "the script's process ended" : "the script's process ended: " + last_words_;
+  }
+
+ private:
+  // Keeps the last lines of output, which explain a crash.
+  void take(const Descriptor& from, std::string_view piece) override {
+    if (&from != &process_.error) return;
+    last_words_ += piece;
+    if (last_words_.size() > 2000) last_words_.erase(0, last_words_.size() - 2000);
+  }
+
+  void look(Clock::time_point now) override {
+    std::uint64_t count = 0;
+    if (::read(session_.wake_.get(), &count, sizeof count) > 0) ask();
+    if (!take_answers()) process_.send(SIGKILL);
+    if (now - session_.last_used() > session_.setup_.idle) end("no knob was moved for a while");
+    const std::lock_guard lock(session_.mutex_);
+    if (!session_.why_.empty()) end(session_.why_);
+  }
+
+  void ask() {
+    std::string question;
+    {
+      const std::lock_guard lock(session_.mutex_);
+      question = std::exchange(session_.question_, {});
+    }
+    const std::string_view texts[] = {question};
+    if (!question.empty() && !send_frame(socket_, texts)) end("the script's process took no question");
+  }
+
+  // False if the process has ended or its answer is invalid. Never blocks.
+  bool take_answers() {
+    bool there = true;  // last answers count
+    char piece[65536];
+    for (int most = 64; there && most > 0; --most) {
+      const ssize_t got = ::recv(socket_, piece, sizeof piece, MSG_DONTWAIT);
+      there = got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+      if (got <= 0) break;
+      arrived_.append(piece, static_cast<std::size_t>(got));
+    }
+    try {
+      while (const auto texts = take_frame(arrived_, longest_answer)) session_.take(*texts);
+      return there;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  LiveSession& session_;
+  const int socket_ = process_.drawing.get();
+  std::string arrived_, last_words_;  // incomplete answer; standard error
+};
+
 void LiveSession::work() {
   try {
-    follow();
+    // In this thread: the process dies with it.
+    LiveFollower follower(*this, {.seconds = std::numeric_limits<double>::infinity(),
+                                  .to_end = {},
+                                  .pause = std::chrono::seconds(1),
+                                  .directory = folder_,
+                                  .directory_bytes = setup_.limits.directory_bytes,
+                                  .files = setup_.limits.files});
+    finish(follower.follow_to_end());
   } catch (const std::exception& error) {
     finish(error.what());
-  }
-}
-
-void LiveSession::follow() {
-  // In this thread: the process dies with it.
-  ConfinedProcess process(request_, folder_.string());
-  const int socket = process.drawing.get();
-  // A hostile process that reads nothing must not block this thread.
-  const timeval most{1, 0};
-  ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
-  std::string last_words, why;
-  Clock::time_point look_at{};
-  while (why.empty()) {
-    std::array<pollfd, 4> watched{{{socket, POLLIN, 0},
-                                   {wake_.get(), POLLIN, 0},
-                                   {process.output.get(), POLLIN, 0},
-                                   {process.error.get(), POLLIN, 0}}};
-    ::poll(watched.data(), watched.size(), 1000);
-    if (watched[1].revents != 0) {
-      std::uint64_t count = 0;
-      (void)!::read(wake_.get(), &count, sizeof count);
-      ask(socket);
-    }
-    const bool answers = watched[0].revents == 0 || take_answers(socket);
-    drain(process.output, nullptr);
-    drain(process.error, &last_words);
-    drain(process.events, nullptr);
-    const Clock::time_point now = Clock::now();
-    if (!answers || process.ended())
-      why = last_words.empty() ? "the script's process ended" : "the script's process ended: " + last_words;
-    if (now - last_used() > setup_.idle) why = "no knob was moved for a while";
-    if (now >= look_at) {
-      const DiskUse use = disk_use(folder_, setup_.limits.files);
-      look_at = next_look(now);
-      if (use.files > setup_.limits.files || use.bytes > setup_.limits.directory_bytes)
-        why = "its files take more of the disk than they may";
-    }
-    const std::lock_guard lock(mutex_);
-    if (!why_.empty()) why = why_;
-  }
-  process.send(SIGKILL);
-  while (!process.ended()) ::poll(nullptr, 0, 1);
-  take_answers(socket);
-  finish(why);
-}
-
-void LiveSession::ask(int socket) {
-  std::string question;
-  {
-    const std::lock_guard lock(mutex_);
-    question = std::exchange(question_, {});
-  }
-  const std::string_view texts[] = {question};
-  if (!question.empty() && !send_frame(socket, texts)) end("the script's process took no question");
-}
-
-// False if the process has ended or its answer is invalid. Never blocks.
-bool LiveSession::take_answers(int socket) {
-  std::string piece(std::size_t{1} << 18, '\0');
-  bool there = true;  // answers before the end still count
-  for (int most = 16; there && most > 0; --most) {
-    const ssize_t got = ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT);
-    there = got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
-    if (got <= 0) break;
-    arrived_.append(piece, 0, static_cast<std::size_t>(got));
-  }
-  try {
-    while (const auto texts = take_frame(arrived_, longest_answer)) take(*texts);
-    return there;
-  } catch (const Error&) {
-    return false;
   }
 }
 
@@ -246,7 +212,8 @@ void LiveSession::finish(const std::string& why) {
 }
 
 LiveSessions::LiveSessions(LiveSetup setup)
-    : setup_(std::move(setup)), turns_(1, std::max(1, setup_.at_once), setup_.at_once > 1 ? 1 : 0) {}
+    : setup_(std::move(setup)),
+      turns_({.places = std::max(1, setup_.at_once), .for_quick = setup_.at_once > 1 ? 1 : 0}) {}
 
 LiveSessions::~LiveSessions() { close(); }
 
@@ -271,7 +238,7 @@ std::shared_ptr<LiveSession> LiveSessions::begin(std::size_t owner, const std::s
   take_out([](const LiveSession& session) { return session.over(); }, "", gone);
   take_out([&](const LiveSession& session) { return session.owner == owner && session.tab == tab; },
            "another script took its place", gone);
-  // The session with the longest idle time makes room.
+  // The longest idle session makes room.
   const auto make_room = [&](std::size_t most, const std::function<bool(const LiveSession&)>& among) {
     std::vector<LiveSession*> there;
     for (const auto& [id, session] : sessions_)
@@ -281,7 +248,7 @@ std::shared_ptr<LiveSession> LiveSessions::begin(std::size_t owner, const std::s
       return session->busy() ? LiveSession::Clock::time_point::max() : session->last_used();
     });
     if ((*longest)->busy())
-      throw Error(ErrorCode::bad_state, "as many scripts follow their knobs as may", "try again");
+      throw Error(ErrorCode::bad_state, "too many scripts follow their knobs", "try again");
     take_out([&](const LiveSession& session) { return &session == *longest; }, "it made room for another one",
              gone);
   };
@@ -305,7 +272,7 @@ std::int64_t LiveSessions::move(LiveSession& session, const GivenKnobs& knobs, c
   if (!session.busy()) {
     share = turns_.take(session.owner, turn_patience);
     if (share == nullptr)
-      throw Error(ErrorCode::bad_state, "the knobs of others are being moved, and no turn came", "try again");
+      throw Error(ErrorCode::bad_state, "the server is busy with the knobs of others", "try again");
   }
   return session.move(knobs, view, std::move(share));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Live scripts (confined/live_script.hpp): one confined process for each tab. The process ends with its tab,
-// for another script, when idle, at a limit, or to make room. Moves take turns (shares.hpp); only a tab's
+// for another script, when idle, at a limit, or to make room. Moves take turns (turns.hpp); only a tab's
 // newest waiting move counts.
 #pragma once
 
@@ -20,14 +20,14 @@
 
 #include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/runs/page_run.hpp"
-#include "bindings/web/runs/shares.hpp"
+#include "bindings/web/runs/turns.hpp"
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
 struct LiveSetup {
-  std::filesystem::path folder;  // parent of temporary session folders
-  RunLimits limits;              // seconds: of a move; others: of the session
+  std::filesystem::path folder;  // of temporary session folders
+  RunLimits limits;              // seconds: of a move; else of the session
   std::vector<std::string> barriers;
   int at_once = 2;  // concurrent moves
   std::size_t most = 16;
@@ -50,21 +50,18 @@ class LiveSession {
   const std::size_t owner;
   const std::string tab;
 
-  // Sends a question; returns its move number. `share` is held until the newest move is answered.
+  // Sends a question; returns its move number. Holds `share` until the newest move is answered.
   std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
   // The next part of a move's answer: a frame or nothing yet. False after the last.
   bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
-  // Whether a move waits, holding a share.
   bool busy() const;
   bool over() const { return over_.load(); }
   void end(const std::string& why);
   Clock::time_point last_used() const;
 
  private:
+  friend class LiveFollower;
   void work();
-  void follow();
-  void ask(int socket);
-  bool take_answers(int socket);
   void take(const std::vector<std::string>& texts);
   void finish(const std::string& why);
 
@@ -73,7 +70,6 @@ class LiveSession {
   const LiveSetup& setup_;
   Descriptor wake_;
   std::atomic<bool> over_{false};
-  std::string arrived_;  // an incomplete answer
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
@@ -99,7 +95,7 @@ class LiveSessions {
   LiveSessions(const LiveSessions&) = delete;
   LiveSessions& operator=(const LiveSessions&) = delete;
 
-  // Replaces the tab's session. Throws Error{bad_state} if all sessions are busy or the server is stopping.
+  // Replaces the tab's session. Throws Error{bad_state} if all are busy or the server is stopping.
   std::shared_ptr<LiveSession> begin(std::size_t owner, const std::string& tab, const RunRequest& request);
   // Null if unknown or ended.
   std::shared_ptr<LiveSession> find(std::size_t owner, const std::string& id) const;
@@ -115,7 +111,7 @@ class LiveSessions {
                 std::vector<std::shared_ptr<LiveSession>>& gone);
 
   const LiveSetup setup_;
-  Shares turns_;
+  Turns turns_;
   mutable std::mutex mutex_;
   Sessions sessions_;
   std::int64_t last_id_ = 0;

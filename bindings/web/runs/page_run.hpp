@@ -5,21 +5,22 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bindings/web/confined/confined.hpp"
-#include "bindings/web/http/http.hpp"
-#include "bindings/web/runs/event_log.hpp"
+#include "bindings/web/confined/confined_process.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
-// Exceeding a limit ends the run; its records stay.
+// Beyond a limit the run ends; its records stay.
 struct RunLimits {
   double seconds = 600;                                    // wall-clock time
   std::int64_t memory_bytes = std::int64_t{2} << 30;       //
@@ -30,14 +31,46 @@ struct RunLimits {
   int threads = 1;
 };
 
-enum class RunState { waiting, running, done, failed, stopped, limit };
-const char* name(RunState state);
-
 struct RunRequest {
   std::string script, name;
   std::int64_t seed = 1;
   bool views = false;
   GivenKnobs knobs{};
+};
+
+// The request of a run or a live script within the limits.
+ConfinedRequest confined_request(Work work, const RunRequest& asked, const RunLimits& limits,
+                                 const std::vector<std::string>& barriers);
+// For this user only. Throws Error{bad_file}.
+std::filesystem::path private_folder(const std::filesystem::path& folder);
+
+enum class RunState { waiting, running, done, failed, stopped, limit };
+const char* name(RunState state);
+
+// The events of a run as JSON lines, numbered from 1, in a file next to the run directory, not in memory. One
+// writer, many readers. Thread-safe.
+class EventLog {
+ public:
+  explicit EventLog(std::filesystem::path file) : file_(std::move(file)) {}
+
+  // Adds {"n":…, "type":…, fields}; false after the last event or if writing fails.
+  bool add(const std::string& type, const Json& fields);
+  void finish(const Json& fields);
+
+  // About 64 KiB of lines after number `after`; waits for at most `patience`. `more` is false after the last
+  // event.
+  std::string after(std::int64_t& after, std::chrono::milliseconds patience, bool& more) const;
+  std::int64_t bytes() const;
+
+ private:
+  bool append(const std::string& type, const Json& fields);
+
+  const std::filesystem::path file_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  Descriptor writer_;
+  std::vector<std::int64_t> ends_;  // end of each line
+  bool finished_ = false;
 };
 
 class PageRun {
@@ -55,7 +88,7 @@ class PageRun {
   std::int64_t bytes() const { return directory_bytes_.load() + events.bytes(); }
   // After the end of the process.
   double processor_seconds() const { return processor_seconds_; }
-  // Adds an event with the number of runs ahead, if waiting and changed. One call at a time.
+  // Adds an event with the number of runs ahead, if changed. One call at a time.
   void tell_place(std::size_t before);
   // Asynchronous for a current run.
   void stop();
@@ -83,11 +116,5 @@ class PageRun {
 
   friend class RunFollower;
 };
-
-// Answers (run_files.cpp). Events start at the query's `after` and stop after the last or some minutes;
-// clients ask again.
-HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request);
-HttpResponse file_answer(const PageRun& run, const std::string& name);
-HttpResponse view_answer(const PageRun& run, const std::string& name);
 
 }  // namespace asperity::web

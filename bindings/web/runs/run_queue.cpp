@@ -11,12 +11,16 @@ namespace asperity::web {
 
 namespace {
 
-constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // least free space to begin a run
-constexpr std::size_t told_places = 3;                       // runs of one person with a reported place
+constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // least free space
+constexpr std::size_t told_places = 3;                       // per person, with a reported place
 
 }  // namespace
 
-RunQueue::RunQueue(QueueSetup setup) : setup_(std::move(setup)), turns_(setup_.at_once, setup_.shared) {
+RunQueue::RunQueue(QueueSetup setup)
+    : setup_(std::move(setup)),
+      turns_({.places = setup_.at_once,
+              .each = setup_.shared ? std::max(1, setup_.at_once - 1) : setup_.at_once,
+              .one_while_others_wait = setup_.shared}) {
   for (int k = 0; k < setup_.at_once; ++k) workers_.emplace_back([this] { work(); });
 }
 
@@ -30,14 +34,14 @@ std::shared_ptr<PageRun> RunQueue::add(std::size_t owner, RunRequest request) {
   if (over_) refuse("the server is being stopped", "");
   auto& own = waiting_[owner];
   if (own.size() >= setup_.most_waiting_of_one || waiting_in_all_ >= setup_.most_waiting)
-    refuse("as many runs wait as may: " +
+    refuse("too many runs wait: " +
                std::to_string(own.size() >= setup_.most_waiting_of_one ? own.size() : waiting_in_all_),
            "wait until one has ended, or stop one");
   const std::int64_t kept = kept_by(owner);
   if (kept > setup_.most_bytes_of_one || runs_.size() >= setup_.most_kept)
     refuse("the runs of this session take " + format_short(static_cast<double>(kept) / 0x1p20) + " MiB in " +
-               std::to_string(runs_.size()) + " folders, and there may be no more",
-           "start `asperity serve` again: what was recorded stays in " + setup_.folder.string());
+               std::to_string(runs_.size()) + " folders, their limit",
+           "start `asperity serve` again: the records stay in " + setup_.folder.string());
   const std::string id = std::to_string(++last_id_);
   auto run = std::make_shared<PageRun>(id, owner, std::move(request), setup_.folder / id);
   runs_.emplace(id, run);
@@ -48,22 +52,10 @@ std::shared_ptr<PageRun> RunQueue::add(std::size_t owner, RunRequest request) {
   return run;
 }
 
-std::shared_ptr<PageRun> RunQueue::find(std::size_t owner, const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = runs_.find(id);
-  return found == runs_.end() || found->second->owner != owner ? nullptr : found->second;
-}
-
 std::shared_ptr<PageRun> RunQueue::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const auto found = runs_.find(id);
   return found == runs_.end() ? nullptr : found->second;
-}
-
-std::vector<std::shared_ptr<PageRun>> RunQueue::of(std::size_t owner) const {
-  std::vector<std::shared_ptr<PageRun>> own = all();
-  std::erase_if(own, [&](const auto& run) { return run->owner != owner; });
-  return own;
 }
 
 std::vector<std::shared_ptr<PageRun>> RunQueue::all() const {
@@ -113,9 +105,9 @@ std::int64_t RunQueue::kept_by(std::size_t owner) const {
   return kept;
 }
 
-// Approximate number of runs ahead of each waiting run.
+// Approximate runs ahead of each.
 void RunQueue::tell_places() {
-  // If a run begins at once, places are reported afterwards.
+  // If a run begins at once, report afterwards.
   const bool place_free = granted_.size() < static_cast<std::size_t>(setup_.at_once);
   if (place_free && turns_.next(people_waiting(), std::chrono::steady_clock::now())) return;
   for (auto& [owner, own] : waiting_)
@@ -138,7 +130,7 @@ void RunQueue::work() {
     const std::int64_t left = setup_.most_bytes_of_one - kept_by(run->owner) - limits.event_bytes;
     if (left < least_bytes) {
       run->give_up(RunState::limit,
-                   "the runs of this session take as much of the disk as they may: it was not begun");
+                   "the runs of this session fill their share of the disk: it was not begun");
       continue;
     }
     limits.directory_bytes = std::min(limits.directory_bytes, left);

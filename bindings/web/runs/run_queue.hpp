@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runs of a server session: current, waiting (order: turns.hpp), and ended with readable events and
-// files.
+// The runs of a server session: current, waiting (turns.hpp), and ended.
 #pragma once
 
 #include <condition_variable>
@@ -19,7 +18,7 @@
 namespace asperity::web {
 
 struct QueueSetup {
-  std::filesystem::path folder;  // each run gets <folder>/<id>
+  std::filesystem::path folder;  // parent of <id>
   RunLimits limits;
   int at_once = 2;                                         // concurrent runs
   bool shared = false;                                     // by several people
@@ -40,10 +39,7 @@ class RunQueue {
 
   // Throws Error{bad_state} naming the exhausted limit; Error{bad_file}.
   std::shared_ptr<PageRun> add(std::size_t owner, RunRequest request);
-  // Null if the person has no such run.
-  std::shared_ptr<PageRun> find(std::size_t owner, const std::string& id) const;
-  std::vector<std::shared_ptr<PageRun>> of(std::size_t owner) const;
-  // Of any person.
+  // A run of any person, or null.
   std::shared_ptr<PageRun> find(const std::string& id) const;
   std::vector<std::shared_ptr<PageRun>> all() const;
   void stop(PageRun& run);
@@ -56,7 +52,7 @@ class RunQueue {
   // The functions below need the lock.
   std::vector<std::size_t> people_waiting() const;
   std::shared_ptr<PageRun> next();
-  // On disk, plus the bytes that current runs may write.
+  // On disk, plus the allowance of current runs.
   std::int64_t kept_by(std::size_t owner) const;
   void tell_places();
 

@@ -83,7 +83,7 @@ std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::si
   };
   const auto count = number();
   if (!count) return {};
-  if (*count > most_texts) throw Error(ErrorCode::bad_file, "what came is no frame");
+  if (*count > most_texts) throw Error(ErrorCode::bad_file, "the received data are no frame");
   std::vector<std::string> texts;
   for (std::uint64_t k = 0; k < *count; ++k) {
     const auto bytes = number();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Byte strings through a pipe or socket: their number, then each after its length. The reader bounds the
-// total size, because the sender may be hostile.
+// total size: the sender may be hostile.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_
 // Removes the first complete frame; none if incomplete. Throws Error{bad_file} if malformed or too long.
 std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::size_t most_bytes);
 
-// Retries after interrupts; false if the other end is closed.
+// Retries after interrupts; false at a closed end.
 bool read_whole(int descriptor, char* to, std::size_t bytes);
 
 }  // namespace asperity::web

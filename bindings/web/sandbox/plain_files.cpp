@@ -78,13 +78,14 @@ std::vector<PlainFile> plain_files(const fs::path& folder, std::size_t most_file
 }
 
 std::string media_type(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> types{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 21> types{{
       {".html", "text/html; charset=utf-8"},
       {".js", "text/javascript; charset=utf-8"},
       {".css", "text/css; charset=utf-8"},
       {".json", "application/json"},
       {".jsonl", "application/x-ndjson"},
       {".map", "application/json"},
+      {".xml", "application/xml"},
       {".svg", "image/svg+xml"},
       {".png", "image/png"},
       {".ico", "image/x-icon"},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of an untrusted folder. Names are resolved part by part below the folder, without links and "..", to
-// ordinary files only.
+// Ordinary files of an untrusted folder. Names are resolved part by part, without links and "..".
 #pragma once
 
 #include <cstddef>

@@ -53,7 +53,7 @@ class Filter {
   explicit Filter() : filter_(seccomp_init(SCMP_ACT_ERRNO(EPERM))) {
     if (filter_ == nullptr) failed_ = ENOMEM;
   }
-  // Calls unknown to this processor need no rule.
+  // Calls unknown here need no rule.
   template <class... Conditions>
   void allow(const char* name, Conditions... conditions) {
     rule(SCMP_ACT_ALLOW, name, conditions...);
@@ -86,7 +86,7 @@ scmp_arg_cmp with(unsigned argument, scmp_datum_t bits) { return {argument, SCMP
 extern "C" __attribute__((visibility("default"))) const char* asperity_confine_system_calls(Confined as) {
   Filter filter;
   for (const char* name : allowed) filter.allow(name);
-  // Threads but no processes. A filter cannot inspect the arguments of clone3, which fails with ENOSYS.
+  // Threads, no processes. A filter cannot inspect arguments of clone3, which fails with ENOSYS.
   filter.allow("clone", with(0, 0x00010000 /* CLONE_THREAD */));
   filter.rule(SCMP_ACT_ERRNO(ENOSYS), "clone3");
   // To this process only.
@@ -103,17 +103,17 @@ extern "C" __attribute__((visibility("default"))) const char* asperity_confine_s
                             F_SETLKW, F_OFD_GETLK, F_OFD_SETLK, F_OFD_SETLKW})
     filter.allow("fcntl", equals(1, static_cast<scmp_datum_t>(command)));
   if (as == Confined::drawing) {
-    // For starting gnuplot, which drops group privileges and aborts if this call is blocked.
+    // gnuplot drops group privileges at its start and aborts if refused.
     for (const char* name :
          {"execve", "mmap", "mprotect", "pipe2", "chmod", "fchmod", "chdir", "setuid", "setgid"})
       filter.allow(name);
   } else {
     filter.allow("mmap", without(2, PROT_EXEC));
     filter.allow("mprotect", without(2, PROT_EXEC));
-    // Copying sets a file's mode; set-user-ID and set-group-ID stay forbidden.
+    // Copying sets modes; set-user-ID and set-group-ID stay forbidden.
     filter.allow("fchmod", without(1, S_ISUID | S_ISGID));
-    // The undefined-behaviour sanitizer tests memory by writing to a pipe. Without a pipe, it reports wrong
-    // types, for example for the first std::thread in live_script.cpp.
+    // The undefined-behaviour sanitizer tests memory by writing to a pipe, or reports wrong types, as for the
+    // first std::thread in live_script.cpp.
     if (asperity::sanitized)
       for (const char* name : {"pipe", "pipe2"}) filter.allow(name);
   }

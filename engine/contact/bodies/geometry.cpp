@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/parallel.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
@@ -15,36 +15,7 @@ namespace asperity {
 
 namespace {
 
-// Row blocks: small grids stay on one thread.
-template <class Row>
-void for_each_row(const Field& field, Row row) {
-  constexpr std::int64_t nodes_per_block = 1 << 16;
-  const std::int64_t rows_per_block = std::max<std::int64_t>(1, nodes_per_block / field.nx());
-  const std::int64_t blocks = (field.ny() + rows_per_block - 1) / rows_per_block;
-  parallel_for(blocks, [&](std::int64_t block) {
-    const auto end = static_cast<int>(std::min<std::int64_t>(field.ny(), (block + 1) * rows_per_block));
-    for (auto j = static_cast<int>(block * rows_per_block); j < end; ++j) row(j);
-  });
-}
-
-Field combine(const Field& lower, const Field& upper, const LatticeIsometry& placement) {
-  Field sum(lower.nx(), lower.ny());
-  for_each_row(sum, [&](int j) {
-    for (int i = 0; i < lower.nx(); ++i) {
-      const auto node = placement.to_upper(LatticeIsometry::Node{i, j});
-      sum(i, j) = lower(i, j) + upper(node.i, node.j);
-    }
-  });
-  return sum;
-}
-
-Field combine_turned(const Field& lower, const Field& upper, const Pose& pose, const Grid& grid) {
-  Field sum = pose.to_lower(upper, grid);
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += lower[k];
-  return sum;
-}
-
-// A single bit pattern for missing heights: digests depend on bits.
+// A single bit pattern: digests depend on bits.
 std::int64_t mark_missing(Field& heights, std::span<const std::uint8_t> uncovered) {
   std::int64_t facing = 0;
   for (std::size_t k = 0; k < heights.size(); ++k) {
@@ -67,13 +38,13 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemor
       memory_(std::move(memory)) {
   for (auto& kept : memory_) kept.second.upper_here.reset();
   if (const auto* rough = std::get_if<Surface>(&upper_)) {
-    Field sum = pose_.on_lattice() ? combine(lower_.heights(), rough->heights(), pose_.lattice())
-                                   : combine_turned(lower_.heights(), rough->heights(), pose_, lower_.grid());
+    Field sum = pose_.to_lower(rough->heights(), lower_.grid());
+    const Field& lower = lower_.heights();
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += lower[k];
     facing_ = pose_.on_lattice() && uncovered.empty() ? static_cast<std::int64_t>(sum.size())
                                                       : mark_missing(sum, uncovered);
     if (facing_ == 0)
-      refuse("turned and shifted like this, no node of one body lies over the other",
-             "turn or shift it less");
+      refuse("after this turn and shift, no node of one body faces the other", "turn or shift it less");
     combined_ = std::make_shared<const Field>(std::move(sum));
     range_ = overhangs() ? known_range(combined_->values()) : range(combined_->values());
   } else {
@@ -131,6 +102,91 @@ const Material* upper_material(const UpperBody& upper) {
   if (const auto* flat = std::get_if<Material>(&upper)) return flat;
   const Surface& rough = std::get<Surface>(upper);
   return rough.material() ? &*rough.material() : nullptr;
+}
+
+namespace {
+
+std::shared_ptr<const Field> raised_field(const std::shared_ptr<const Field>& before, double at_first,
+                                          const Field& values) {
+  Field result = before ? *before : Field(values.nx(), values.ny(), at_first);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::max(result[k], values[k]);
+  return std::make_shared<const Field>(std::move(result));
+}
+
+}  // namespace
+
+MetMemory met(const ContactGeometry& geometry, const NodeMemory& memory, double at_first) {
+  MetMemory here{memory.lower, memory.upper_here};
+  if (memory.upper_here || !memory.upper) return here;
+  Field seen = geometry.pose().to_lower(*memory.upper, geometry.grid());
+  // Nodes without a counterpart do not touch.
+  for (double& value : seen.values())
+    if (std::isnan(value)) value = at_first;
+  here.upper = std::make_shared<const Field>(std::move(seen));
+  return here;
+}
+
+NodeMemory raised(const ContactGeometry& geometry, const NodeMemory& before, const Field& values,
+                  std::optional<double> lower_at_first, std::optional<double> upper_at_first) {
+  NodeMemory after = before;
+  if (lower_at_first) after.lower = raised_field(before.lower, *lower_at_first, values);
+  if (upper_at_first && !geometry.upper_is_flat()) {
+    const Pose& pose = geometry.pose();
+    after.upper = raised_field(before.upper, *upper_at_first, pose.to_upper(values, geometry.grid()));
+    if (!pose.on_lattice())
+      after.upper_here = raised_field(met(geometry, before, *upper_at_first).upper, *upper_at_first, values);
+  }
+  return after;
+}
+
+namespace {
+
+// (1−ν²)/E, 1/Pa; none if the material lacks moduli.
+std::optional<double> compliance(const Material* material) {
+  if (material == nullptr) return {};
+  if (!material->rigid && !(material->young && material->poisson)) return {};
+  return 1.0 / plane_strain_modulus(*material);
+}
+
+}  // namespace
+
+double contact_modulus(const ContactGeometry& geometry, const std::string& needs, const std::string& purpose,
+                       const std::string& otherwise) {
+  const std::string also = otherwise.empty() ? "" : ", or " + otherwise;
+  const auto needed = [&](const Material* material, const std::string& body, bool is_flat) {
+    const std::string wants = needs + " of the " + body + " body" + (purpose.empty() ? "" : " " + purpose) +
+                              " (effect `elasticity`)";
+    if (material == nullptr)
+      throw Error(ErrorCode::bad_state, wants + ", which has no material",
+                  "give `material=` to the surface" + also);
+    if (const std::optional<double> known = compliance(material)) return *known;
+    const std::string called = material->name.empty() ? std::string("its material") : quoted(material->name);
+    throw Error(ErrorCode::bad_state,
+                wants + "; " + called + " has no " + quoted(material->young ? "poisson" : "young"),
+                "give it in lab.material{...}" + also + (is_flat ? ", or press with lab.rigid" : ""));
+  };
+  const double sum = needed(lower_material(geometry.lower()), "lower", false) +
+                     needed(upper_material(geometry.upper()), "upper", geometry.upper_is_flat());
+  if (!(sum > 0))
+    throw Error(ErrorCode::bad_state,
+                "both bodies are rigid, so there is no contact modulus E* (effect `elasticity`)",
+                "give one body an elastic material" + also);
+  return 1.0 / sum;
+}
+
+std::optional<double> contact_compliance(const ContactGeometry& geometry) {
+  const auto lower = compliance(lower_material(geometry.lower()));
+  const auto upper = compliance(upper_material(geometry.upper()));
+  return lower && upper ? std::optional(*lower + *upper) : std::nullopt;
+}
+
+double lower_elastic_share(const ContactGeometry& geometry) {
+  const auto lower = compliance(lower_material(geometry.lower()));
+  const auto upper = compliance(upper_material(geometry.upper()));
+  if (upper && *upper == 0) return 1;
+  if (lower && *lower == 0) return 0;
+  if (lower && upper) return *lower / (*lower + *upper);
+  return geometry.upper_is_flat() ? 1 : 0.5;
 }
 
 }  // namespace asperity

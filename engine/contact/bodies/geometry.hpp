@@ -5,28 +5,57 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
-#include "engine/contact/bodies/node_memory.hpp"
 #include "engine/contact/bodies/pose.hpp"
 #include "engine/contact/scene/scene.hpp"
+#include "engine/core/grid.hpp"
 
 namespace asperity {
 
+class ContactGeometry;
+
+// Named fields of each body in its own frame, moved with the body. Their effect reads them at the lower
+// body's nodes (met) and updates them after an event (raised). Null without memory.
+struct NodeMemory {
+  std::shared_ptr<const Field> lower, upper;
+  // After events off the lattice: `upper` at the lower body's nodes, exact until the bodies move.
+  std::shared_ptr<const Field> upper_here;
+
+  bool empty() const { return !lower && !upper && !upper_here; }
+};
+
+using BodyMemory = std::map<std::string, NodeMemory, std::less<>>;
+
+// At the lower body's nodes; null without memory.
+struct MetMemory {
+  std::shared_ptr<const Field> lower, upper;
+};
+// `at_first`: value without a counterpart.
+MetMemory met(const ContactGeometry& geometry, const NodeMemory& memory, double at_first);
+
+// After an event with `values` at the lower body's nodes: the greater of old and new. A body without memory
+// starts from its `at_first`, or stores none.
+NodeMemory raised(const ContactGeometry& geometry, const NodeMemory& before, const Field& values,
+                  std::optional<double> lower_at_first, std::optional<double> upper_at_first);
+
 class ContactGeometry {
  public:
-  // The bodies of `scene` (after check) placed by `pose`, `memory` in their own frames. `uncovered`: 1 at
-  // additional nodes without a counterpart; empty: none. O(n); one field for two rough bodies. Throws
-  // Error{bad_value} if sums of heights or squares overflow, or if the bodies do not overlap.
+  // `scene` after check, placed by `pose`; `memory` in the bodies' own frames. `uncovered`: 1 at additional
+  // nodes without a counterpart, or empty. O(n); one field for two rough bodies. Throws Error{bad_value} for
+  // overflow of sums of heights or squares, or bodies without overlap.
   ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory = {},
                   std::span<const std::uint8_t> uncovered = {});
 
-  // The bodies after an event, placed as `before`. `yielded`: m removed from both together, at the nodes of
-  // the lower body; none: shapes unchanged. Off the lattice the mapped shapes are approximate, but the
-  // combined heights decrease by exactly `yielded` until the bodies move.
+  // After an event, placed as `before`. `yielded`: m removed from both together, at the lower body's nodes.
+  // Off the lattice, mapped shapes are approximate; combined heights fall by exactly `yielded` until the
+  // bodies move.
   ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
                   const std::optional<Field>& yielded);
 
@@ -40,15 +69,15 @@ class ContactGeometry {
   const NodeMemory& kept(std::string_view name) const;
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
-  // m; NaN at nodes without a counterpart; the next two functions exclude them.
+  // m; NaN without a counterpart, excluded by the next two functions.
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
   Range combined_range() const { return range_; }          // m
   double peak_to_valley() const { return range_.span(); }  // m
-  // m, before any event changed the shapes.
+  // m, before any change of shape.
   double first_touch() const { return first_touch_.value_or(range_.max); }
   void keep_first_touch(const ContactGeometry& before) { first_touch_ = before.first_touch_; }
   Array<double> facing_heights() const;
-  // Fewer than all only with overhang on a free boundary.
+  // All, unless overhanging a free boundary.
   std::int64_t facing() const { return facing_; }
   bool overhangs() const { return facing_ < static_cast<std::int64_t>(grid().nodes()); }
   double overlap_fraction() const {
@@ -70,5 +99,18 @@ class ContactGeometry {
 // Null without a material.
 const Material* lower_material(const Surface& lower);
 const Material* upper_material(const UpperBody& upper);
+
+// Contact modulus, 1/E* = Σ (1−ν²)/E, and shares of a displacement, as the compliances.
+
+// E*, Pa. Throws Error{bad_state} naming effect and body for a missing property or two rigid bodies: `needs`
+// ("the half-space needs `young` and `poisson`"), body, `purpose`; `otherwise` extends the hint.
+double contact_modulus(const ContactGeometry& geometry, const std::string& needs, const std::string& purpose,
+                       const std::string& otherwise);
+
+// 1/E*; none if a material lacks moduli.
+std::optional<double> contact_compliance(const ContactGeometry& geometry);
+
+// A rigid body takes none. Without moduli: a flat none, two rough bodies half each.
+double lower_elastic_share(const ContactGeometry& geometry);
 
 }  // namespace asperity

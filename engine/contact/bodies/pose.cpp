@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
@@ -23,43 +24,25 @@ int modulo(long long value, int n) {
 LatticeIsometry::LatticeIsometry(int nx, int ny) : nx_(nx), ny_(ny) {}
 
 LatticeIsometry::Node LatticeIsometry::turn(Node node, int quarters) const {
-  switch (quarters) {
-    case 1:
-      return {ny_ - 1 - node.j, node.i};
-    case 2:
-      return {nx_ - 1 - node.i, ny_ - 1 - node.j};
-    case 3:
-      return {node.j, nx_ - 1 - node.i};
-    default:
-      return node;
-  }
+  if (quarters == 1) return {ny_ - 1 - node.j, node.i};
+  if (quarters == 2) return {nx_ - 1 - node.i, ny_ - 1 - node.j};
+  if (quarters == 3) return {node.j, nx_ - 1 - node.i};
+  return node;
 }
 
 LatticeIsometry LatticeIsometry::turned(int quarters) const {
   const int turns = modulo(quarters, 4);
   if (turns % 2 != 0 && nx_ != ny_)
-    refuse("a turn by " + std::to_string(turns * 90) + " deg was asked of a grid of " + std::to_string(nx_) +
+    refuse("a turn by " + std::to_string(turns * 90) + " deg does not fit a grid of " + std::to_string(nx_) +
                " x " + std::to_string(ny_) + " cells",
-           "only a square tile can be turned by 90 deg; this one can be turned by 180 deg");
+           "turn it by 180 deg, or use a square tile");
   LatticeIsometry result = *this;
   result.quarters_ = modulo(quarters_ + turns, 4);
   // turn ∘ shift(s) = shift(R s) ∘ turn
-  switch (turns) {
-    case 1:
-      result.shift_x_ = modulo(-shift_y_, nx_);
-      result.shift_y_ = shift_x_;
-      break;
-    case 2:
-      result.shift_x_ = modulo(-shift_x_, nx_);
-      result.shift_y_ = modulo(-shift_y_, ny_);
-      break;
-    case 3:
-      result.shift_x_ = shift_y_;
-      result.shift_y_ = modulo(-shift_x_, ny_);
-      break;
-    default:
-      break;
-  }
+  int x = shift_x_, y = shift_y_;
+  for (int turn = 0; turn < turns; ++turn) x = -std::exchange(y, x);
+  result.shift_x_ = modulo(x, nx_);
+  result.shift_y_ = modulo(y, ny_);
   return result;
 }
 
@@ -83,24 +66,30 @@ LatticeIsometry::Node LatticeIsometry::to_upper(Node lower) const {
   return {nx_ - 1 - back.i, back.j};
 }
 
-Field LatticeIsometry::to_lower(const Field& own) const {
-  Field result(nx_, ny_);
-  for (int j = 0; j < ny_; ++j)
-    for (int i = 0; i < nx_; ++i) {
-      const Node node = to_upper(Node{i, j});
-      result(i, j) = own(node.i, node.j);
+namespace {
+
+// `place`: node of `from` at a node of the result.
+template <class Place>
+Field moved(const Field& from, Place place) {
+  Field result(from.nx(), from.ny());
+  parallel_for(result.ny(), [&](std::int64_t row) {
+    const auto j = static_cast<int>(row);
+    for (int i = 0; i < result.nx(); ++i) {
+      const LatticeIsometry::Node node = place(LatticeIsometry::Node{i, j});
+      result(i, j) = from(node.i, node.j);
     }
+  });
   return result;
 }
 
+}  // namespace
+
+Field LatticeIsometry::to_lower(const Field& own) const {
+  return moved(own, [this](Node node) { return to_upper(node); });
+}
+
 Field LatticeIsometry::to_upper(const Field& lower) const {
-  Field result(nx_, ny_);
-  for (int j = 0; j < ny_; ++j)
-    for (int i = 0; i < nx_; ++i) {
-      const Node node = to_lower(Node{i, j});
-      result(i, j) = lower(node.i, node.j);
-    }
-  return result;
+  return moved(lower, [this](Node node) { return to_lower(node); });
 }
 
 namespace {
@@ -108,7 +97,7 @@ namespace {
 constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
 
-// Counter-clockwise about the centre of the nodes, bilinear; `outside` beyond the original nodes.
+// Counter-clockwise about the centre of the nodes, bilinear; elsewhere `outside`.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
   double c = elementary::cos(angle), s = elementary::sin(angle);

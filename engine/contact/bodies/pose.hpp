@@ -8,9 +8,9 @@
 
 namespace asperity {
 
-// T = shift ∘ turn ∘ mirror on the nodes: the mirror i → nx−1−i turns the upper body over about the y axis,
-// the turn is k·90° about the centre of the nodes, the shift is cyclic by whole cells. T is a permutation:
-// its inverse restores the same bits.
+// T = shift ∘ turn ∘ mirror on the nodes: mirror i → nx−1−i (upper body turned over about y), turn by k·90°
+// about the centre of the nodes, cyclic shift by whole cells. A permutation: the inverse restores the same
+// bits.
 class LatticeIsometry {
  public:
   struct Node {
@@ -18,19 +18,19 @@ class LatticeIsometry {
     bool operator==(const Node&) const = default;
   };
 
-  // The mirror alone: upper node (i, j) on lower node (nx−1−i, j).
+  // The mirror: upper node (i, j) on lower node (nx−1−i, j).
   LatticeIsometry(int nx, int ny);
 
-  // Adds a turn by quarters·90°, any sign. Throws Error{bad_value} for an odd number if nx != ny.
+  // quarters·90°, any sign. Throws Error{bad_value} for an odd number if nx != ny.
   LatticeIsometry turned(int quarters) const;
-  // Adds a cyclic shift, any sign.
+  // Cyclic, any sign.
   LatticeIsometry shifted(int cells_x, int cells_y) const;
 
   // The node must be on the grid.
   Node to_lower(Node own) const;
   Node to_upper(Node lower) const;
 
-  // From the upper body's frame to the lower body's nodes, and back. Copies values; O(n).
+  // Upper body's frame to lower body's nodes, and back. Copies values; O(n).
   Field to_lower(const Field& own) const;
   Field to_upper(const Field& lower) const;
 
@@ -53,7 +53,7 @@ class Pose {
   // The lattice turn is the initial angle.
   Pose(const LatticeIsometry& lattice);  // NOLINT: a lattice isometry is a pose
 
-  // Adds a turn (finite, rad). If cells or sides differ in x and y, only half turns are on the lattice.
+  // Adds a turn (finite, rad). With different cells or sides in x and y, only half turns are on the lattice.
   Pose turned(double angle, const Grid& grid) const;
 
   const LatticeIsometry& lattice() const { return lattice_; }
@@ -61,11 +61,11 @@ class Pose {
   double rest() const { return rest_; }    // rad, the part off the lattice
   double angle() const { return angle_; }  // rad, total, −π … π
 
-  // From the upper body's frame to the lower body's nodes, bilinear; NaN without a node of the turned body.
-  // A quarter turn of an oblong tile of square cells copies values between coinciding nodes. O(n).
+  // Upper body's frame to lower body's nodes, bilinear; NaN off the turned body. A quarter turn of an oblong
+  // tile of square cells copies values between coinciding nodes. O(n).
   Field to_lower(const Field& own, const Grid& grid) const;
-  // From the lower body to the upper body's frame, bilinear: positive weights with sum one give no new sign
-  // or extreme. Zero without a node of the lower body. O(n).
+  // Lower body to upper body's frame, bilinear: positive weights with sum one give no new sign or extreme.
+  // Zero off the lower body. O(n).
   Field to_upper(const Field& lower, const Grid& grid) const;
 
   bool operator==(const Pose&) const = default;

@@ -7,23 +7,21 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
-#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 void check_attraction(const Scene& scene, const std::string& effect) {
   const auto refuse = [&](const std::string& beside, const char* hint) {
-    throw Error(ErrorCode::bad_value, quoted(effect) + " is not computed " + beside + " by this version",
-                hint);
+    asperity::refuse(quoted(effect) + " is not computed " + beside + " by this version", hint);
   };
-  if (!scene.elasticity.is<HalfSpaceOptions>())
-    refuse("on " + std::string(scene.elasticity.model().noun), "name elasticity=\"half_space\" beside it");
-  if (scene.effects.has<PlasticityOptions>()) refuse("together with `plasticity`", "leave one of both out");
-  if (scene.effects.has<TangentialOptions>()) refuse("together with `tangential`", "leave one of both out");
+  if (!scene.elasticity.model().attraction)
+    refuse("on " + std::string(scene.elasticity.model().noun), "give elasticity=\"half_space\"");
+  if (scene.effects.has<PlasticityOptions>()) refuse("together with `plasticity`", "leave one out");
+  if (scene.effects.has<TangentialOptions>()) refuse("together with `tangential`", "leave one out");
   if (scene.accuracy.precision == Accuracy::Precision::single)
     refuse("with `precision` \"single\"", "leave `precision` out");
   if (scene.accuracy.estimate != Accuracy::Estimate::none || scene.accuracy.asked)
@@ -40,28 +38,25 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
       plan.buffers.push_back({"preload from which presses go on", 3 * field});
       plan.buffers.push_back({"work of the tangents", 5 * field, false});
       plan.solver = "tangents of the attraction, each a contact by preconditioned descent";
-      // Medians of 60 contacts (balls, rough surfaces, 64 x 64 cells): 161 transforms by approach, 228 by
-      // pressure.
+      // Medians of 60 contacts: 161 transforms by approach, 228 by pressure.
       constexpr double times_without = 5;
       plan.transforms *= times_without;
       plan.seconds *= times_without;
     }
-    const double modulus = std::get<HalfSpaceOperator>(plan.elasticity).modulus;
+    const double modulus = plan.elasticity->modulus;
     constexpr double most = 100;  // of the modulus; beyond it tangents fail on any grid
     if (!(term.greatest() <= most * modulus))
-      throw Error(ErrorCode::bad_value,
-                  quoted(term.effect) + " pulls with " +
-                      format_quantity(term.greatest(), dimension::pressure) +
-                      " at touch, over a hundred times the contact modulus",
-                  "check the units of its work and range");
+      refuse(quoted(term.effect) + " pulls with " + format_quantity(term.greatest(), dimension::pressure) +
+                 " at touch, over a hundred times the contact modulus",
+             "check the units of its work and range");
     const double zone = 0.25 * std::numbers::pi * modulus * term.work / (term.greatest() * term.greatest());
     const double cell = std::max(grid.hx(), grid.hy());
     constexpr double enough = 4;
     if (zone < enough * cell)
       plan.warnings.push_back(
-          "the zone where " + quoted(term.effect) + " pulls beside a contact is about " +
+          quoted(term.effect) + " acts around a contact in a zone about " +
           format_quantity(zone, dimension::length, 3) + " wide, " + format_short(zone / cell, 2) +
-          " cells; under four, pull and jumps hang on the grid: take more `cells` or a longer range");
+          " cells; below four cells, pull and jumps depend on the grid: give more `cells` or a longer range");
   }
   plan.attraction.push_back(std::move(term));
 }
@@ -75,7 +70,7 @@ void check_adhesion(const std::any& given, const Scene& scene) {
 void plan_adhesion(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const auto& options = std::any_cast<const AdhesionOptions&>(given);
   const bool dugdale = options.model == GapLaw::dugdale;
-  plan_gap_term({"adhesion", options.model, options.work, options.range, dugdale ? 0.5 : 0.0},
+  plan_gap_term({"adhesion", options.model, options.work, options.range},
                 std::string(dugdale ? "constant" : "exponential") + " attraction of " +
                     format_short(options.work) + " J/m^2 within " +
                     format_quantity(options.range, dimension::length) + ", " +

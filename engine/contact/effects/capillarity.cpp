@@ -44,14 +44,14 @@ void check_capillarity(const std::any& given, const Scene& scene) {
 void plan_capillarity(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const Meniscus liquid = meniscus(std::any_cast<const CapillarityOptions&>(given));
   if (!(liquid.pressure > 0)) {
-    plan_gap_term({"capillarity", GapLaw::dugdale, 0, 1, 0.5}, "no liquid: nothing pulls", geometry, plan);
+    plan_gap_term({"capillarity", GapLaw::dugdale, 0, 1}, "no liquid: nothing pulls", geometry, plan);
     return;
   }
   if (!std::isfinite(liquid.height))
     refuse("the liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
-               ", so little that its meniscus has no height that a number holds",
+               ", too little for a finite height of its meniscus",
            "give `capillarity` a `pressure` of 0 for no liquid, or check its units");
-  plan_gap_term({"capillarity", GapLaw::dugdale, liquid.pressure * liquid.height, liquid.height, 0.5},
+  plan_gap_term({"capillarity", GapLaw::dugdale, liquid.pressure * liquid.height, liquid.height},
                 "liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
                     " in gaps under " + format_quantity(liquid.height, dimension::length),
                 geometry, plan);
@@ -67,7 +67,7 @@ const Effect& capillarity_effect() {
       .acts = Effect::Acts::adds_term,
       .defaults = O{},
       .options = {quantity_row("pressure", &O::pressure, dimension::pressure, at_least(0),
-                               "how far the liquid is below the air; sets the radius of the meniscus"),
+                               "pressure of the liquid below the air; sets the radius of the meniscus"),
                   number_row("humidity", &O::humidity, {0, 1, false, true, false},
                              "relative; sets the radius and with it the pressure"),
                   quantity_row("surface_tension", &O::surface_tension, dimension::energy_per_area, above(0),

@@ -20,7 +20,7 @@ struct CapillarityOptions {
   static const Effect& effect();
 };
 
-// Traction and range of the term; both 0 without a meniscus.
+// Both 0 without a meniscus.
 struct Meniscus {
   double pressure = 0;  // Pa
   double height = 0;    // m

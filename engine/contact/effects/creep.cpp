@@ -18,8 +18,8 @@ namespace {
 
 void check_creep(const std::any&, const Scene& scene) {
   if (!scene.effects.has<PlasticityOptions>())
-    refuse("`creep` softens the hardness that the effect `plasticity` limits pressure by",
-           "name `plasticity` beside it, or leave `creep` out");
+    refuse("`creep` lowers the hardness of `plasticity`, and this scene names no `plasticity`",
+           "name `plasticity` as well, or leave `creep` out");
 }
 
 void plan_creep(const std::any& given, const ContactGeometry&, Plan& plan) {

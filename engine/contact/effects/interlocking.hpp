@@ -7,7 +7,7 @@
 namespace asperity {
 
 struct InterlockingOptions {
-  // rad, push of the upper body, counter-clockwise from x seen from above the lower body.
+  // rad, push of the upper body, counter-clockwise from x seen from above.
   double direction = 0;
   static const Effect& effect();
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 // NAME_effect() is defined in NAME.cpp.
@@ -57,8 +58,7 @@ const Effect* require_effect(std::string_view name) {
   const std::vector<std::string> ready = computed_names();
   for (const auto& [left_out, sentence] : not_modelled)
     if (name == left_out)
-      throw Error(
-          ErrorCode::bad_value,
+      refuse(
           "the effect " + quoted(name) + " (" + std::string(sentence) + ") is not modelled by this program",
           "computed here: " + joined(ready, " and "));
   std::vector<std::string> names = ready;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 #include "engine/contact/after_event.hpp"
 #include "engine/contact/plan.hpp"
@@ -39,8 +38,7 @@ std::string share_text(double share) { return format_short(100 * share, 3) + " %
 
 // E_lower/E_upper; divides the plastic approach at equal hardness.
 double modulus_ratio_of(const ContactGeometry& geometry, const Plan& plan) {
-  const auto* box = std::get_if<BoxOperator>(&plan.elasticity);
-  if (box != nullptr && !std::isfinite(box->stiffness)) return 1;  // rigid
+  if (!std::isfinite(plan.elasticity->modulus)) return 1;  // rigid
   const auto young = [](const Material* material) {
     return material != nullptr && !material->rigid && material->young ? *material->young : 0.0;
   };
@@ -52,7 +50,7 @@ double modulus_ratio_of(const ContactGeometry& geometry, const Plan& plan) {
 
 std::string sharing_text(const PlannedYield& yield) {
   const double share = lower_plastic_share(yield.lower_hardness, yield.upper_hardness, yield.modulus_ratio);
-  std::string text = "; the lower body takes " + share_text(share) + " of what yields";
+  std::string text = "; the lower body takes " + share_text(share) + " of the plastic change";
   if (!std::isfinite(yield.lower_hardness) || !std::isfinite(yield.upper_hardness)) return text;
   text += ", by the ratio of their " +
           std::string(yield.hardens() ? "hardness at each node, which grows" : "hardness");
@@ -60,7 +58,7 @@ std::string sharing_text(const PlannedYield& yield) {
   return text;
 }
 
-// Throws Error{bad_state} naming effect and body if a hardness is missing or no body can yield.
+// Throws Error{bad_state} naming effect and body if a hardness is missing or no body yields.
 void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const auto& options = std::any_cast<const PlasticityOptions&>(given);
   PlannedYield yield;
@@ -73,8 +71,7 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
   if (rigid(lower_material(geometry.lower())) &&
       (geometry.upper_is_flat() || rigid(upper_material(geometry.upper()))))
     throw Error(ErrorCode::bad_state, "the effect `plasticity` has no body that can yield",
-                "a rigid body and a flat counter-body take no share: give a rough body a material with "
-                "`hardness`, or leave the effect out");
+                "give a rough body a material with `hardness`, or leave the effect out");
   yield.modulus_ratio = modulus_ratio_of(geometry, plan);
   std::string sentence =
       std::isfinite(yield.hardness())
@@ -92,7 +89,7 @@ void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Pla
     const double more =
         std::max(1.0, std::sqrt(std::sqrt(static_cast<double>(geometry.grid().nodes())) / 256.0));
     plan.transforms *= more;
-    if (std::holds_alternative<HalfSpaceOperator>(plan.elasticity)) plan.seconds *= more;
+    if (!plan.elasticity->is_local()) plan.seconds *= more;
   }
   plan.yield = yield;
 }
@@ -134,7 +131,7 @@ const Effect& plasticity_effect() {
   using O = PlasticityOptions;
   static const Effect record{
       .name = "plasticity",
-      .sentence = "pressure is limited by hardness, and what yields stays flattened; {} for its defaults",
+      .sentence = "pressure is limited by hardness, and yielded nodes stay flattened; {} for its defaults",
       .acts = Effect::Acts::bounds_pressure,
       .defaults = O{},
       .options = {quantity_row(

@@ -12,8 +12,7 @@ namespace asperity {
 struct PlasticityOptions {
   // Pa, both bodies; default: each body's own. Infinite: no yield.
   std::optional<double> hardness;
-  // K_h, Pa/m: a node yielding by w carries its hardness + K_h·w, its hardness from then on. Infinite: a
-  // constant cap.
+  // K_h, Pa/m: a node yielding by w carries hardness + K_h·w, its new hardness. Infinite: a constant cap.
   double hardening = std::numeric_limits<double>::infinity();
   static const Effect& effect();
 };

@@ -2,10 +2,9 @@
 #include "engine/contact/effects/tangential.hpp"
 
 #include <cmath>
-#include <variant>
+#include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -14,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-// 1/G and ν; zero for a rigid body. Elasticity has checked the properties.
+// 1/G and ν; zero if rigid. Elasticity has checked both.
 struct Shear {
   double compliance = 0, poisson = 0;
 };
@@ -53,31 +52,32 @@ double dundurs_beta(const ContactGeometry& geometry) {
 namespace {
 
 void check_tangential(const std::any&, const Scene& scene) {
-  if (scene.elasticity.is<LayerOptions>())
-    refuse("`tangential` is not computed on a layer by this version",
-           "name elasticity=\"half_space\" beside it, or leave it out");
+  if (!scene.elasticity.model().shear)
+    refuse(
+        "`tangential` is not computed on " + std::string(scene.elasticity.model().noun) + " by this version",
+        "give elasticity=\"half_space\", or leave it out");
   if (scene.effects.has<PlasticityOptions>())
-    refuse("`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",
-           "copy the pressed bodies into a contact without `plasticity`, or leave one of both out");
+    refuse(
+        "`tangential` needs an elastic contact, and `plasticity` is given as well",
+        "put copies of the pressed bodies into a contact without `plasticity`, or leave one of the two out");
 }
 
 void plan_tangential(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
   const auto& options = std::any_cast<const TangentialOptions&>(given);
   TangentialOptions filled = options;
   std::string sentence;
-  if (std::holds_alternative<BoxOperator>(plan.elasticity)) {
+  if (plan.elasticity->is_local()) {
     if (!options.compliance_ratio)
       refuse(
-          "`compliance_ratio` of the effect `tangential` is not given, and box elements have no "
-          "Poisson's ratio to set it by",
-          "give the tangential over the normal compliance of a box; upright columns of Poisson's "
-          "ratio zero have 2");
+          "the effect `tangential` needs `compliance_ratio` on box elements, which have no Poisson's ratio",
+          "give the tangential over the normal compliance of a box, such as 2 for upright columns");
   } else {
     if (!options.compliance_ratio) filled.compliance_ratio = mindlin_ratio(geometry);
     constexpr double noticeable = 0.01;
     const double beta = dundurs_beta(geometry);
     if (std::abs(beta) >= noticeable)
-      sentence = "; Dundurs' beta is " + format_short(beta, 2) + ": that shear and pressure mix is left out";
+      sentence =
+          "; Dundurs' beta is " + format_short(beta, 2) + ": the coupling of shear and pressure is neglected";
   }
   plan.effects.set(filled);
   plan.terms.push_back({"tangential", "sideways the bodies give way " +

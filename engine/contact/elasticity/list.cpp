@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/list.hpp"
+#include "engine/contact/scene/elastic_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
-// NAME_model() is defined in the model's folder.
-// clang-format off
-#define ASPERITY_ELASTIC_MODELS(model) \
-  model(half_space) \
-  model(box)        \
-  model(rigid)      \
-  model(layer)      \
-  /* end of the list */
-// clang-format on
-
 namespace asperity {
 
-#define ASPERITY_DECLARED(name) const ElasticModel& name##_model();
-ASPERITY_ELASTIC_MODELS(ASPERITY_DECLARED)
-#undef ASPERITY_DECLARED
-
 std::span<const ElasticModel* const> elastic_models() {
-#define ASPERITY_LISTED(name) &name##_model(),
-  static const std::vector<const ElasticModel*> models{ASPERITY_ELASTIC_MODELS(ASPERITY_LISTED)};
-#undef ASPERITY_LISTED
+  static const std::array models{&HalfSpaceOptions::model(), &BoxOptions::model(), &RigidOptions::model(),
+                                 &LayerOptions::model()};
   return models;
 }
 

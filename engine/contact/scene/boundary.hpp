@@ -6,7 +6,7 @@
 
 namespace asperity {
 
-// Periodic: contact regions, displacements and shifts wrap around the rim.
+// Periodic: regions, displacements and shifts wrap around the rim.
 enum class Boundary { free, periodic };
 std::string_view name(Boundary boundary);
 

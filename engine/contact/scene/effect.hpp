@@ -21,7 +21,7 @@ struct Plan;
 struct Scene;
 struct StateQuantity;
 
-// The name of elasticity in costs and reports; not a record.
+// In costs and reports; no record.
 inline constexpr std::string_view elasticity_effect = "elasticity";
 
 struct Effect {
@@ -37,22 +37,22 @@ struct Effect {
   Acts acts;
   std::any defaults;  // its options struct
   std::vector<OptionRow> options;
-  // Throws Error for conflicting options, missing requirements or unsupported combinations; option ranges
-  // are already checked. May be null.
+  // Throws Error for conflicting options, missing requirements or unsupported combinations; ranges are
+  // already checked. May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
-  // Adds terms, pressure bound, buffers, warnings and completed options. Throws Error naming effect and body
-  // if a material lacks a property.
+  // Adds terms, pressure bound, buffers, warnings, completed options. Throws Error naming effect and body for
+  // a missing property.
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
-  // Adds the permanent changes of a press (bodies/after_event.hpp). May be null.
+  // Adds permanent changes (bodies/after_event.hpp). May be null.
   void (*leave)(const State& state, const Plan& plan, AfterEvent& after) = nullptr;
-  // The BodyMemory written by `leave`; empty: none. Part of a state's digest for effects of reads_state.
+  // BodyMemory of `leave`; empty: none. Part of a state's digest for effects of reads_state.
   std::string_view keeps = {};
   // May be null.
   std::vector<StateQuantity> (*quantities)() = nullptr;
   bool over_ranks = false;  // supported by lab.spread
 };
 
-// The effects of a scene with their options. Each options struct has static const Effect& effect().
+// Each options struct has static const Effect& effect().
 class Effects {
  public:
   struct Named {
@@ -71,13 +71,6 @@ class Effects {
   template <class O>
   void set(O options) {
     set(O::effect(), std::any(std::move(options)));
-  }
-  template <class O>
-  void set(std::optional<O> options) {
-    if (options)
-      set(O::effect(), std::any(*std::move(options)));
-    else
-      remove<O>();
   }
   template <class O>
   void remove() {
@@ -110,8 +103,7 @@ class Effects {
   std::vector<Named> named_;
 };
 
-// The names of the listed effects with this action; effects_that(): for a sentence, "`capillarity` or
-// `adhesion`".
+// Listed effects with this action; effects_that(): in a sentence, "`capillarity` or `adhesion`".
 std::vector<std::string> effect_names(Effect::Acts acts);
 std::string effects_that(Effect::Acts acts);
 

@@ -14,11 +14,10 @@ namespace asperity {
 // In the order of plans and reports, after the elasticity.
 std::span<const Effect* const> known_effects();
 
-// Throws Error{unknown_name} with the nearest known name, {bad_value} for a process not modelled. Null:
-// elasticity.
+// Throws Error{unknown_name} with the nearest name, {bad_value} for a process not modelled. Null: elasticity.
 const Effect* require_effect(std::string_view name);
 
-// In the order of the list; the elasticity first.
+// In list order; elasticity first.
 std::vector<std::string> effects_not_in(std::span<const std::string> run);
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #include "engine/contact/scene/press_request.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -12,19 +13,8 @@
 namespace asperity {
 
 std::string_view name(PressBy by) {
-  switch (by) {
-    case PressBy::pressure:
-      return "pressure";
-    case PressBy::load:
-      return "load";
-    case PressBy::approach:
-      return "approach";
-    case PressBy::indentation:
-      return "indentation";
-    case PressBy::flatten:
-      return "flatten";
-  }
-  return {};
+  constexpr std::array<std::string_view, 5> names{"pressure", "load", "approach", "indentation", "flatten"};
+  return names[static_cast<std::size_t>(by)];
 }
 
 namespace {
@@ -50,8 +40,7 @@ void check_numbers(const PressRequest& request) {
 
 void check(const PressRequest& request, bool attracts) {
   if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
-    refuse(value_text(request),
-           "a contact in which nothing attracts the bodies takes a finite value from zero up");
+    refuse(value_text(request), "give a finite value from zero up: nothing attracts the bodies");
   if (attracts && request.by == PressBy::flatten)
     refuse("`flatten` of bodies that attract each other is not computed",
            "press by `pressure`, `load`, `approach` or `indentation`");
@@ -59,12 +48,11 @@ void check(const PressRequest& request, bool attracts) {
   const std::vector<double>& turns = request.preload;
   if (!turns.empty() && !attracts)
     refuse("`preload` is given, and nothing attracts the bodies",
-           "name " + effects_that(Effect::Acts::adds_term) +
-               ", or leave it out: without them a state has no history");
+           "name " + effects_that(Effect::Acts::adds_term) + ", or leave `preload` out");
   if (turns.size() == 1 && turns.front() < request.value)
     refuse("`preload` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
                " of " + format_short(request.value),
-           "bodies are drawn back from a greater value");
+           "give a greater `preload`: bodies are drawn back from it");
 }
 
 void check_fraction(const PressRequest& request, double peak_to_valley) {
@@ -77,7 +65,7 @@ void check_fraction(const PressRequest& request, double peak_to_valley) {
 std::vector<double> turns_before(std::span<const double> visited, double value) {
   std::vector<double> turns;
   for (bool highest = true; !visited.empty(); highest = !highest) {
-    // The last of equal values: turns between them are erased.
+    // Last of equal values: turns between are erased.
     const auto turn = highest ? std::max_element(visited.rbegin(), visited.rend())
                               : std::min_element(visited.rbegin(), visited.rend());
     if (highest ? value >= *turn : value <= *turn) break;

@@ -19,7 +19,7 @@ std::string tile(const Grid& g) {
          format_quantity(g.size_y, dimension::length, 6);
 }
 
-// Up to the rounding of a product (3 · 50 against 150).
+// Up to rounding (3 · 50 against 150).
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(a, b); }
 
 void require_complete(const Surface& body, const std::string& which) {
@@ -48,7 +48,7 @@ void check(const Scene& scene) {
   const Grid& grid = scene.lower.grid();
   if (!std::isnormal(grid.cell_area()) || !std::isnormal(grid.area()))
     refuse("the lower body is " + format_short(grid.size_x) + " m by " + format_short(grid.size_y) +
-               " m, an area beyond the range of a double",
+               " m, an area outside the range of a double",
            "check the unit of `size`");
   if (const auto* rough = std::get_if<Surface>(&scene.upper)) check_tiles(scene.lower.grid(), rough->grid());
   if (const auto* flat = std::get_if<Material>(&scene.upper)) check(*flat);
@@ -59,9 +59,9 @@ void check(const Scene& scene) {
     refuse("`tolerance` is " + format_short(tolerance), "give a number from 1e-15 to below 1");
   const ElasticModel& model = scene.elasticity.model();
   check_options(model.options, scene.elasticity.options(), "elasticity=\"" + std::string(model.name) + "\"");
-  if (!model.moves_every_node && scene.accuracy.precision == Accuracy::Precision::single)
+  if (model.is_local && scene.accuracy.precision == Accuracy::Precision::single)
     refuse("`precision` is \"single\" for " + std::string(model.noun),
-           "their solution is a closed form in double precision; leave `precision` out");
+           "leave `precision` out: they have a closed form in double precision");
   if (model.check != nullptr) model.check(scene.elasticity.options(), scene);
   for (const Effect* effect : known_effects())
     if (const std::any* options = scene.effects.options_of(*effect)) {

@@ -15,14 +15,14 @@
 
 namespace asperity {
 
-// A rough body facing down, or a flat of this material (rigid_material(): a rigid counter-body).
+// A rough body facing down, or a flat (rigid_material(): a rigid counter-body).
 using UpperBody = std::variant<Surface, Material>;
 
-// A requested relative error, instead of cells and tolerance.
+// Instead of cells and tolerance.
 struct AskedError {
   double error = 0;             // in [1e-6, 1)
-  std::vector<std::string> of;  // names of state quantities; at least one
-  // Limits of the grids: cells a side, memory of a solve, expected seconds of all grids.
+  std::vector<std::string> of;  // state quantities; at least one
+  // Cells a side, memory of a solve, seconds of all grids.
   int most_cells = 65536;
   double most_bytes = 4.0 * (std::int64_t{1} << 30), most_seconds = 600;
 };
@@ -32,12 +32,12 @@ struct Accuracy {
   enum class Precision { double_, single };
   double tolerance = 1e-6;  // greatest entry of the certificate, in [1e-15, 1)
   Precision precision = Precision::double_;
-  bool precision_named = false;  // given by the script: not chosen for a requested error
+  bool precision_named = false;  // by the script: not chosen
   OnFailure on_failure = OnFailure::error;
-  // Companion grid of each press for the discretisation error.
+  // Companion grid for the discretisation error.
   enum class Estimate { none, coarser, finer };
   Estimate estimate = Estimate::none;
-  // Choose cells and tolerance (accuracy/accuracy_choice.hpp); solvers do not read this.
+  // Chooses cells and tolerance (accuracy/accuracy_choice.hpp); solvers do not read this.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance were chosen
 };
@@ -51,11 +51,10 @@ struct Scene {
   Effects effects{};
 };
 
-// Throws Error{bad_value} naming both grids if cells or size differ.
+// Throws Error{bad_value} naming both grids if they differ.
 void check_tiles(const Grid& lower, const Grid& upper);
 
-// Throws Error for the first conflict of grids, options (elasticity, accuracy, effects), properties or
-// required effects.
+// Throws Error for the first conflict of grids, options, properties or required effects.
 void check(const Scene& scene);
 
 }  // namespace asperity

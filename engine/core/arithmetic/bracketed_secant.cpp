@@ -10,10 +10,10 @@ namespace asperity {
 
 namespace {
 constexpr int slow_steps = 1;          // slow steps before the bracket is halved
-constexpr double enough_gain = 0.3;    // error ratio below which a step is not slow
-constexpr int few_short = 2;           // steps in a row below the target before steps grow
+constexpr double enough_gain = 0.3;    // error ratio of a step that is not slow
+constexpr int few_short = 2;           // short steps before steps grow
 constexpr double furthest = 100;       // largest ratio to the last place
-constexpr double off_the_ends = 0.01;  // fraction of the bracket between a chord step and its ends
+constexpr double off_the_ends = 0.01;  // of the bracket, between step and ends
 constexpr double near_the_end = 0.3;   // fraction of the initial upper end
 constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
@@ -38,7 +38,7 @@ double BracketedSecant::secant() const {
   const auto ratio = [](double x, double y) { return elementary::log(x / y); };
   if (scale_ == Scale::logarithmic && end_.value < unknown && last_.at > near_the_end * end_.at &&
       last_.at < end_.at && last_.value < end_.value) {
-    // From the deficits to the end, which f may approach as any power.
+    // f may approach the end as any power of the deficit.
     const double lacks = end_.at - last_.at, power = [&] {
       if (first || !(before_.at < end_.at && before_.value < end_.value)) return usual_power;
       return ratio(end_.value - last_.value, end_.value - before_.value) / ratio(lacks, end_.at - before_.at);
@@ -53,7 +53,7 @@ double BracketedSecant::secant() const {
     const double by_power = elementary::pow(wanted_ / last_.value, usual_power);
     double factor = by_power;
     if (end_.value < unknown && last_.value < wanted_ && last_.at < end_.at) {
-      // Between the usual power and the chord to the end, for an f that flattens near its end.
+      // Between power and chord to the end, for an f that flattens near its end.
       const double chord = ratio(end_.value, last_.value) / ratio(end_.at, last_.at);
       const double by_chord = elementary::exp(ratio(wanted_, last_.value) / chord);
       factor = std::sqrt(by_power * std::max(by_power, by_chord));
@@ -102,14 +102,12 @@ double BracketedSecant::chord() const {
 
 std::optional<double> BracketedSecant::next() {
   double place = secant();
-  const auto inside = [&](double x) { return holds(x); };
   if (!std::isfinite(high_.at)) {
-    // Each further short step doubles the growth.
     if (short_of_it_ > few_short && place > last_.at)
       place = last_.at + std::ldexp(place - last_.at, short_of_it_ - few_short);
-    if (!inside(place)) place = 2 * std::max(low_.at, last_.at);
+    if (!holds(place)) place = 2 * std::max(low_.at, last_.at);
     place = std::min(place, furthest * last_.at);
-    return inside(place) ? std::optional(place) : std::nullopt;
+    return holds(place) ? std::optional(place) : std::nullopt;
   }
   const double width = this->width();
   const bool gains = std::abs(last_.value - wanted_) < enough_gain * std::abs(before_.value - wanted_);
@@ -117,10 +115,10 @@ std::optional<double> BracketedSecant::next() {
   width_ = width;
   if (slow_ > slow_steps)
     place = part_of_the_way(0.5);
-  else if (!inside(place))
+  else if (!holds(place))
     place = chord();
   if (slow_ > slow_steps) slow_ = 0;
-  return inside(place) ? std::optional(place) : std::nullopt;
+  return holds(place) ? std::optional(place) : std::nullopt;
 }
 
 }  // namespace asperity

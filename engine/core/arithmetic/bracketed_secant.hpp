@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solves f(place) = wanted for an expensive, non-decreasing f by the secant through the last two values,
-// inside a bracket that is halved after slow steps. Without an upper value, repeatedly short steps grow. A
-// value too rough to decide its side leaves the bracket unchanged. The logarithmic scale uses logarithms
-// while f follows a power of the place, and near a known upper end the deficits from it.
+// Solves f(place) = wanted for an expensive, non-decreasing f by secants inside a bracket, halved after slow
+// steps. Without an upper value, repeatedly short steps grow. The logarithmic scale uses logarithms while f
+// follows a power law, and deficits near a known upper end.
 #pragma once
 
 #include <limits>
@@ -24,7 +23,7 @@ class BracketedSecant {
                            Scale scale = Scale::linear)
       : wanted_(wanted), scale_(scale), low_(low), high_(high), end_(high) {}
 
-  // `sure`: may move the bracket. `instead`: replaces the last, rougher value at about the same place.
+  // `sure`: accurate enough to move the bracket. `instead`: replaces the last, rougher value.
   void take(Point found, bool sure, bool instead = false);
   bool holds(double place) const { return place > low_.at && place < high_.at; }
   // None if no double is left inside the bracket.

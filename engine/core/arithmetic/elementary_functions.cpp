@@ -1,19 +1,164 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A fast function computes high + low with an error bound. If high + (low ± bound) round alike, this is the
-// result; otherwise MPFR decides. Tables reduce the argument to three or four terms of a series, the first
-// one or two exact. MPFR also handles huge angles, subnormal results, zeros and infinities.
+// result; otherwise MPFR decides, as for huge angles, subnormal results, zeros and infinities. Tables reduce
+// the argument to three or four terms of a series, the first exact.
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <mpfr.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
-#include "engine/core/arithmetic/elementary_tables.hpp"
-#include "engine/core/arithmetic/pairs.hpp"
+// Pairs of doubles, high + low, about 106 bits (Dekker 1971, Knuth, Møller). Requires rounding to nearest, no
+// overflow, and no contraction of a*b+c.
+namespace asperity::pairs {
+
+struct Pair {
+  double high, low;  // |low| is at most half a last place of `high`, except as noted
+};
+
+// a + b exactly if a is 0, |a| >= |b|, or a is a multiple of b's last place.
+constexpr Pair quick_sum(double a, double b) {
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+
+// a + b exactly.
+constexpr Pair sum(double a, double b) {
+  const double s = a + b;
+  const double part = s - a;
+  return {s, (a - (s - part)) + (b - part)};
+}
+
+// a·b exactly, for products of 2^-960 … 2^990 and factors below 2^990.
+constexpr Pair product(double a, double b) {
+  const double p = a * b;
+#if defined(__FMA__)
+  if (!std::is_constant_evaluated()) return {p, std::fma(a, b, -p)};
+#endif
+  constexpr double splitter = 0x1p27 + 1;
+  const double ca = splitter * a, cb = splitter * b;
+  const double ah = ca - (ca - a), bh = cb - (cb - b);
+  const double al = a - ah, bl = b - bh;
+  return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+}
+
+constexpr Pair plus(Pair a, Pair b) {
+  const Pair high = sum(a.high, b.high), low = sum(a.low, b.low);
+  const Pair first = quick_sum(high.high, high.low + low.high);
+  return quick_sum(first.high, first.low + low.low);
+}
+
+constexpr Pair times(Pair a, Pair b) {
+  const Pair p = product(a.high, b.high);
+  return quick_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+}
+
+constexpr Pair over(Pair a, Pair b) {
+  const double first = a.high / b.high;
+  const Pair whole = times(b, {first, 0});
+  const Pair rest = plus(a, {-whole.high, -whole.low});
+  const double second = rest.high / b.high;
+  const Pair left = plus(rest, times(b, {-second, 0}));
+  const Pair result = quick_sum(first, second);
+  return plus(result, {left.high / b.high, 0});
+}
+
+// The multiple of `unit`, a power of two, nearest to x; |x| < 2^51 units.
+constexpr double to_multiple(double x, double unit) {
+  const double shift = 0x1.8p52 * unit;
+  return (x + shift) - shift;
+}
+
+}  // namespace asperity::pairs
+
+// Tables, exact to 80 bits or more. High parts are short, so that products with a short factor are exact.
+namespace asperity::elementary_tables {
+
+using pairs::Pair;
+
+inline constexpr Pair ln2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
+inline constexpr Pair pi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+
+// Splits into a multiple of `unit` and the rest.
+constexpr Pair short_high(Pair value, double unit) {
+  const double high = pairs::to_multiple(value.high, unit);
+  return {high, (value.high - high) + value.low};
+}
+
+constexpr std::array<Pair, 44> inverses() {
+  std::array<Pair, 44> table{};
+  for (std::size_t n = 1; n < table.size(); ++n) table[n] = pairs::over({1, 0}, {static_cast<double>(n), 0});
+  return table;
+}
+
+// 2^(j/128), j = 0 … 127, as multiples of 2^-25 and the rest: Taylor series of exp(j ln 2/128).
+constexpr std::array<Pair, 128> powers_of_two() {
+  std::array<Pair, 128> table{};
+  const auto inverse = inverses();
+  for (int j = 0; j < 128; ++j) {
+    const Pair x = pairs::times(ln2, {j / 128.0, 0});
+    Pair value{1, 0};
+    for (std::size_t n = 28; n >= 1; --n)
+      value = pairs::plus({1, 0}, pairs::times(pairs::times(x, value), inverse[n]));
+    table[static_cast<std::size_t>(j)] = short_high(value, 0x1p-25);
+  }
+  return table;
+}
+
+// sin(jπ/512), j = 0 … 256, as multiples of 2^-26 and the rest: Taylor series of the sine, beyond π/4 of the
+// cosine.
+constexpr std::array<Pair, 257> sines() {
+  std::array<Pair, 257> table{};
+  const auto inverse = inverses();
+  for (int j = 0; j <= 256; ++j) {
+    const bool near = j <= 128;
+    const Pair x = pairs::times(pi, {(near ? j : 256 - j) / 512.0, 0});
+    const Pair square = pairs::times(x, x);
+    Pair value{1, 0};
+    for (std::size_t n = 26; n >= 2; n -= 2) {
+      const Pair divided = pairs::times(inverse[n], inverse[near ? n + 1 : n - 1]);
+      const Pair term = pairs::times(pairs::times(square, value), divided);
+      value = pairs::plus({1, 0}, {-term.high, -term.low});
+    }
+    if (near) value = pairs::times(x, value);
+    table[static_cast<std::size_t>(j)] = short_high(value, 0x1p-26);
+  }
+  return table;
+}
+
+// 1/c, a multiple of 2^-9, and log c, a multiple of 2^-42 and the rest, for c near the middle of interval i
+// of a significand in [360/512, 720/512): [360 + i, 361 + i)/512 for i = 0 … 151, below 1, and [104 + i, 105
+// + i)/256 for i = 152 … 255. Both intervals next to 1 have c = 1.
+struct Reciprocal {
+  double reciprocal, log_high, log_low;
+};
+constexpr std::array<Reciprocal, 256> reciprocals() {
+  std::array<Reciprocal, 256> table{};
+  const auto inverse = inverses();
+  for (int i = 0; i < 256; ++i) {
+    const double middle = i < 152 ? (360.5 + i) / 512 : (104.5 + i) / 256;
+    const double reciprocal = i == 151 || i == 152 ? 1 : pairs::to_multiple(1 / middle, 0x1p-9);
+    // log c = −2 artanh((r − 1)/(r + 1)), r = 1/c
+    const Pair z = pairs::over({reciprocal - 1, 0}, {reciprocal + 1, 0});
+    const Pair square = pairs::times(z, z);
+    Pair value{0, 0};
+    for (std::size_t n = 43; n < inverse.size(); n -= 2)  // down to 1
+      value = pairs::plus(inverse[n], pairs::times(square, value));
+    value = pairs::times(z, value);
+    const Pair split = short_high({-2 * value.high, -2 * value.low}, 0x1p-42);
+    table[static_cast<std::size_t>(i)] = {reciprocal, split.high, split.low};
+  }
+  return table;
+}
+
+}  // namespace asperity::elementary_tables
 
 namespace asperity::elementary {
 
@@ -140,8 +285,8 @@ inline double times_power_of_two(double x, std::int64_t k) {
 
 constexpr double power_error = 0x1p-66;
 
-// x = (256 q + j) π/512 + high + low, |high| < π/1023. False near multiples of π/2, where the parts would be
-// too short, and for huge x.
+// x = (256 q + j) π/512 + high + low, |high| < π/1023. False near multiples of π/2 (parts too short) and for
+// huge x.
 struct Angle {
   double high, low;
   unsigned quarter, j;
@@ -190,7 +335,7 @@ inline Unrounded sine_of(const Angle& b) {
 }
 inline Unrounded cosine_of(const Angle& b) { return turned(sine_table[256 - b.j], sine_table[b.j], -1, b); }
 
-// sin or, one quarter on, cos of the angle; false if undecided.
+// False if undecided.
 inline bool sine_in_quarter(const Angle& angle, unsigned quarter, double& result) {
   const bool settled = decided(quarter % 2 == 0 ? sine_of(angle) : cosine_of(angle), result);
   if (quarter >= 2) result = -result;
@@ -209,13 +354,15 @@ inline Pair root_of(const Pair& square) {
 }
 
 // scale·log x.
-inline double scaled_logarithm(double x, const Pair& scale, bool& settled) {
-  const Pair ln = logarithm(x);
-  const Pair p = pairs::product(ln.high, scale.high);
-  double result = 0;
-  settled = decided({p.high, p.low + (ln.high * scale.low + ln.low * scale.high), std::abs(p.high) * 0x1p-65},
-                    result);
-  return result;
+template <class Function>
+double scaled_logarithm(double x, const Pair& scale, Function function) {
+  if (is_normal_positive(x)) {
+    const Pair ln = logarithm(x), p = pairs::product(ln.high, scale.high);
+    const double low = p.low + (ln.high * scale.low + ln.low * scale.high);
+    double result = 0;
+    if (decided({p.high, low, std::abs(p.high) * 0x1p-65}, result)) return result;
+  }
+  return rounded_slowly(function, x);
 }
 
 }  // namespace
@@ -302,22 +449,12 @@ double log(double x) {
 
 double log2(double x) {
   constexpr Pair scale{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};  // 1/ln 2
-  if (is_normal_positive(x)) {
-    bool settled = false;
-    const double result = scaled_logarithm(x, scale, settled);
-    if (settled) return result;
-  }
-  return rounded_slowly(mpfr_log2, x);
+  return scaled_logarithm(x, scale, mpfr_log2);
 }
 
 double log10(double x) {
   constexpr Pair scale{0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};  // 1/ln 10
-  if (is_normal_positive(x)) {
-    bool settled = false;
-    const double result = scaled_logarithm(x, scale, settled);
-    if (settled) return result;
-  }
-  return rounded_slowly(mpfr_log10, x);
+  return scaled_logarithm(x, scale, mpfr_log10);
 }
 
 double log1p(double x) {

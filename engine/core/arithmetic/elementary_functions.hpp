@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Correctly rounded elementary functions (nearest, ties to even): the same bits with every processor,
-// compiler and C library. C libraries select fused multiply-add by processor and differ in the last bit.
-// Method: Ziv (1991), with tables and short polynomials in pairs of doubles (66 bits or more); MPFR decides
-// about one argument in several thousand. Functions exact by IEEE 754 (sqrt, fma, fmod, ldexp, floor) are
-// omitted.
+// compiler and C library. Method: Ziv (1991); MPFR decides about one argument in several thousand. Omitted:
+// sqrt, fma, fmod, ldexp and floor, exact by IEEE 754.
 //
 // Thread-safe in the default rounding mode (rounding_mode.hpp). Special values follow C's Annex F;
 // floating-point exceptions are not guaranteed. "Fast": up to twice the time of the C library; "slow": some

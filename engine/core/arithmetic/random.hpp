@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Counter-based random numbers: draw k is SplitMix64 of the stream's seed and k, independent of grid, order
-// and thread. Source: Steele, Lea & Flood (2014), "Fast splittable pseudorandom number generators".
+// Counter-based random numbers: draw k is SplitMix64 of the stream's seed and k (Steele, Lea & Flood 2014,
+// "Fast splittable pseudorandom number generators").
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of one processor register: shuffles and conversions. GCC 12 keeps wider vectors on the stack, which
-// slows inner loops five to ten times.
+// Vectors of one processor register: shuffles and conversions. GCC 12 keeps wider vectors on the stack, five
+// to ten times slower.
 //
-// Private to sources compiled for one processor, because width and layout differ between them. Vectors are
-// passed by reference: their calling convention depends on the processor.
+// Only for sources compiled for one processor: width and layout differ. Pass vectors by reference: their
+// calling convention depends on the processor.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ namespace register_vectors {
 template <class Number>
 inline constexpr int register_lanes = register_bytes / static_cast<int>(sizeof(Number));
 
-// `lanes` numbers; `Anywhere` is aligned as one number. Use only pointers to `Anywhere`: Clang drops its
-// alignment from references and template arguments.
+// `Anywhere` is aligned as one number. Use only pointers to it: Clang drops the alignment of references and
+// template arguments.
 template <class Number, int lanes = register_lanes<Number>>
 struct Of {
   typedef Number Vector __attribute__((vector_size(lanes * sizeof(Number)), may_alias));
@@ -38,7 +38,7 @@ struct Of {
       __attribute__((vector_size(lanes * sizeof(Number)), aligned(alignof(Number)), may_alias));
 };
 
-// -- Shuffles: lane l of the result is lane `Place::of(l)` of a, followed by b.
+// -- Shuffles: lane l of the result is lane `Place::of(l)` of a, b.
 
 template <class Place, class From, class To, int... l>
 inline __attribute__((always_inline)) void shuffle(const From& a, const From& b, To& to,
@@ -171,7 +171,7 @@ inline __attribute__((always_inline)) void widen(const Floats& from, Doubles& lo
   high = __builtin_convertvector(half, Doubles);
 }
 
-// GCC 12 needs several instructions, and reads bytes one by one.
+// GCC 12 reads bytes one by one.
 #if defined(__AVX2__)
 inline __attribute__((always_inline)) void read(const float* from, Of<double, 4>::Vector& to) {
   to = reinterpret_cast<Of<double, 4>::Vector>(_mm256_cvtps_pd(_mm_loadu_ps(from)));

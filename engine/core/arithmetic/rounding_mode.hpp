@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results are defined for rounding to nearest, even if the host of the module uses another mode (interval
-// arithmetic).
+// Results are defined for rounding to nearest; a host may use another mode (interval arithmetic).
 #pragma once
 
 #include <cfenv>
 
 namespace asperity {
 
-// For this thread and threads started from it; restores the old mode. A few nanoseconds.
+// For this thread and threads started from it; restores the old mode. Nanoseconds.
 class RoundToNearest {
  public:
   RoundToNearest() : before_(std::fegetround()) {

@@ -2,7 +2,6 @@
 #include "engine/core/files/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -12,9 +11,7 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <optional>
-#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -39,24 +36,14 @@ constexpr auto longest_silence = std::chrono::hours(24);
 std::string place_of_this_process() {
   utsname system{};
   const std::string host = ::uname(&system) == 0 ? system.nodename : "";
-  std::array<char, 64> processes{};
-  const ssize_t length = ::readlink("/proc/self/ns/pid", processes.data(), processes.size());
-  Digester digester;
-  digester.add(host).add(
-      std::string_view(processes.data(), static_cast<std::size_t>(length > 0 ? length : 0)));
-  return digester.hex().substr(0, place_digits);
+  std::error_code unknown;
+  const std::string processes = fs::read_symlink("/proc/self/ns/pid", unknown).string();
+  return Digester().add(host).add(processes).hex().substr(0, place_digits);
 }
 
 const std::string& own_place() {
   static const std::string place = place_of_this_process();
   return place;
-}
-
-std::uint64_t random_bits() {
-  std::uint64_t bits = 0;
-  if (::getrandom(&bits, sizeof bits, 0) == static_cast<ssize_t>(sizeof bits)) return bits;
-  std::random_device device;
-  return (std::uint64_t{device()} << 32) | device();
 }
 
 bool is_made_of(std::string_view text, std::string_view digits, std::size_t least, std::size_t most) {
@@ -104,6 +91,23 @@ std::optional<Writer> writer_of_part(std::string_view name) {
 }
 
 std::string name_of_data(const fs::path& file) { return "\"" + file.string() + "\""; }
+
+constexpr std::string_view folder_lead = "asperity-";
+
+// Only folders of this user; does not follow links.
+void sweep(const fs::path& parent) {
+  std::error_code problem;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(parent, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    struct ::stat facts {};
+    if (entry->path().filename().native().starts_with("." + std::string(folder_lead)) &&
+        ::lstat(entry->path().c_str(), &facts) == 0 && S_ISDIR(facts.st_mode) &&
+        facts.st_uid == ::geteuid() && is_abandoned(entry->path()))
+      left.push_back(entry->path());
+  }
+  for (const fs::path& folder : left) fs::remove_all(folder, problem);
+}
 
 }  // namespace
 
@@ -172,22 +176,16 @@ void write_atomically(const fs::path& target, std::string_view content, Durable 
 }
 
 void part_from_other_names(const fs::path& file) {
-  struct Source {
-    int descriptor;
-    ~Source() {
-      if (descriptor >= 0) ::close(descriptor);
-    }
-  };
-  const Source source{::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  const ScopedFile source(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct ::stat facts {};
-  if (source.descriptor < 0 || ::fstat(source.descriptor, &facts) != 0 || !S_ISREG(facts.st_mode) ||
+  if (source.number < 0 || ::fstat(source.number, &facts) != 0 || !S_ISREG(facts.st_mode) ||
       facts.st_nlink < 2)
     return;
   AtomicFile copy(file);
   copy.write({}, facts.st_mode & 0777);
   std::array<char, 65536> piece;
   for (;;) {
-    const ssize_t got = ::read(source.descriptor, piece.data(), piece.size());
+    const ssize_t got = ::read(source.number, piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw_file_error("read", file, errno);
     if (got == 0) break;
@@ -198,13 +196,11 @@ void part_from_other_names(const fs::path& file) {
 
 fs::path part_beside(const fs::path& target) {
   constexpr std::size_t longest_stem = 120, longest_extension = 24;
-  std::array<char, random_digits + 1> random{};
-  std::snprintf(random.data(), random.size(), "%016llx", static_cast<unsigned long long>(random_bits()));
   std::string extension = target.extension().string();
   if (extension.size() > longest_extension) extension.clear();
   return target.parent_path() /
          ("." + target.stem().string().substr(0, longest_stem) + "." + own_place() + "-" +
-          std::to_string(::getpid()) + "-" + random.data() + std::string(part_ending) + extension);
+          std::to_string(::getpid()) + "-" + random_name() + std::string(part_ending) + extension);
 }
 
 void find_own_place() { own_place(); }
@@ -238,6 +234,20 @@ int sweep_parts(const fs::path& folder, Parts which, bool deep) {
     if ((which == Parts::all || is_abandoned(part)) && ::unlink(part.c_str()) == 0) ++removed;
   for (const fs::path& inner : folders) removed += sweep_parts(inner, which, deep);
   return removed;
+}
+
+TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& parent) {
+  std::error_code ignored;
+  fs::path base = parent.empty() ? fs::temp_directory_path(ignored) : parent;
+  if (base.empty()) base = "/tmp";
+  sweep(base);
+  path_ = part_beside(base / (std::string(folder_lead) + std::string(purpose)));
+  if (::mkdir(path_.c_str(), 0700) != 0) throw_file_error("make a temporary folder in", base, errno);
+}
+
+void TemporaryFolder::remove() const {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
 }
 
 }  // namespace asperity

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Atomic replacement of a file: written under a temporary name in the same folder, then renamed. Readers see
-// the old or the complete new file. By default without waiting for the disk: a power cut may lose the last
-// moments, a kill does not.
+// Atomic replacement of a file: written under a temporary name in the same folder, then renamed. By default
+// without waiting for the disk: a power cut may lose the last moments, a kill does not.
 //
-// Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER contains host (8 digits), process (up to 10) and
-// 64 random bits, so that processes on several hosts and in containers never share a file. A killed writer
-// leaves its part, named so that others see whether the writer may still run.
+// Temporary names are ".NAME.WRITER.part.EXTENSION". WRITER contains host, process and 64 random bits, so
+// that hosts and containers never share a file, and others see whether the writer of a remaining part may
+// still run.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +12,10 @@
 
 namespace asperity {
 
-// Whether the content reaches the disk before the rename. The name needs the folder (core/files/disk.hpp).
+// Whether the content reaches the disk before the rename. For the name, see core/files/disk.hpp.
 enum class Durable { no, yes };
 
-// Wording of errors: `run` mentions `--out`; `data` explains missing folders and names of folders.
+// Wording of errors: `run` mentions `--out`.
 enum class FileWords { run, data };
 
 // Not thread-safe. Objects of one target are independent; the last commit wins.
@@ -29,7 +28,6 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // For writers that open the file themselves.
   const std::filesystem::path& temporary() const { return temporary_; }
   // Appends; the first call creates the file. Throws Error{bad_file}.
   void write(std::string_view bytes, unsigned mode = 0666);
@@ -50,15 +48,13 @@ class AtomicFile {
 void write_atomically(const std::filesystem::path& target, std::string_view content,
                       Durable durable = Durable::no, unsigned mode = 0666);
 
-// Replaces a file with several hard links by a copy, so that writes leave the other names unchanged. Throws
-// Error{bad_file}.
+// Replaces a file with several hard links by a copy. Throws Error{bad_file}.
 void part_from_other_names(const std::filesystem::path& file);
 
-// A unique temporary name, at most 255 bytes. The extension, from which some writers derive the format, is
-// last.
+// A unique temporary name, at most 255 bytes, with the same extension.
 std::filesystem::path part_beside(const std::filesystem::path& target);
 
-// Call before /proc, which identifies the writer's host, is inaccessible.
+// Call before /proc, which identifies the host, is inaccessible.
 void find_own_place();
 
 // Also recognises names of earlier versions.
@@ -67,9 +63,27 @@ bool is_part(const std::filesystem::path& file);
 // The writer ended on this host, or the part is unchanged for a day.
 bool is_abandoned(const std::filesystem::path& part);
 
-// Removes parts, without following links; recursive if `deep`. `all` requires that no other process writes
-// there. Skips undeletable files. Returns the number removed.
+// Removes parts, without following links; recursive if `deep`. `all`: no other process may write there. Skips
+// undeletable files. Returns the number removed.
 enum class Parts { abandoned, all };
 int sweep_parts(const std::filesystem::path& folder, Parts which, bool deep = false);
+
+// A temporary folder, removed with its content by the destructor. Each new folder removes folders of killed
+// writers from the same parent.
+class TemporaryFolder {
+ public:
+  // Default `parent`: the system's temporary folder. Throws Error{bad_file}.
+  explicit TemporaryFolder(std::string_view purpose, const std::filesystem::path& parent = {});
+  ~TemporaryFolder() { remove(); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // For a process that ends without destructors.
+  void remove() const;
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace asperity

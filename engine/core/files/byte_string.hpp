@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values in memory representation, bit for bit, between processes of one build and machine type. The reader
-// checks all lengths. Not for files that outlive a build.
+// Values in memory representation, between processes of one build and machine type. The reader checks all
+// lengths.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/error.hpp"
 
@@ -18,19 +19,22 @@ class ByteWriter {
  public:
   // bool, integers and double.
   template <class T>
-  void number(T value) {
+  ByteWriter& number(T value) {
     static_assert(std::is_arithmetic_v<T>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
   }
-  void text(std::string_view value) {
-    number(static_cast<std::uint64_t>(value.size()));
+  ByteWriter& count(std::size_t value) { return number(static_cast<std::uint64_t>(value)); }
+  ByteWriter& text(std::string_view value) {
+    count(value.size());
     bytes_.append(value);
+    return *this;
   }
   void numbers(std::span<const double> values) {
-    number(static_cast<std::uint64_t>(values.size()));
+    count(values.size());
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   }
-  std::string take() { return std::move(bytes_); }
+  std::string take() { return std::exchange(bytes_, {}); }
 
  private:
   std::string bytes_;
@@ -60,7 +64,6 @@ class ByteReader {
     return static_cast<std::size_t>(value);
   }
   std::string text() { return std::string(next(count())); }
-  // Calls make(length) for the container and fills it.
   template <class Make>
   auto numbers(Make make) {
     const std::size_t length = count(sizeof(double));
@@ -72,7 +75,7 @@ class ByteReader {
   bool at_end() const { return left_.empty(); }
 
   [[noreturn]] static void damaged() {
-    throw Error(ErrorCode::bad_file, "a string of bytes is not what was written: it is torn or altered");
+    throw Error(ErrorCode::bad_file, "a stored string of bytes is cut short or altered");
   }
 
  private:

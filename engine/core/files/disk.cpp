@@ -5,8 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -41,6 +45,18 @@ void throw_file_error(std::string_view action, const std::filesystem::path& path
               "cannot " + std::string(action) + " " + quoted(path.string()) + ": " + text, advice(reason));
 }
 
+ScopedFile::~ScopedFile() {
+  if (number >= 0) ::close(number);
+}
+
+std::string random_name() {
+  std::random_device device;
+  const std::uint64_t bits = (std::uint64_t{device()} << 32) | device();
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(bits));
+  return digits.data();
+}
+
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t taken = ::write(descriptor, bytes.data(), bytes.size());
@@ -55,37 +71,28 @@ void append_whole(int descriptor, std::string_view content, const std::filesyste
   const off_t before = ::lseek(descriptor, 0, SEEK_END);
   const int reason = write_all(descriptor, content);
   if (reason == 0) return;
-  // If the truncation also fails, report the first reason.
   if (before >= 0 && ::ftruncate(descriptor, before) != 0) errno = 0;
   throw_file_error("write", path, reason);
 }
 
 bool append_to_existing(const std::filesystem::path& path, std::string_view content) {
-  struct Open {
-    int descriptor;
-    ~Open() {
-      if (descriptor >= 0) ::close(descriptor);
-    }
-  };
-  const Open file{::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC)};
-  if (file.descriptor < 0 && (errno == ENOENT || errno == ELOOP)) return false;
-  if (file.descriptor < 0) throw_file_error("write", path, errno);
+  const ScopedFile file(::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC));
+  if (file.number < 0 && (errno == ENOENT || errno == ELOOP)) return false;
+  if (file.number < 0) throw_file_error("write", path, errno);
   struct ::stat facts {};
-  if (::fstat(file.descriptor, &facts) == 0 && facts.st_nlink > 1) return false;
-  append_whole(file.descriptor, content, path);
+  if (::fstat(file.number, &facts) == 0 && facts.st_nlink > 1) return false;
+  append_whole(file.number, content, path);
   return true;
 }
 
 void wait_for_disk(const std::filesystem::path& file_or_folder) {
-  const int descriptor = ::open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC);
-  int reason = descriptor < 0 ? errno : 0;
-  if (descriptor >= 0 && ::fsync(descriptor) != 0) reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
+  const ScopedFile file(::open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC));
   // Some network file systems cannot sync a folder.
-  if (reason == 0 || reason == EINVAL) return;
+  if (file.number >= 0 && (::fsync(file.number) == 0 || errno == EINVAL)) return;
+  const int reason = errno;
   throw Error(ErrorCode::bad_file,
-              "cannot bring " + quoted(file_or_folder.string()) +
-                  " to the disk: " + std::generic_category().message(reason),
+              "cannot save " + quoted(file_or_folder.string()) +
+                  " on the disk: " + std::generic_category().message(reason),
               "check the disk");
 }
 

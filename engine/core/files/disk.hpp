@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complete writes, waiting for the disk, and system errors as sentences. A written and renamed file
-// (core/files/atomic_file.hpp) survives a kill at once, a power cut only after the disk has its content and
-// the folder's names.
+// Complete writes, waiting for the disk, and system errors as sentences. A file survives a kill at once, a
+// power cut only after the disk has its content and the folder's names.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace asperity {
@@ -12,11 +12,21 @@ namespace asperity {
 // "cannot write `path`: no space left on device"; `reason` is an errno value.
 [[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path, int reason);
 
-// To a file, socket or pipe; repeats partial writes. Returns 0 or the error number.
+struct ScopedFile {
+  explicit ScopedFile(int descriptor) : number(descriptor) {}
+  ~ScopedFile();
+  ScopedFile(const ScopedFile&) = delete;
+  ScopedFile& operator=(const ScopedFile&) = delete;
+  const int number;
+};
+
+// 16 hexadecimal digits.
+std::string random_name();
+
+// Repeats partial writes. Returns 0 or the error number.
 int write_all(int descriptor, std::string_view bytes);
 
-// Appends all bytes or restores the old length, so that the file ends with a whole line. Throws
-// Error{bad_file} naming `path`.
+// Appends all bytes or restores the old length. Throws Error{bad_file}.
 void append_whole(int descriptor, std::string_view content, const std::filesystem::path& path);
 
 // False if the file is missing, a link, or has several hard links. Throws as append_whole.

@@ -49,7 +49,7 @@ Json& Json::set(std::string_view name, Json value) {
   if (is_null()) value_ = Members();
   Members* members = std::get_if<Members>(&value_);
   if (members == nullptr)
-    throw Error(ErrorCode::internal, "member " + quoted(name) + " set on what is no object");
+    throw Error(ErrorCode::internal, "member " + quoted(name) + " set on a value that is no object");
   for (Member& member : *members)
     if (member.first == name) {
       member.second = std::move(value);
@@ -67,14 +67,19 @@ const Json* Json::find(std::string_view name) const {
   return nullptr;
 }
 
+const Json& Json::operator[](std::string_view name) const {
+  static const Json null;
+  const Json* found = find(name);
+  return found != nullptr ? *found : null;
+}
+
 namespace {
 [[noreturn]] void wrong_kind(std::string_view wanted, std::size_t found) {
   constexpr std::array<std::string_view, 7> kinds = {"nothing",  "a boolean", "a whole number", "a number",
                                                      "a string", "a list",    "an object"};
-  throw Error(
-      ErrorCode::bad_file,
-      "a record holds " + std::string(kinds[found]) + " where " + std::string(wanted) + " should stand",
-      "the file was written by another program or damaged");
+  throw Error(ErrorCode::bad_file,
+              "a record holds " + std::string(kinds[found]) + " instead of " + std::string(wanted),
+              "the file was written by another program or damaged");
 }
 }  // namespace
 
@@ -89,25 +94,16 @@ double Json::number() const {
   wrong_kind("a number", value_.index());
 }
 
-bool Json::boolean() const {
-  if (const auto* value = std::get_if<bool>(&value_)) return *value;
-  wrong_kind("a boolean", value_.index());
+template <class T>
+const T& Json::as(std::string_view wanted) const {
+  if (const T* value = std::get_if<T>(&value_)) return *value;
+  wrong_kind(wanted, value_.index());
 }
 
-const std::string& Json::string() const {
-  if (const auto* value = std::get_if<std::string>(&value_)) return *value;
-  wrong_kind("a string", value_.index());
-}
-
-const Json::List& Json::list() const {
-  if (const auto* value = std::get_if<List>(&value_)) return *value;
-  wrong_kind("a list", value_.index());
-}
-
-const Json::Members& Json::members() const {
-  if (const auto* value = std::get_if<Members>(&value_)) return *value;
-  wrong_kind("an object", value_.index());
-}
+bool Json::boolean() const { return as<bool>("a boolean"); }
+const std::string& Json::string() const { return as<std::string>("a string"); }
+const Json::List& Json::list() const { return as<List>("a list"); }
+const Json::Members& Json::members() const { return as<Members>("an object"); }
 
 std::string Json::text(int indent) const {
   return JsonCodec::encode(*this).dump(indent, ' ', false, Library::error_handler_t::replace);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON for journal lines and manifests. Members keep their order, so that equal records have equal bytes.
-// Doubles survive exactly; nan and infinities become the strings "nan", "inf" and "-inf". Not for bulk data.
-// As thread-safe as an int.
+// JSON for journal lines and manifests. Members keep their order: equal records have equal bytes. Doubles
+// survive exactly; nan and infinities become strings. Not for bulk data.
 #pragma once
 
 #include <concepts>
@@ -48,12 +47,14 @@ class Json {
     return std::holds_alternative<std::int64_t>(value_) || std::holds_alternative<double>(value_);
   }
 
-  // Replaces or appends; null becomes an object. Throws Error{internal} for other types.
+  // Replaces or appends; null becomes an object. Others throw Error{internal}.
   Json& set(std::string_view name, Json value);
   // Null if absent. Linear.
   const Json* find(std::string_view name) const;
+  // A null value if absent.
+  const Json& operator[](std::string_view name) const;
 
-  // Throw Error{bad_file} with wanted and found type. number() also reads "nan", "inf" and "-inf".
+  // Throw Error{bad_file} for another type. number() also reads "nan", "inf" and "-inf".
   double number() const;
   bool boolean() const;
   const std::string& string() const;
@@ -62,14 +63,15 @@ class Json {
 
   // One line, or `indent` spaces per level. Invalid UTF-8 becomes U+FFFD.
   std::string text(int indent = -1) const;
-  // Throws Error{bad_file} naming `what`: syntax error (with its byte), number beyond double, or nesting
-  // above 256.
+  // Throws Error{bad_file} naming `what`: syntax error, number beyond double, or nesting above 256.
   static Json parse(std::string_view text, std::string_view what);
 
   bool operator==(const Json&) const = default;
 
  private:
-  friend struct JsonCodec;  // hides the JSON library from headers
+  friend struct JsonCodec;
+  template <class T>
+  const T& as(std::string_view wanted) const;
   std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Members> value_;
 };
 

@@ -2,18 +2,14 @@
 #include "engine/core/files/result_log.hpp"
 
 #include <fcntl.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
@@ -30,23 +26,16 @@ constexpr std::string_view mark = "ASR1", ending = ".results";
 constexpr std::size_t digits = 32;  // of digest and name
 constexpr std::size_t head = mark.size() + sizeof(std::uint32_t) + 2 * digits;
 static_assert(head == ResultLog::bytes_beside);
-constexpr std::size_t longest = std::size_t{8} << 20;  // a record must fit into one read
+constexpr std::size_t longest = std::size_t{8} << 20;  // a record fits into one read
 constexpr auto sync_every = std::chrono::seconds(1);
 
 std::string digest_of(std::string_view name, std::string_view bytes) {
   return Digester().add(mark).add(name).add(bytes).hex();
 }
 
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-};
-
 // Fewer bytes at the end of the file.
 std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t length) {
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
+  const ScopedFile file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   std::string bytes(file.number < 0 ? 0 : length, '\0');
   std::size_t got = 0;
   while (got < bytes.size()) {
@@ -60,7 +49,6 @@ std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t leng
   return bytes;
 }
 
-// The record at the beginning of a text; none if incomplete.
 struct Record {
   std::string_view digest, name, bytes;
   bool sound() const { return digest == digest_of(name, bytes); }
@@ -79,30 +67,26 @@ std::optional<Record> record_in(std::string_view text) {
 
 }  // namespace
 
-std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields) {
+void write_result(const std::string& key, const ResultFacts& facts, const KeptFields& fields,
+                  const std::function<void(std::string_view)>& take) {
   ByteWriter out;
-  out.text(key);
-  out.number(static_cast<std::uint64_t>(facts.numbers.size()));
-  for (const auto& [name, value] : facts.numbers) {
-    out.text(name);
-    out.number(value);
-  }
-  out.number(static_cast<std::uint64_t>(facts.texts.size()));
-  for (const auto& [name, text] : facts.texts) {
-    out.text(name);
-    out.text(text);
-  }
-  out.number(facts.cost.seconds);
-  out.number(facts.cost.transforms);
-  out.number(facts.cost.bytes);
-  out.number(static_cast<std::uint64_t>(fields.size()));
+  out.text(key).count(facts.numbers.size());
+  for (const auto& [name, value] : facts.numbers) out.text(name).number(value);
+  out.count(facts.texts.size());
+  for (const auto& [name, text] : facts.texts) out.text(name).text(text);
+  out.number(facts.cost.seconds).number(facts.cost.transforms).number(facts.cost.bytes).count(fields.size());
   for (const auto& [name, field] : fields) {
-    out.text(name);
-    out.number(field->nx());
-    out.number(field->ny());
-    out.numbers(field->values());
+    out.text(name).number(field->nx()).number(field->ny()).count(field->size());
+    take(out.take());
+    take({reinterpret_cast<const char*>(field->data()), field->values().size_bytes()});
   }
-  return out.take();
+  take(out.take());
+}
+
+std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields) {
+  std::string bytes;
+  write_result(key, facts, fields, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
 }
 
 FoundResult result_from(ByteReader& in) {
@@ -121,11 +105,9 @@ FoundResult result_from(ByteReader& in) {
   for (std::size_t left = in.count(); left > 0; --left) {
     std::string name = in.text();
     const int nx = in.number<int>(), ny = in.number<int>();
-    const Array<double> values = in.numbers([](std::size_t length) { return Array<double>(length); });
-    Field field(nx, ny);
-    if (field.size() != values.size()) ByteReader::damaged();
-    std::ranges::copy(values, field.values().begin());
-    found.fields.emplace_back(std::move(name), std::move(field));
+    auto values = in.numbers([](std::size_t length) { return UnsetArray<double>(length); });
+    if (nx < 0 || ny < 0 || std::int64_t{nx} * ny != std::ssize(values)) ByteReader::damaged();
+    found.fields.emplace_back(std::move(name), Field(nx, ny, std::move(values)));
   }
   return found;
 }
@@ -146,8 +128,8 @@ std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
   }
 }
 
-// The folder's time changes with new files, except within one clock step; names are therefore read until the
-// time is one second old.
+// The folder's time changes with new files, except within one clock step; names are read until it is one
+// second old.
 void ResultLog::look() {
   std::error_code missing;
   const fs::file_time_type changed = fs::last_write_time(folder_, missing);
@@ -215,7 +197,7 @@ std::optional<std::string> ResultLog::record_at(const Place& place, std::string_
 
 fs::path ResultLog::keep(const std::string& name, std::string_view bytes) {
   if (name.size() != digits || bytes.size() > longest)
-    throw Error(ErrorCode::internal, "a result of this name or length cannot stand in a log");
+    throw Error(ErrorCode::internal, "a result of this name or length does not fit into a log");
   const std::string digest = digest_of(name, bytes);
   const auto length = static_cast<std::uint32_t>(bytes.size());
   std::string record(mark);
@@ -252,7 +234,7 @@ void ResultLog::wait_for_disk() {
     return;
   }
   const std::int64_t written = written_;
-  const Descriptor file{::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0)};
+  const ScopedFile file(::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0));
   const fs::path path = files_[static_cast<std::size_t>(own_)].path;
   lock.unlock();
   const int reason = file.number < 0 || (::fsync(file.number) != 0 && errno != EINVAL) ? errno : 0;
@@ -263,22 +245,16 @@ void ResultLog::wait_for_disk() {
   next_sync_ = std::chrono::steady_clock::now() + sync_every;
   if (reason != 0) throw_file_error("write", path, reason);
   synced_ = std::max(synced_, written);
-  // Another process may delete the file to free space.
+  // Another process may have deleted the file to free space.
   if (gone && own_ >= 0 && files_[static_cast<std::size_t>(own_)].path == path) leave_file();
 }
 
-// Random name, because other processes may remember their position in a deleted file.
+// Random: other processes may remember a position in a deleted file.
 void ResultLog::begin_file() {
   std::error_code problem;
   fs::create_directory(folder_, problem);
   if (problem) throw_file_error("make the folder", folder_, problem.value());
-  std::uint64_t random = 0;
-  if (::getrandom(&random, sizeof random, 0) != static_cast<ssize_t>(sizeof random))
-    random = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-  std::array<char, 17> digits_of_name{};
-  std::snprintf(digits_of_name.data(), digits_of_name.size(), "%016llx",
-                static_cast<unsigned long long>(random));
-  std::string name = digits_of_name.data() + std::string(ending);
+  std::string name = random_name() + std::string(ending);
   const fs::path path = folder_ / name;
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw_file_error("write", path, errno);

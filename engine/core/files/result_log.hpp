@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Log of small results in a store: for thousands of cases, a file and a disk wait each would cost more than
-// the presses. Each process appends to its own randomly named log and reads all logs of the folder, which
-// processes may share. A record is length, digest, name and bytes (ByteWriter: for one build), appended in
-// one piece: a kill loses no record; altered records are reported and ignored. Syncs at most once per second,
-// and in wait_for_disk().
+// Log of small results: for thousands of cases, a file and a disk wait each would cost more than the presses.
+// Each process appends to its own log and reads all logs of the folder. A record is length, digest, name and
+// bytes (ByteWriter: for one build), appended in one piece: a kill loses no record; altered records are
+// reported and ignored. Syncs at most once per second, and in wait_for_disk().
 #pragma once
 
 #include <chrono>
@@ -22,7 +21,9 @@
 
 namespace asperity {
 
-// result_from() expects the key to be read, and throws Error{bad_file} for other bytes.
+// Serial form of a result. result_from() starts after the key, and throws Error{bad_file} for other bytes.
+void write_result(const std::string& key, const ResultFacts& facts, const KeptFields& fields,
+                  const std::function<void(std::string_view)>& take);
 std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields);
 FoundResult result_from(ByteReader& in);
 
@@ -30,17 +31,14 @@ FoundResult result_from(ByteReader& in);
 class ResultLog {
  public:
   static constexpr std::string_view folder_name = "small";  // inside the store's folder
-  // Bytes of a record besides its result.
   static constexpr std::int64_t bytes_beside = 72;
   // Exceeded by at most one record.
   static constexpr std::int64_t longest_file = std::int64_t{64} << 20;
 
-  // `note` receives damaged files. The constructor reads and creates nothing.
+  // `note` receives damaged files.
   using Note = std::function<void(const std::string& file, std::string sentence)>;
   ResultLog(std::filesystem::path folder, Note note) : folder_(std::move(folder)), note_(std::move(note)) {}
   ~ResultLog();
-  ResultLog(const ResultLog&) = delete;
-  ResultLog& operator=(const ResultLog&) = delete;
 
   // Finds records of all processes by name, 32 characters.
   struct Found {
@@ -77,7 +75,7 @@ class ResultLog {
   const Note note_;
   std::mutex mutex_;  // guards the following
   std::unordered_map<std::string, Place> places_;
-  std::map<std::string, int> known_;  // file names and indices into files_
+  std::map<std::string, int> known_;  // indices into files_
   std::vector<File> files_;
   std::filesystem::file_time_type listed_{};  // at the last listing
   bool listed_once_ = false, settled_ = false;

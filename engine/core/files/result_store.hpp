@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Store for results of heavy calls. A result depends only on the arguments of its call, which form the key.
-// Calls find the store through their monitor; without a store, they compute at no extra cost. A stored result
-// keeps its original cost, so all numbers are equal either way.
+// Store for results of heavy calls. A result depends only on the arguments of its call, the key. Calls find
+// the store through their monitor. A stored result keeps its original cost, so all numbers are equal.
 #pragma once
 
 #include <limits>
@@ -22,12 +21,14 @@ struct ResultFacts {
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
-  bool however_cheap = false;  // store even if recomputation is faster
-  bool one_of_many = false;    // small; many share a file and a disk wait
+  bool however_cheap = false;  // even if recomputation is faster
+  bool one_of_many = false;    // many share a file and a disk wait
   double least_seconds = 0;    // not stored below this cost
-  // Time of the calling thread, if known: on a busy machine, a cheap result may take long.
+  // Time of the calling thread. Wall time would be long for cheap results on a busy machine.
   double processor_seconds = std::numeric_limits<double>::infinity();
 };
+
+using KeptFields = std::vector<std::pair<std::string, const Field*>>;
 
 struct FoundResult : ResultFacts {
   std::vector<std::pair<std::string, Field>> fields;
@@ -36,9 +37,8 @@ struct FoundResult : ResultFacts {
   double number(std::string_view name) const;
   const std::string& text(std::string_view name) const;
   Field take(std::string_view name);
+  KeptFields kept() const;
 };
-
-using KeptFields = std::vector<std::pair<std::string, const Field*>>;
 
 // Thread-safe.
 class ResultStore {
@@ -46,7 +46,7 @@ class ResultStore {
   virtual ~ResultStore() = default;
   // None for unknown keys and damaged data.
   virtual std::optional<FoundResult> find(const std::string& key) = 0;
-  // `call` describes the origin. Never fails; the store reports lost results.
+  // Never fails; the store reports lost results.
   virtual void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                     const KeptFields& fields) = 0;
 };
@@ -65,8 +65,7 @@ struct ResultForm {
   Result (*read)(FoundResult& found);
 };
 
-// Returns the stored result, or computes and stores it. `key` is called only with a store. Transforms of a
-// stored result count as if computed.
+// `key` is called only with a store. Transforms of a stored result count as if computed.
 template <class Result, class Key, class Compute>
 Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key key, Compute compute) {
   ResultStore* store = monitor.results();

@@ -3,7 +3,6 @@
 #include "engine/core/files/source_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,8 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -33,7 +34,8 @@ void read_to_end(std::ifstream& stream, const std::string& path, std::size_t exp
     bytes.resize(held + static_cast<std::size_t>(stream.gcount()));
     advance(stream.gcount());
   }
-  if (stream.bad()) throw Error(ErrorCode::bad_file, file_name(path) + " cannot be read to its end");
+  if (stream.bad())
+    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be read to its end", "check the disk");
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ void require_room_for(const std::string& path, std::uintmax_t bytes) {
   if (bytes <= static_cast<std::uintmax_t>(most)) return;
   const std::string found = file_name(path) + " has " + format_bytes(static_cast<std::int64_t>(bytes));
   if (limit > 0)
-    throw Error(ErrorCode::out_of_memory, found + ", and the limit of memory leaves " + format_bytes(most),
+    throw Error(ErrorCode::out_of_memory, found + ", and the memory limit leaves " + format_bytes(most),
                 "read a smaller file, or raise the limit");
   throw Error(ErrorCode::out_of_memory,
               found + ", which is more than a quarter of this machine's memory (" + format_bytes(most) + ")",
@@ -66,9 +68,7 @@ std::string text_of_file(const std::string& path) {
 std::string file_extension(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty()) ending.erase(0, 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return lower_case(ending);
 }
 
 std::string file_name(const std::string& path) { return "\"" + path + "\""; }
@@ -117,12 +117,16 @@ void SourceFile::refuse_empty() const {
 
 std::string_view SourceFile::text() const {
   std::string_view view = bytes();
+  if (is_utf16(view)) {
+    if (decoded_.empty()) decoded_ = *utf8_of_utf16(view);
+    return decoded_;
+  }
   if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
   return view;
 }
 
 bool SourceFile::looks_like_text() const {
-  return bytes().substr(0, 4096).find('\0') == std::string_view::npos;
+  return is_utf16(bytes()) || bytes().substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
 }  // namespace asperity

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A measured file, read once into counted memory, so that readers never access the disk and the file size
-// bounds all allocations. Not for files larger than memory.
+// A measured file, read once into counted memory; its size bounds all allocations.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +15,18 @@ class SourceFile {
  public:
   // Throws Error{bad_file} if missing, unreadable, empty or no plain file, Error{out_of_memory} if too large.
   SourceFile(std::string path, Monitor& monitor);
-  // Copies bytes; `name` serves errors and the extension. Throws Error{bad_file} if empty.
+  // Copies bytes; throws Error{bad_file} if empty.
   SourceFile(std::string name, std::string_view bytes);
-  // Takes over bytes, for example of an archive. Throws Error{bad_file} if empty.
+  // Takes over bytes; throws Error{bad_file} if empty.
   SourceFile(std::string name, Array<char> bytes, std::string extension);
 
   const std::string& path() const { return path_; }
   // Lower case, without the dot: "x3p"; may be empty.
   const std::string& extension() const { return extension_; }
   std::string_view bytes() const { return {bytes_.data(), bytes_.size()}; }
-  // Without a UTF-8 byte-order mark.
+  // Without a UTF-8 byte-order mark; UTF-16 as UTF-8. Not thread-safe.
   std::string_view text() const;
-  // False for a zero among the first few thousand bytes.
+  // UTF-16, or no zero in the first few thousand bytes.
   bool looks_like_text() const;
 
  private:
@@ -35,10 +34,10 @@ class SourceFile {
   std::string path_;
   std::string extension_;
   Array<char> bytes_;
+  mutable std::string decoded_;  // UTF-16 as UTF-8
 };
 
-// Content of a script or run file, which may be empty, a pipe or a device. Throws Error{bad_file},
-// Error{out_of_memory}.
+// Scripts and run files; empty, a pipe or a device, too. Throws Error{bad_file}, Error{out_of_memory}.
 std::string text_of_file(const std::string& path);
 // Throws Error{out_of_memory} beyond the memory limit or, without a limit, a quarter of the machine's memory.
 void require_room_for(const std::string& path, std::uintmax_t bytes);
@@ -47,7 +46,7 @@ void require_room_for(const std::string& path, std::uintmax_t bytes);
 std::string file_extension(const std::string& path);
 // "\"path\"".
 std::string file_name(const std::string& path);
-// Throws Error{bad_file}: file name, a blank, `finding`; then the hint.
+// Throws Error{bad_file}: file name, `finding`, hint.
 [[noreturn]] void refuse_file(const SourceFile& file, const std::string& finding,
                               const std::string& hint = {});
 

@@ -8,12 +8,12 @@
 
 namespace asperity {
 
-// Detects a byte-order mark, or zeros in every other byte as in European languages.
+// By a byte-order mark, or zeros in every other byte.
 bool is_utf16(std::string_view bytes);
 // Nothing for other bytes. Unpaired surrogates become U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 
-// Valid UTF-8 is unchanged; otherwise bytes are Windows-1252, Latin-1 plus dashes, quotes and the euro sign.
+// Valid UTF-8 is unchanged; other bytes are Windows-1252.
 std::string utf8_or_cp1252(std::string_view text);
 
 }  // namespace asperity

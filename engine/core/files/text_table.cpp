@@ -9,9 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/error.hpp"
-#include "engine/core/text.hpp"
-
 namespace asperity {
 
 namespace {
@@ -22,25 +19,18 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
-// Every comma is between digits, at most one per cell.
+// Two cells or more, each with at most one comma, between digits.
 bool commas_are_decimal(std::string_view line) {
-  bool several_cells = false, comma_in_cell = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const char c = line[k];
-    if (is_blank(c)) {
-      several_cells = true;
-      comma_in_cell = false;
-    } else if (c == '.') {
-      return false;
-    } else if (c == ',') {
-      auto digit = [&](std::size_t at) {
-        return at < line.size() && std::isdigit(static_cast<unsigned char>(line[at])) != 0;
-      };
-      if (comma_in_cell || k == 0 || !digit(k - 1) || !digit(k + 1)) return false;
-      comma_in_cell = true;
-    }
-  }
-  return several_cells;
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto is_decimal = [&](std::string_view cell) {
+    const std::size_t comma = cell.find(',');
+    return comma == std::string_view::npos ||
+           (comma == cell.rfind(',') && comma > 0 && comma + 1 < cell.size() && is_digit(cell[comma - 1]) &&
+            is_digit(cell[comma + 1]));
+  };
+  const std::vector<std::string_view> cells = cells_of(line, Separator::blank);
+  return cells.size() > 1 && line.find('.') == std::string_view::npos &&
+         std::ranges::all_of(cells, is_decimal);
 }
 
 [[noreturn]] void refuse_cell(const SourceFile& file, std::size_t line, std::size_t index,
@@ -49,7 +39,7 @@ bool commas_are_decimal(std::string_view line) {
       "line " + std::to_string(line) + ", cell " + std::to_string(index + 1) + ": " + shown(cell);
   if (kind == CellKind::infinite)
     refuse_file(file, "has an infinite number in " + here, "mark missing points with nan");
-  if (kind == CellKind::too_large) refuse_file(file, "has a number beyond any double in " + here);
+  if (kind == CellKind::too_large) refuse_file(file, "has a number too large for a double in " + here);
   refuse_file(file, "has no number in " + here);
 }
 
@@ -67,7 +57,7 @@ bool LineReader::next(std::string_view& line) {
   line = text_.substr(position_, end - position_);
   position_ = end + 1;
   if (text_[end] == '\r') {
-    // One search per run of CR keeps the cost linear.
+    // One search per run of CR: linear cost.
     if (end >= run_end_) run_end_ = std::min(text_.find_first_not_of('\r', end), text_.size());
     if (run_end_ < text_.size() && text_[run_end_] == '\n') position_ = run_end_ + 1;
   }
@@ -84,16 +74,6 @@ std::string lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
-}
-
-std::string shown(std::string_view text) {
-  std::string_view head = text.substr(0, 24);
-  if (text.size() > 24) head.remove_suffix(unfinished_bytes(head));
-  std::string result = plain_text(std::string(head));
-  for (char& c : result)
-    if (c == '\n' || c == '\t') c = '?';
-  if (text.size() > 24) result += "...";
-  return "\"" + result + "\"";
 }
 
 Separator separator_of(std::string_view line) {
@@ -118,10 +98,9 @@ std::vector<std::string_view> cells_of(std::string_view line, Separator separato
     }
     return cells;
   }
-  const char mark = separator == Separator::tab ? '\t' : separator == Separator::comma ? ',' : ';';
   std::size_t start = 0;
   for (;;) {
-    const std::size_t end = line.find(mark, start);
+    const std::size_t end = line.find(static_cast<char>(separator), start);
     cells.push_back(trimmed(line.substr(start, end == std::string_view::npos ? end : end - start)));
     if (end == std::string_view::npos) return cells;
     start = end + 1;
@@ -134,7 +113,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
   if (text.empty()) return hole;
   if (text.size() > longest_number) return {};
   std::array<char, longest_number> copy;
-  std::copy(text.begin(), text.end(), copy.begin());
+  std::ranges::copy(text, copy.begin());
   if (separator != Separator::comma) std::replace(copy.begin(), copy.begin() + std::ssize(text), ',', '.');
   const char* first = copy.data();
   const char* const last = first + text.size();
@@ -147,7 +126,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
     return {CellKind::number, value};
   }
   if (end == last && failure == std::errc::result_out_of_range) {
-    // Underflow is zero for any instrument; overflow is no height.
+    // Underflow is zero, overflow is no height.
     const std::string lower = lower_case({first, last});
     const std::size_t exponent = lower.find('e');
     if (exponent != std::string::npos && lower.substr(exponent + 1).starts_with('-'))
@@ -156,7 +135,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
   }
   static constexpr std::array<std::string_view, 7> names{"nan", "bad", "na", "n/a", "#n/a", "null", "none"};
   const std::string word = lower_case(text);
-  if (std::find(names.begin(), names.end(), word) != names.end()) return hole;
+  if (std::ranges::find(names, word) != names.end()) return hole;
   if (word.find_first_not_of('-') == std::string::npos || word.find_first_not_of('*') == std::string::npos)
     return hole;
   if (word == "1.#inf" || word == "-1.#inf") return {CellKind::infinite, 0};
@@ -181,9 +160,15 @@ bool is_skipped(std::string_view line) {
   return line.empty() || line.front() == '#' || line.front() == '%';
 }
 
+Array<double> TextTable::column(std::size_t k) const {
+  Array<double> found(static_cast<std::size_t>(rows));
+  for (std::size_t j = 0; j < found.size(); ++j) found[j] = values[j * static_cast<std::size_t>(columns) + k];
+  return found;
+}
+
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor) {
   TextTable table;
-  Task task(monitor, "reading", static_cast<std::int64_t>(file.bytes().size() - lines.position()));
+  Task task(monitor, "reading", static_cast<std::int64_t>(file.text().size() - lines.position()));
   Separator separator = Separator::blank;
   bool last_column_empty = true;
   std::string_view line;
@@ -216,7 +201,7 @@ TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor
     if (table.rows == std::numeric_limits<int>::max()) refuse_file(file, "has too many lines");
     ++table.rows;
   }
-  if (table.rows == 0) refuse_file(file, "holds no table of numbers");
+  if (table.rows == 0) refuse_file(file, "holds no table of numbers", "give one line of numbers a row");
   if (last_column_empty && table.columns > 1) {
     const auto columns = static_cast<std::size_t>(table.columns);
     std::size_t to = 0;
@@ -228,9 +213,13 @@ TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor
   return table;
 }
 
-void warn_if_cut(const SourceFile& file, Monitor& monitor) {
+bool ends_with_line_end(const SourceFile& file) {
   const std::string_view text = file.text();
-  if (text.find_last_of("\r\n") + 1 != text.size())
+  return text.empty() || text.back() == '\n' || text.back() == '\r';
+}
+
+void warn_if_cut(const SourceFile& file, Monitor& monitor) {
+  if (!ends_with_line_end(file))
     monitor.warn(file_name(file.path()) +
                  ": the last line has no line end; if the file was cut short its last height may be wrong");
 }

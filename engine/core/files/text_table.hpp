@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of numbers in text formats: any line ends; separated by blanks, tabs, commas or semicolons; decimal
-// points or commas; comments; missing cells.
+// Tables of numbers in text: any line ends, separators and decimal marks; comments; missing cells.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -33,12 +33,10 @@ class LineReader {
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-// At most 24 bytes, whole UTF-8 characters, '?' for unprintable ones.
-std::string shown(std::string_view text);
 
 // Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2" three; "1,5" alone is
 // two.
-enum class Separator { blank, tab, comma, semicolon };
+enum class Separator : char { blank = ' ', tab = '\t', comma = ',', semicolon = ';' };
 Separator separator_of(std::string_view line);
 std::vector<std::string_view> cells_of(std::string_view line, Separator separator);
 
@@ -59,12 +57,15 @@ bool is_skipped(std::string_view line);
 struct TextTable {
   Array<double> values;  // row by row; NaN for holes
   int columns = 0, rows = 0;
+  Array<double> column(std::size_t k) const;
 };
-// Reads the remaining lines, without comments after #. Drops an empty last column (separators at line ends).
-// Throws Error{bad_file} naming the line of an unreadable or infinite cell or a row with another length.
+// Reads the remaining lines, without comments after #. Drops an empty last column. Throws Error{bad_file} for
+// an unreadable or infinite cell or a row with another length.
 TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor);
 
-// Warns of a last line without line end: the file may be truncated.
+// True for empty text.
+bool ends_with_line_end(const SourceFile& file);
+// Warns of a last line without line end.
 void warn_if_cut(const SourceFile& file, Monitor& monitor);
 
 }  // namespace asperity

@@ -2,10 +2,6 @@
 #include "engine/core/fourier/fourier.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,7 +9,7 @@
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
-#include "engine/core/fourier/fourier_blocks.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -23,17 +19,6 @@ namespace {
 using Complex = std::complex<double>;
 using SingleFourier = AnyLengthFourier<1>;
 
-// Cached for the life of the process.
-const SingleFourier& single_fourier(int n) {
-  static std::mutex mutex;
-  static std::map<int, std::unique_ptr<const SingleFourier>> kept;
-  const std::lock_guard lock(mutex);
-  std::unique_ptr<const SingleFourier>& plan = kept[n];
-  if (!plan) plan = std::make_unique<const SingleFourier>(n);
-  return *plan;
-}
-
-// Waking a helper costs more than a small transform.
 std::optional<SingleThreaded> alone_if_small(std::size_t nodes) {
   constexpr std::size_t worth_sharing = 64 * 64;
   return nodes < worth_sharing ? std::optional<SingleThreaded>(std::in_place) : std::nullopt;
@@ -45,20 +30,11 @@ void transform_columns(HalfSpectrum& spectrum, bool forwards) {
   if (ny == 1) return;
   const BatchFourier& batch = BatchFourier::of_length(ny);
   constexpr int columns = BatchFourier::columns;
-  parallel_for(block_count(bins_x, columns), [&](std::int64_t block) {
+  parallel_for(fourier_block_count(bins_x, columns), [&](std::int64_t block) {
     const int first = static_cast<int>(block) * columns;
     const int here = std::min(columns, bins_x - first);
     BatchFourier::Work work(batch);
-    Complex* const at = spectrum.bins().data() + first;
-    if (forwards) {
-      batch.load(work, at, bins_x, ny, here);
-      batch.forward(work);
-      batch.store_bins(work, at, bins_x, here);
-    } else {
-      batch.load_bins(work, at, bins_x, here);
-      batch.inverse(work);
-      batch.store(work, at, bins_x, ny, here);
-    }
+    batch.transform(work, &spectrum(first, 0), bins_x, here, forwards);
   });
 }
 
@@ -67,11 +43,9 @@ void transform_columns(HalfSpectrum& spectrum, bool forwards) {
 Array<Complex> fourier_forward(std::span<const double> signal) {
   const auto n = static_cast<int>(signal.size());
   if (n == 0) return {};
-  const SingleFourier& plan = single_fourier(n);
+  const SingleFourier& plan = cached_fourier<SingleFourier>(n);
   Array<SingleFourier::Complex> values(signal.size()), work(plan.work_length());
-  std::transform(signal.begin(), signal.end(), values.begin(), [](double v) {
-    return SingleFourier::Complex{v, 0};
-  });
+  std::ranges::transform(signal, values.begin(), [](double v) { return SingleFourier::Complex{v, 0}; });
   plan.forward(values.data(), work.data());
   Array<Complex> bins(signal.size() / 2 + 1);
   for (int k = 0; k <= n / 2; ++k) {
@@ -87,7 +61,7 @@ Array<double> fourier_inverse(std::span<const Complex> half_spectrum, int n) {
                                          " bins are not the half spectrum of " + std::to_string(n) +
                                          " values");
   if (n == 0) return {};
-  const SingleFourier& plan = single_fourier(n);
+  const SingleFourier& plan = cached_fourier<SingleFourier>(n);
   Array<SingleFourier::Complex> values(static_cast<std::size_t>(n)), work(plan.work_length());
   for (int k = 0; k <= n / 2; ++k) {
     const Complex bin = half_spectrum[static_cast<std::size_t>(k)];
@@ -97,8 +71,8 @@ Array<double> fourier_inverse(std::span<const Complex> half_spectrum, int n) {
   }
   plan.inverse(values.data(), work.data());
   Array<double> signal(static_cast<std::size_t>(n));
-  std::transform(values.begin(), values.end(), signal.begin(),
-                 [scale = 1.0 / n](const SingleFourier::Complex& v) { return v.re * scale; });
+  std::ranges::transform(values, signal.begin(),
+                         [scale = 1.0 / n](const SingleFourier::Complex& v) { return v.re * scale; });
   return signal;
 }
 
@@ -113,18 +87,11 @@ HalfSpectrum fourier_forward(const Field& field) {
   HalfSpectrum spectrum(nx, ny);
   const BatchFourier& batch = BatchFourier::of_length(nx);
   constexpr int rows = BatchFourier::rows;
-  const auto bins_x = static_cast<std::size_t>(spectrum.bins_x());
-  parallel_for(block_count(ny, rows), [&](std::int64_t block) {
+  parallel_for(fourier_block_count(ny, rows), [&](std::int64_t block) {
     BatchFourier::Work work(batch);
     const int first = static_cast<int>(block) * rows, here = std::min(rows, ny - first);
-    std::array<const double*, rows> in;
-    std::array<Complex*, rows> out;
-    for (int r = 0; r < here; ++r) {
-      in[static_cast<std::size_t>(r)] = field.row(first + r).data();
-      out[static_cast<std::size_t>(r)] =
-          spectrum.bins().data() + static_cast<std::size_t>(first + r) * bins_x;
-    }
-    batch.real_forward(work, in.data(), nx, here, out.data());
+    batch.real_forward(work, batch.spaced(field.row(first).data(), nx, here).data(), nx, here,
+                       batch.spaced(&spectrum(0, first), spectrum.bins_x(), here).data());
   });
   transform_columns(spectrum, true);
   cost::count_transforms(1);
@@ -140,18 +107,12 @@ Field fourier_inverse(HalfSpectrum spectrum) {
   transform_columns(spectrum, false);
   const BatchFourier& batch = BatchFourier::of_length(nx);
   constexpr int rows = BatchFourier::rows;
-  const auto bins_x = static_cast<std::size_t>(spectrum.bins_x());
   const double scale = 1.0 / static_cast<double>(field.size());
-  parallel_for(block_count(ny, rows), [&](std::int64_t block) {
+  parallel_for(fourier_block_count(ny, rows), [&](std::int64_t block) {
     BatchFourier::Work work(batch);
     const int first = static_cast<int>(block) * rows, here = std::min(rows, ny - first);
-    std::array<const Complex*, rows> in;
-    std::array<double*, rows> out;
-    for (int r = 0; r < here; ++r) {
-      in[static_cast<std::size_t>(r)] = spectrum.bins().data() + static_cast<std::size_t>(first + r) * bins_x;
-      out[static_cast<std::size_t>(r)] = field.row(first + r).data();
-    }
-    batch.real_inverse(work, in.data(), here, nx, scale, out.data());
+    batch.real_inverse(work, batch.spaced(&spectrum(0, first), spectrum.bins_x(), here).data(), here, nx,
+                       scale, batch.spaced(field.row(first).data(), nx, here).data());
   });
   cost::count_transforms(1);
   return field;

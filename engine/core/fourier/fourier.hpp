@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real 1-D and 2-D Fourier transforms, rows before columns, in batches of lanes (fourier_batch.hpp); the bits
-// depend neither on threads nor on the processor. The inverse divides by n. Tables are cached per length.
-// Thread-safe. Any length from 1; a prime factor above 31 costs about six times as much.
+// Real 1-D and 2-D Fourier transforms, rows before columns, in batches of lanes (fourier_batch.hpp). The
+// inverse divides by n. Tables are cached per length. Thread-safe. Any length from 1; a prime factor above 31
+// costs six times as much.
 #pragma once
 
 #include <complex>

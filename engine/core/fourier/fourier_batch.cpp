@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
-#include <mutex>
 
 namespace asperity {
 
@@ -18,6 +16,16 @@ constexpr int batch_rows_ahead = 12;
 template <int lanes>
 int convolution_length(int n) {
   return LaneFourier<double, lanes>::possible(n) ? n : smooth_length(2 * n - 1);
+}
+
+// By complex factors or their conjugates; `from` may be `to`.
+template <bool conjugate, class Complex>
+void multiply(const Complex* from, const double* factors, std::ptrdiff_t count, Complex* to) {
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const double c = factors[2 * k], s = conjugate ? -factors[2 * k + 1] : factors[2 * k + 1];
+    const Complex x = from[k];
+    to[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
+  }
 }
 
 }  // namespace
@@ -54,35 +62,13 @@ AnyLengthFourier<lanes>::AnyLengthFourier(int n) : n_(n), smooth_(convolution_le
 template <int lanes>
 template <bool forwards>
 void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) const {
-  const double* const chirp = chirp_.data();
-  for (std::ptrdiff_t k = 0; k < n_; ++k) {
-    const double c = chirp[2 * k], s = forwards ? chirp[2 * k + 1] : -chirp[2 * k + 1];
-    const Complex& x = values[k];
-    work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
-  }
+  multiply<!forwards>(values, chirp_.data(), n_, work);
   std::fill(work + n_, work + smooth_.length(), Complex{});
   smooth_.forward(work);
-  const double* const response = response_.data();
-  if constexpr (forwards) {
-    for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
-      const double c = response[2 * k], s = response[2 * k + 1];
-      const Complex x = work[k];
-      work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
-    }
-  } else {
-    // The conjugate of the even kernel has the conjugate transform.
-    for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
-      const double c = response[2 * k], s = -response[2 * k + 1];
-      const Complex x = work[k];
-      work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
-    }
-  }
+  // The conjugate of the even kernel has the conjugate transform.
+  multiply<!forwards>(work, response_.data(), smooth_.length(), work);
   smooth_.inverse(work);
-  for (std::ptrdiff_t k = 0; k < n_; ++k) {
-    const double c = chirp[2 * k], s = forwards ? chirp[2 * k + 1] : -chirp[2 * k + 1];
-    const Complex& x = work[k];
-    values[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
-  }
+  multiply<!forwards>(work, chirp_.data(), n_, values);
 }
 
 template <int lanes>
@@ -110,15 +96,6 @@ BatchFourier::Work::Work(const BatchFourier& batch)
 std::size_t BatchFourier::work_values(int n) {
   const int length = convolution_length<lanes>(n);
   return static_cast<std::size_t>(length == n ? n * parts : n * parts + length);
-}
-
-const BatchFourier& BatchFourier::of_length(int n) {
-  static std::mutex mutex;
-  static std::map<int, std::unique_ptr<const BatchFourier>> kept;
-  const std::lock_guard lock(mutex);
-  std::unique_ptr<const BatchFourier>& batch = kept[n];
-  if (!batch) batch = std::make_unique<const BatchFourier>(n);
-  return *batch;
 }
 
 // Column l: signal l as real part, signal l + columns as imaginary part.
@@ -256,9 +233,9 @@ void BatchFourier::real_inverse(Work& work, const std::complex<double>* const* i
   store_reals(work, count, wanted, scale, out);
 }
 
-template <class Place>
-void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
-                           int count, Place place) const {
+void BatchFourier::load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
+                        int count, bool bins) const {
+  const auto at = [&](int b) { return bins ? place(b) : b; };
   for (int b = 0; b < given; ++b, from += stride) {
     const std::complex<double>* const ahead =
         from + (b + batch_rows_ahead < given ? batch_rows_ahead * stride : 0);
@@ -272,17 +249,16 @@ void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::pt
       else
         std::memcpy(pairs, static_cast<const void*>(from + p * lanes),
                     sizeof(std::complex<double>) * static_cast<std::size_t>(here));
-      Lane& to = part(work, p)[place(b)];
+      Lane& to = part(work, p)[at(b)];
       register_vectors::separate(pairs[0], pairs[1], to.re, to.im);
     }
   }
   for (int p = 0; p < parts; ++p)
-    for (int b = given; b < length(); ++b) part(work, p)[place(b)] = Lane{};
+    for (int b = given; b < length(); ++b) part(work, p)[at(b)] = Lane{};
 }
 
-template <class Place>
-void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
-                              int count, Place place) const {
+void BatchFourier::store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
+                         int count, bool bins) const {
   for (int b = 0; b < wanted; ++b, to += stride) {
     std::complex<double>* const ahead = to + (b + batch_rows_ahead < wanted ? batch_rows_ahead * stride : 0);
     __builtin_prefetch(ahead, 1);
@@ -290,7 +266,7 @@ void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::p
     for (int p = 0; p < parts; ++p) {
       const int here = std::clamp(count - p * lanes, 0, lanes);
       BatchDoubles pairs[2];
-      const Lane& from = part(work, p)[place(b)];
+      const Lane& from = part(work, p)[bins ? place(b) : b];
       register_vectors::interleave(from.re, from.im, pairs[0], pairs[1]);
       if (here == lanes)
         std::memcpy(static_cast<void*>(to + p * lanes), pairs, sizeof pairs);
@@ -299,26 +275,6 @@ void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::p
                     sizeof(std::complex<double>) * static_cast<std::size_t>(here));
     }
   }
-}
-
-void BatchFourier::load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
-                        int count) const {
-  load_to(work, from, stride, given, count, [](int b) { return b; });
-}
-
-void BatchFourier::load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride,
-                             int count) const {
-  load_to(work, from, stride, length(), count, [this](int b) { return place(b); });
-}
-
-void BatchFourier::store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
-                         int count) const {
-  store_from(work, to, stride, wanted, count, [](int b) { return b; });
-}
-
-void BatchFourier::store_bins(const Work& work, std::complex<double>* to, std::ptrdiff_t stride,
-                              int count) const {
-  store_from(work, to, stride, length(), count, [this](int b) { return place(b); });
 }
 
 }  // namespace asperity

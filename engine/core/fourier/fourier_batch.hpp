@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fourier transforms of any length for a batch of signals in lanes (fourier_lanes.hpp), with the same bits on
-// every processor. Lengths with a prime factor above 31 use a chirp convolution (Bluestein 1970) of about
-// twice the length, at six times the cost. Unnormalised.
+// Fourier transforms of any length for a batch of signals in lanes (fourier_lanes.hpp). Lengths with a prime
+// factor above 31 use a chirp convolution (Bluestein 1970) of about twice the length. Unnormalised.
 #pragma once
 
+#include <array>
 #include <complex>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "engine/core/fourier/fourier_lanes.hpp"
@@ -21,7 +23,6 @@ class AnyLengthFourier {
   explicit AnyLengthFourier(int n);  // n >= 1
 
   int length() const { return n_; }
-  // Position of bin k between forward() and inverse().
   int place(int k) const { return smooth_.length() == n_ ? smooth_.place(k) : k; }
   std::size_t work_length() const {
     return smooth_.length() == n_ ? 0 : static_cast<std::size_t>(smooth_.length());
@@ -44,6 +45,17 @@ class AnyLengthFourier {
 extern template class AnyLengthFourier<1>;
 extern template class AnyLengthFourier<Lanes<double>::count>;
 
+// Plans by length, cached for the process. Thread-safe.
+template <class Plan>
+const Plan& cached_fourier(int n) {
+  static std::mutex mutex;
+  static std::map<int, std::unique_ptr<const Plan>> plans;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<const Plan>& plan = plans[n];
+  if (!plan) plan = std::make_unique<const Plan>(n);
+  return *plan;
+}
+
 class BatchFourier {
  public:
   // Complex signals. Real signals r and r + columns share a transform, so the number affects the bits.
@@ -59,8 +71,14 @@ class BatchFourier {
   };
 
   explicit BatchFourier(int n) : fourier_(n) {}
-  // Cached for the life of the process. Thread-safe.
-  static const BatchFourier& of_length(int n);
+  // Signals r < count, `stride` apart.
+  template <class Value>
+  static std::array<Value*, rows> spaced(Value* first, std::ptrdiff_t stride, int count) {
+    std::array<Value*, rows> signals{};
+    for (int r = 0; r < count; ++r) signals[r] = first + r * stride;
+    return signals;
+  }
+  static const BatchFourier& of_length(int n) { return cached_fourier<BatchFourier>(n); }
 
   // For one length, in lanes.
   static std::size_t work_values(int n);
@@ -82,12 +100,19 @@ class BatchFourier {
   // Bins ±b times factors[b], b = 0 … n/2; real signals stay real.
   void multiply_even(Work& work, const double* factors) const;
 
-  // Columns c < count with row distance `stride`: `given` rows, then zeros.
-  void load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given, int count) const;
-  // Bins in natural order.
-  void load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int count) const;
-  void store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count) const;
-  void store_bins(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int count) const;
+  // Columns c < count with row distance `stride`: `given` rows, then zeros. `bins`: rows are bins in natural
+  // order.
+  void load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given, int count,
+            bool bins = false) const;
+  void store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count,
+             bool bins = false) const;
+  // All rows of columns c < count, to bins or back.
+  void transform(Work& work, std::complex<double>* at, std::ptrdiff_t stride, int count,
+                 bool forwards) const {
+    load(work, at, stride, length(), count, !forwards);
+    forwards ? forward(work) : inverse(work);
+    store(work, at, stride, length(), count, forwards);
+  }
   void forward(Work& work) const {
     for (int p = 0; p < parts; ++p) fourier_.forward(part(work, p), work.more.data());
   }
@@ -103,13 +128,6 @@ class BatchFourier {
   }
 
  private:
-  template <class Place>
-  void load_to(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given, int count,
-               Place place) const;
-  template <class Place>
-  void store_from(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted, int count,
-                  Place place) const;
-
   AnyLengthFourier<lanes> fourier_;
 };
 

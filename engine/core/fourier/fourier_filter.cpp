@@ -2,12 +2,11 @@
 #include "engine/core/fourier/fourier_filter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
-#include "engine/core/fourier/fourier_blocks.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -21,8 +20,7 @@ bool aligned(const void* pointer) { return reinterpret_cast<std::uintptr_t>(poin
 
 int own_bins(int period) { return period % 2 == 0 ? period / 2 : period / 2 + 1; }
 
-// An odd number of pairs of cache lines: rows a power of two apart would compete for few cache sets when a
-// column is gathered.
+// An odd number of pairs of cache lines: rows a power of two apart would compete for few cache sets.
 int own_stride(int period) {
   const int pairs = (own_bins(period) + 7) / 8;
   return 8 * (pairs % 2 == 0 ? pairs + 1 : pairs);
@@ -98,19 +96,15 @@ void FourierFilter::apply(std::span<const double> in, std::span<double> out, con
 }
 
 void FourierFilter::rows_forward(std::span<const double> in) {
-  const auto nx = static_cast<std::size_t>(nx_);
-  parallel_for(block_count(ny_, filter_rows), [&](std::int64_t block) {
+  const std::ptrdiff_t nx = nx_;
+  parallel_for(fourier_block_count(ny_, filter_rows), [&](std::int64_t block) {
     const auto scratch = borrow();
     const int first = static_cast<int>(block) * filter_rows, here = std::min(filter_rows, ny_ - first);
-    std::array<const double*, filter_rows> from;
-    std::array<Complex*, filter_rows> to;
+    const auto to = along_.spaced(scratch->bins.data(), along_.bins(), here);
+    along_.real_forward(scratch->along, along_.spaced(in.data() + nx * first, nx, here).data(), nx_, here,
+                        to.data());
     for (int r = 0; r < here; ++r) {
-      from[static_cast<std::size_t>(r)] = in.data() + static_cast<std::size_t>(first + r) * nx;
-      to[static_cast<std::size_t>(r)] = scratch->bins.data() + static_cast<std::ptrdiff_t>(along_.bins()) * r;
-    }
-    along_.real_forward(scratch->along, from.data(), nx_, here, to.data());
-    for (int r = 0; r < here; ++r) {
-      Complex* const bins = to[static_cast<std::size_t>(r)];
+      Complex* const bins = to[r];
       if (period_x_ % 2 == 0) bins[0].imag(bins[bins_].real());
       std::copy_n(bins, bins_, row(first + r));
     }
@@ -118,20 +112,17 @@ void FourierFilter::rows_forward(std::span<const double> in) {
 }
 
 void FourierFilter::rows_inverse(std::span<double> out) {
-  const auto nx = static_cast<std::size_t>(nx_);
-  parallel_for(block_count(ny_, filter_rows), [&](std::int64_t block) {
+  const std::ptrdiff_t nx = nx_;
+  parallel_for(fourier_block_count(ny_, filter_rows), [&](std::int64_t block) {
     const auto scratch = borrow();
     const int first = static_cast<int>(block) * filter_rows, here = std::min(filter_rows, ny_ - first);
-    std::array<const Complex*, filter_rows> from;
-    std::array<double*, filter_rows> to;
+    const auto from = along_.spaced(scratch->bins.data(), along_.bins(), here);
     for (int r = 0; r < here; ++r) {
-      Complex* const bins = scratch->bins.data() + static_cast<std::ptrdiff_t>(along_.bins()) * r;
-      std::copy_n(row(first + r), bins_, bins);
-      if (period_x_ % 2 == 0) bins[bins_] = bins[0].imag();
-      from[static_cast<std::size_t>(r)] = bins;
-      to[static_cast<std::size_t>(r)] = out.data() + static_cast<std::size_t>(first + r) * nx;
+      std::copy_n(row(first + r), bins_, from[r]);
+      if (period_x_ % 2 == 0) from[r][bins_] = from[r][0].imag();
     }
-    along_.real_inverse(scratch->along, from.data(), here, nx_, 1, to.data());
+    along_.real_inverse(scratch->along, from.data(), here, nx_, 1,
+                        along_.spaced(out.data() + nx * first, nx, here).data());
   });
 }
 
@@ -159,7 +150,7 @@ void FourierFilter::multiply_packed(Scratch& scratch, const Multiplier& multipli
 void FourierFilter::columns(const Multiplier& multiplier) {
   const double scale = 1 / (static_cast<double>(period_x_) * static_cast<double>(period_y_));
   const bool packed = period_x_ % 2 == 0;
-  parallel_for(block_count(bins_, filter_columns), [&](std::int64_t block) {
+  parallel_for(fourier_block_count(bins_, filter_columns), [&](std::int64_t block) {
     const auto scratch = borrow();
     const int first = static_cast<int>(block) * filter_columns;
     const int here = std::min(filter_columns, bins_ - first);

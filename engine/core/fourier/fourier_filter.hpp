@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Applies a real, even Fourier multiplier to a real field. After the row transforms, blocks of columns are
-// gathered, transformed, multiplied and transformed back within the cache. Periodic, or zero-padded to a
-// longer period (convolution without wrap-around) without storing zero rows. Any period; the same bits for
-// any number of threads and every processor.
+// Applies a real, even Fourier multiplier to a real field: after the row transforms, by blocks of columns
+// within the cache. Periodic, or zero-padded to a longer period (convolution without wrap-around) without
+// stored zero rows. Any period.
 #pragma once
 
 #include <complex>
@@ -12,7 +11,6 @@
 
 #include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/scratch_pool.hpp"
 
 namespace asperity {
 
@@ -25,8 +23,7 @@ class FourierFilter {
   FourierFilter(int nx, int ny, int period_x, int period_y);
   ~FourierFilter();
 
-  // nx·ny values row by row; `in` and `out` may be the same. Uses threads but is not thread-safe. Counts no
-  // transforms.
+  // `in` and `out` may be the same. Uses threads but is not thread-safe. Counts no transforms.
   void apply(std::span<const double> in, std::span<double> out, const Multiplier& multiplier);
 
   int bins_x() const { return period_x_ / 2 + 1; }

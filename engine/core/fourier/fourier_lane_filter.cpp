@@ -4,21 +4,20 @@
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numbers>
 #include <optional>
 #include <type_traits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier/fourier_blocks.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
 
 namespace {
 
-// Prefetch distance in rows: the hardware cannot predict addresses so far apart.
+// Prefetch distance in rows; addresses are too far apart for the hardware.
 constexpr int lane_rows_ahead = 16;
 
 using Singles = Lanes<float>::Vector;
@@ -146,7 +145,7 @@ void FourierLaneFilter<Real>::apply(std::span<const double> in, std::span<double
   apply([&](int j, double*) { return in.data() + static_cast<std::ptrdiff_t>(j) * nx_; }, {}, out, scale);
 }
 
-// Rows first … first + lanes − 1 in lanes, two neighbours as one complex value.
+// Two neighbours of a row as one complex value.
 template <class Real>
 void FourierLaneFilter<Real>::load_rows(Scratch& scratch, const Source& source, int first,
                                         double scale) const {
@@ -205,7 +204,7 @@ void FourierLaneFilter<Real>::remix(Complex* values) const {
 
 template <class Real>
 void FourierLaneFilter<Real>::rows_forward(const Source& source, double scale) {
-  parallel_for(block_count(ny_, lanes), [&](std::int64_t batch) {
+  parallel_for(fourier_block_count(ny_, lanes), [&](std::int64_t batch) {
     const auto scratch = borrow();
     const int first = static_cast<int>(batch) * lanes;
     load_rows(*scratch, source, first, scale);
@@ -236,7 +235,7 @@ void FourierLaneFilter<Real>::rows_forward(const Source& source, double scale) {
 template <class Real>
 void FourierLaneFilter<Real>::rows_inverse(const Sink& sink, std::span<double> out, double scale) {
   const auto nx = static_cast<std::size_t>(nx_);
-  parallel_for(block_count(ny_, lanes), [&](std::int64_t batch) {
+  parallel_for(fourier_block_count(ny_, lanes), [&](std::int64_t batch) {
     const auto scratch = borrow();
     const int first = static_cast<int>(batch) * lanes;
     const int rows = std::min(lanes, ny_ - first);

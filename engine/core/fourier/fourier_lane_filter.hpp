@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FourierFilter for an even period_x and periods without a prime factor above 31, several times as fast: each
 // vector lane transforms one row, then one column. Rows come from a source and go to a sink, which saves
-// passes over memory. Real is the precision of transforms and multiplier. The same bits for any number of
-// threads.
+// passes over memory. Real is the precision of transforms and multiplier.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,6 @@
 
 #include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/scratch_pool.hpp"
 
 namespace asperity {
 
@@ -32,7 +30,7 @@ class FourierLaneFilter {
 
   // Source and sink are called concurrently, once per row, in any order, all source calls first. `scale`, a
   // power of two, brings values near 1 for single precision. A non-empty `out` of nx·ny values receives the
-  // rows before the sink, which may then be empty. Uses threads but is not thread-safe.
+  // rows before the sink, which may then be empty. Not thread-safe.
   void apply(const Source& source, const Sink& sink, std::span<double> out = {}, double scale = 1);
 
   void apply(std::span<const double> in, std::span<double> out, double scale = 1);
@@ -63,7 +61,7 @@ class FourierLaneFilter {
   Complex* row(int j) { return spectrum_.data() + static_cast<std::ptrdiff_t>(j) * stride_; }
 
   int nx_, ny_, period_x_, period_y_;
-  int half_;    // period_x/2 bins of a row; the real first and last bins share a place
+  int half_;    // bins of a row; the real first and last bins share a place
   int blocks_;  // number of blocks of `lanes` bins
   int stride_;
   LaneFourier<Real> along_, across_;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
@@ -30,24 +31,11 @@ UnitTurn unit_turn(std::int64_t k, std::int64_t n) {
   const bool odd = eighths % 2 != 0;
   const double part = angle(odd ? n - rest : rest);
   const auto [far, near] = elementary::sincos(part);
-  switch (eighths) {
-    case 0:
-      return {near, far};
-    case 1:
-      return {far, near};
-    case 2:
-      return {-far, near};
-    case 3:
-      return {-near, far};
-    case 4:
-      return {-near, -far};
-    case 5:
-      return {-far, -near};
-    case 6:
-      return {far, -near};
-    default:
-      return {near, -far};
-  }
+  const bool swapped = ((eighths + 1) & 2) != 0;
+  UnitTurn turn{swapped ? far : near, swapped ? near : far};
+  if (eighths >= 2 && eighths < 6) turn.cosine = -turn.cosine;
+  if (eighths >= 4) turn.sine = -turn.sine;
+  return turn;
 }
 
 namespace {
@@ -171,7 +159,7 @@ LaneFourier<Real, lanes>::LaneFourier(int n) : n_(n), places_(static_cast<std::s
   std::vector<int> radices;
   for (const int factor : odd_radices)
     for (; rest % factor == 0; rest /= factor) radices.push_back(factor);
-  int eights = 0;  // radix 8 last, because the last stage has no factors
+  int eights = 0;  // radix 8 last: the last stage has no factors
   for (; twos > 4 || twos == 3; twos -= 3) ++eights;
   for (; twos >= 2; twos -= 2) radices.push_back(4);
   if (twos == 1) radices.push_back(2);
@@ -246,47 +234,10 @@ void LaneFourier<Real, lanes>::run(std::size_t number, Complex* values) const {
       run<forwards>(number + 1, values + static_cast<std::ptrdiff_t>(q) * stage.part);
   };
   if constexpr (!forwards) parts();
-  switch (stage.radix) {
-    case 2:
-      butterflies<forwards, 2>(stage, values);
-      break;
-    case 3:
-      butterflies<forwards, 3>(stage, values);
-      break;
-    case 4:
-      butterflies<forwards, 4>(stage, values);
-      break;
-    case 5:
-      butterflies<forwards, 5>(stage, values);
-      break;
-    case 7:
-      butterflies<forwards, 7>(stage, values);
-      break;
-    case 8:
-      butterflies<forwards, 8>(stage, values);
-      break;
-    case 11:
-      butterflies<forwards, 11>(stage, values);
-      break;
-    case 13:
-      butterflies<forwards, 13>(stage, values);
-      break;
-    case 17:
-      butterflies<forwards, 17>(stage, values);
-      break;
-    case 19:
-      butterflies<forwards, 19>(stage, values);
-      break;
-    case 23:
-      butterflies<forwards, 23>(stage, values);
-      break;
-    case 29:
-      butterflies<forwards, 29>(stage, values);
-      break;
-    default:
-      butterflies<forwards, 31>(stage, values);
-      break;
+  [&]<int... radix>(std::integer_sequence<int, radix...>) {
+    ((stage.radix == radix ? butterflies<forwards, radix>(stage, values) : void()), ...);
   }
+  (std::integer_sequence<int, 2, 3, 4, 5, 7, 8, 11, 13, 17, 19, 23, 29, 31>());
   if constexpr (forwards) parts();
 }
 

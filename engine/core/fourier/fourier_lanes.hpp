@@ -3,8 +3,8 @@
 // frequency) leaves bins in the order of place(), which the inverse (decimation in time) expects, so filters
 // never sort. Lengths without a prime factor above 31. Unnormalised.
 //
-// The operations of a lane do not depend on the vector width, so the bits are the same on every processor,
-// unlike FFTW's. FFTW transforms contacts spread over ranks, and is the reference in tests and benches.
+// A lane's operations do not depend on the vector width: same bits on every processor, unlike FFTW, which
+// transforms contacts spread over ranks.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,14 @@
 #include "engine/core/arithmetic/register_vectors.hpp"
 
 namespace asperity {
+
+// Private to this folder.
+constexpr std::int64_t fourier_block_count(int items, int block) {
+  return (static_cast<std::int64_t>(items) + block - 1) / block;
+}
+
+// For fewer nodes, waking a helper does not pay.
+inline constexpr std::int64_t nodes_worth_sharing = 64 * 64;
 
 // One value of `count` signals; plain numbers for one lane.
 template <class Real, int lanes = register_vectors::register_lanes<Real>>
@@ -35,7 +43,7 @@ struct Lanes<Real, 1> {
 // Smallest length >= `least` with prime factors 2, 3, 5 and 7, the cheapest.
 int smooth_length(int least);
 
-// cos and sin of 2π k/n, 0 <= k < n, from the first octant: equal angles have equal bits.
+// Cosine and sine of 2π k/n, 0 <= k < n, from the first octant: equal angles have equal bits.
 struct UnitTurn {
   double cosine, sine;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A message is its length, then pieces within MPI's int count. Sends are buffered, so that two processes may
-// send to each other without deadlock.
+// A message is its length, then pieces within MPI's int count. Sends are buffered against deadlock.
 #include "engine/core/mpi/messages.hpp"
 
 #include <dlfcn.h>
@@ -43,7 +42,7 @@ int open_all(int* rank, int* size, char* reason, std::size_t room) {
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED) {
-    std::snprintf(reason, room, "MPI could not be started beside threads");
+    std::snprintf(reason, room, "MPI could not be started with threads");
     return 1;
   }
   MPI_Comm_rank(MPI_COMM_WORLD, rank);

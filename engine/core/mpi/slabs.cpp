@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/mpi/slabs.hpp"
+#include "engine/core/mpi/messages.hpp"
 
 #ifdef ASPERITY_FFTW_MPI
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/slabs/mpi_team.hpp"
-
-#include "engine/core/mpi/slabs.hpp"
+#include "engine/core/loaded_part.hpp"
+#include "engine/core/mpi/messages.hpp"
 #include "engine/core/slabs/slab_fourier.hpp"
+#include "engine/core/slabs/team.hpp"
 
 namespace asperity {
 
@@ -37,26 +37,30 @@ class MpiFourier final : public SlabFourier {
   void* plan_ = nullptr;
 };
 
-}  // namespace
+class MpiTeam final : public Team {
+ public:
+  MpiTeam(const AsperitySlabs& mpi, int rank, int size) : mpi_(mpi) {
+    rank_ = rank;
+    size_ = size;
+  }
+  std::unique_ptr<SlabFourier> fourier(int nx, int ny) override;
+  void exchange(const double* out, const int* out_counts, double* in, const int* in_counts) override {
+    mpi_.exchange(out, out_counts, in, in_counts);
+  }
 
-MpiTeam::MpiTeam(const LoadedPart& part, int rank, int size)
-    : mpi_(part_function<AsperitySlabsTable>(part, "asperity_slabs_1")()) {
-  rank_ = rank;
-  size_ = size;
-  if (mpi_ == nullptr)
-    throw Error(ErrorCode::bad_state,
-                "the program was built without FFTW's MPI transforms, which spread one contact over ranks",
-                "install Debian's package libfftw3-mpi-dev and build again");
-}
+ private:
+  void gather_bytes(const void* own, std::size_t bytes, void* all) override { mpi_.gather(own, bytes, all); }
+  const AsperitySlabs& mpi_;
+};
 
 std::unique_ptr<SlabFourier> MpiTeam::fourier(int nx, int ny) {
   std::unique_ptr<MpiFourier> made;
-  const AsperitySlabShape shape = mpi_->shape(nx, ny);
+  const AsperitySlabShape shape = mpi_.shape(nx, ny);
   work([&] {
     const Slab own = slab(nx, ny);
     if (shape.rows != own.rows() || (shape.rows > 0 && shape.first_row != own.first()))
       throw Error(ErrorCode::internal, "FFTW deals rows out in another way");
-    made = std::make_unique<MpiFourier>(*mpi_, shape, nx, ny);
+    made = std::make_unique<MpiFourier>(mpi_, shape, nx, ny);
   });
   agree();
   made->plan(nx, ny);
@@ -67,10 +71,15 @@ std::unique_ptr<SlabFourier> MpiTeam::fourier(int nx, int ny) {
   return made;
 }
 
-void MpiTeam::exchange(const double* out, const int* out_counts, double* in, const int* in_counts) {
-  mpi_->exchange(out, out_counts, in, in_counts);
-}
+}  // namespace
 
-void MpiTeam::gather_bytes(const void* own, std::size_t bytes, void* all) { mpi_->gather(own, bytes, all); }
+std::unique_ptr<Team> team_of_mpi(const LoadedPart& part, int rank, int size) {
+  const AsperitySlabs* const mpi = part_function<AsperitySlabsTable>(part, "asperity_slabs_1")();
+  if (mpi == nullptr)
+    throw Error(ErrorCode::bad_state,
+                "one contact needs FFTW's MPI transforms to spread over ranks, and this program has none",
+                "install Debian's package libfftw3-mpi-dev and build again");
+  return std::make_unique<MpiTeam>(*mpi, rank, size);
+}
 
 }  // namespace asperity

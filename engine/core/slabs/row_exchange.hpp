@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exchange of rows of a field in slabs: beyond the rim, or between differently divided grids. Every process
-// computes the needs of all. Costs the exchanged rows, and twice their memory.
+// computes the needs of all.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class RowExchange {
   // All processes together.
   RowExchange(Team& team, const Slab& from, const Needs& needs);
 
-  // All together. `pack` gives own row j, `place` receives the k-th needed row. Neither may throw.
+  // Collective. `pack` gives own row j, `place` receives the k-th needed row. Neither may throw.
   using Pack = std::function<void(int j, double* to)>;
   using Place = std::function<void(std::size_t k, const double* row)>;
   void run(const Pack& pack, const Place& place);

@@ -2,7 +2,6 @@
 #include "engine/core/slabs/slab_fourier.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "engine/core/fourier/fourier_batch.hpp"
 
@@ -24,46 +23,28 @@ class SlabFourierOfOne final : public SlabFourier {
     BatchFourier::Work work(along_);
     for (int first = 0; first < ny_; first += BatchFourier::rows) {
       const int here = std::min(BatchFourier::rows, ny_ - first);
-      std::array<const double*, BatchFourier::rows> from;
-      std::array<std::complex<double>*, BatchFourier::rows> to;
-      for (int r = 0; r < here; ++r) {
-        from[static_cast<std::size_t>(r)] = row(first + r);
-        to[static_cast<std::size_t>(r)] = &bin(0, first + r);
-      }
-      along_.real_forward(work, from.data(), nx_, here, to.data());
+      along_.real_forward(work, along_.spaced(row(first), stride_, here).data(), nx_, here,
+                          along_.spaced(&bin(0, first), step_b_, here).data());
     }
-    columns([this](BatchFourier::Work& column, std::complex<double>* at, int count) {
-      across_.load(column, at, step_b_, ny_, count);
-      across_.forward(column);
-      across_.store_bins(column, at, step_b_, count);
-    });
+    columns(true);
   }
 
   void inverse() override {
-    columns([this](BatchFourier::Work& column, std::complex<double>* at, int count) {
-      across_.load_bins(column, at, step_b_, count);
-      across_.inverse(column);
-      across_.store(column, at, step_b_, ny_, count);
-    });
+    columns(false);
     BatchFourier::Work work(along_);
     for (int first = 0; first < ny_; first += BatchFourier::rows) {
       const int here = std::min(BatchFourier::rows, ny_ - first);
-      std::array<const std::complex<double>*, BatchFourier::rows> from;
-      std::array<double*, BatchFourier::rows> to;
-      for (int r = 0; r < here; ++r) {
-        from[static_cast<std::size_t>(r)] = &bin(0, first + r);
-        to[static_cast<std::size_t>(r)] = row(first + r);
-      }
-      along_.real_inverse(work, from.data(), here, nx_, 1, to.data());
+      along_.real_inverse(work, along_.spaced(&bin(0, first), step_b_, here).data(), here, nx_, 1,
+                          along_.spaced(row(first), stride_, here).data());
     }
   }
 
  private:
-  template <class Act>
-  void columns(const Act& act) {
+  void columns(bool forwards) {
     BatchFourier::Work work(across_);
     for (int first = 0; first < waves_; first += BatchFourier::columns)
-      act(work, &bin(first, 0), std::min(BatchFourier::columns, waves_ - first));
+      across_.transform(work, &bin(first, 0), step_b_, std::min(BatchFourier::columns, waves_ - first),
+                        forwards);
   }
 
   int nx_, ny_;

@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real Fourier transform of a field in slabs, unnormalised, in its own buffer. Each process has rows before,
-// and some waves along x with all waves along y after. No plan is measured: one process gives the same bits
-// everywhere, K processes only on one kind of processor and C library.
+// Real Fourier transform of a field in slabs, unnormalised, in its own buffer: rows before; some waves along
+// x, with all waves along y, after. One process gives the same bits everywhere, K processes only on one kind
+// of processor and C library.
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <memory>
 #include <mutex>
 
 #include "engine/core/memory.hpp"
-#include "engine/core/slabs/slab.hpp"
 
 namespace asperity {
+
+// Rows of a grid on one process, in FFTW's blocks of ⌈ny/K⌉; the last ones shorter or empty.
+struct Slab {
+  int nx = 0, ny = 0;  // of the whole grid
+  int rank = 0, ranks = 1;
+
+  int block() const { return (ny + ranks - 1) / ranks; }
+  int first_of(int r) const { return std::min(r * block(), ny); }
+  int rows_of(int r) const { return first_of(r + 1) - first_of(r); }
+  int owner(int row) const { return row / block(); }
+  int first() const { return first_of(rank); }
+  int rows() const { return rows_of(rank); }
+  std::size_t width() const { return static_cast<std::size_t>(nx); }
+  std::size_t nodes() const { return width() * static_cast<std::size_t>(rows()); }  // of this process
+  double all_nodes() const { return static_cast<double>(nx) * static_cast<double>(ny); }
+  bool operator==(const Slab&) const = default;
+};
 
 class SlabFourier {
  public:

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/core/monitor.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -52,13 +51,13 @@ Team& Team::alone() {
 
 void Team::reduce(std::span<const double> own, std::size_t sums, std::span<double> total) {
   const std::size_t n = own.size(), stride = n + marks;
-  // No allocation: it could fail in one process alone.
+  // No allocation, which could fail in one process alone.
   constexpr std::size_t most = 64, most_together = 16384;
   std::array<double, most> packed{};
   std::array<double, most_together> together;
   if (stride > most || stride * static_cast<std::size_t>(size_) > most_together)
     throw Error(ErrorCode::internal, "more numbers are added over processes than there is room for");
-  std::copy(own.begin(), own.end(), packed.begin());
+  std::ranges::copy(own, packed.begin());
   packed[n] = failure_ ? 1 : 0;
   packed[n + 1] = static_cast<double>(static_cast<int>(stop_flag().reason()));
   gather_bytes(packed.data(), stride * sizeof(double), together.data());
@@ -82,19 +81,15 @@ std::string Team::text_of_first(const std::string& own) {
   if (size_ == 1) return own;
   const auto length =
       static_cast<std::size_t>(reduce<1>({rank_ == 0 ? static_cast<double>(own.size()) : 0.0})[0]);
-  Array<double> letters;
+  std::string mine, all;
   work([&] {
-    letters.resize(length);
-    if (rank_ == 0)
-      std::transform(own.begin(), own.end(), letters.begin(),
-                     [](char letter) { return static_cast<double>(static_cast<unsigned char>(letter)); });
+    if (rank_ == 0) mine = own;
+    mine.resize(length);
+    all.resize(length * static_cast<std::size_t>(size_));
   });
   agree();
-  const Array<double> all = gather(letters);
-  std::string first(length, '\0');
-  std::transform(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length), first.begin(),
-                 [](double letter) { return static_cast<char>(static_cast<unsigned char>(letter)); });
-  return first;
+  gather_bytes(mine.data(), length, all.data());
+  return all.substr(0, length);
 }
 
 void Team::throw_what_happened(const double* happened, std::size_t stride) {
@@ -110,7 +105,7 @@ void Team::throw_what_happened(const double* happened, std::size_t stride) {
     stop_flag().check();
   }
   if (size_ == 1) throw Error(*own);
-  static Report report;  // used by one thread of a process; needs no allocation
+  static Report report;  // used by one thread; needs no allocation
   report.code = own ? static_cast<int>(own->code()) : 0;
   put(own ? own->sentence() : "", report.sentence);
   put(own ? own->hint() : "", report.hint);

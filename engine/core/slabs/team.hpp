@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Processes working together on fields in slabs, by the same calls in the same order. A local step runs
-// inside work(), which stores its error; at the next sum every process throws this error, so no process
-// waits for a failed one. A stop in one process stops all. Sums are added in the order of the processes:
-// equal bits for equal numbers of processes. One thread.
+// inside work(); at the next sum, every process throws its error, so none waits for a failed process. A stop
+// in one process stops all. Sums are added in the order of the processes. One thread.
 #pragma once
 
 #include <array>
@@ -13,10 +12,11 @@
 #include <string>
 
 #include "engine/core/error.hpp"
-#include "engine/core/slabs/slab.hpp"
 #include "engine/core/slabs/slab_fourier.hpp"
 
 namespace asperity {
+
+struct LoadedPart;
 
 class Team {
  public:
@@ -36,12 +36,11 @@ class Team {
     } catch (const Error& error) {
       failure_ = error;
     } catch (const std::bad_alloc&) {
-      failure_ = Error(ErrorCode::out_of_memory, "there is no more memory");
+      failure_ = Error(ErrorCode::out_of_memory, "the memory is full");
     }
   }
 
-  // All together: adds the first `sums` numbers, takes the minimum of the others. Every process throws a
-  // failed one's error.
+  // Collective: adds the first `sums` numbers, takes the minimum of the others.
   template <std::size_t sums, std::size_t minima = 0>
   std::array<double, sums + minima> reduce(const std::array<double, sums + minima>& own) {
     constexpr std::size_t n = sums + minima;
@@ -71,5 +70,8 @@ class Team {
   [[noreturn]] void throw_what_happened(const double* marks, std::size_t stride);
   std::optional<Error> failure_;
 };
+
+// Processes of mpirun; requires a started MPI. Throws Error{bad_state} if `part` lacks FFTW's MPI transforms.
+std::unique_ptr<Team> team_of_mpi(const LoadedPart& part, int rank, int size);
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 #include "engine/metrology/parameters/autocorrelation.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -12,6 +13,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
@@ -24,9 +26,8 @@ Field sums_over_pairs(Field padded) {
   padded = Field();
   const std::span<std::complex<double>> bins = spectrum.bins();
   constexpr std::size_t block = 1 << 14;
-  parallel_for(static_cast<std::int64_t>((bins.size() + block - 1) / block), [&](std::int64_t turn) {
-    const std::size_t first = static_cast<std::size_t>(turn) * block;
-    for (std::size_t k = first; k < std::min(bins.size(), first + block); ++k) bins[k] = std::norm(bins[k]);
+  for_each_block(bins.size(), block, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) bins[k] = std::norm(bins[k]);
   });
   return fourier_inverse(std::move(spectrum));
 }
@@ -35,34 +36,9 @@ double wrapped(const Field& sums, int i, int j) {
   return sums(i < 0 ? i + sums.nx() : i, j < 0 ? j + sums.ny() : j);
 }
 
-// Cubic B-spline coefficients in place, values mirrored at both ends, `stride` apart, `lanes` neighbours at
-// once.
-void to_spline(double* values, int count, std::size_t stride, std::size_t lanes) {
-  if (count == 1) return;
-  const double pole = std::sqrt(3.0) - 2;
-  const auto at = [=](int k) { return values + static_cast<std::size_t>(k) * stride; };
-  // Causal start: sum over mirrored values, cut below rounding.
-  const int reach = std::min(count - 1, 40), period = 2 * (count - 1);
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    double sum = 0, power = 1;
-    if (reach < count - 1) {
-      for (int k = 0; k <= reach; ++k, power *= pole) sum += power * at(k)[lane];
-    } else {  // whole period
-      double last = 1;
-      for (int k = 0; k < period; ++k, power *= pole)
-        sum += power * at(k < count ? k : period - k)[lane], last = power * pole;
-      sum /= 1 - last;
-    }
-    at(0)[lane] = sum;
-  }
-  for (int k = 1; k < count; ++k)
-    for (std::size_t lane = 0; lane < lanes; ++lane) at(k)[lane] += pole * at(k - 1)[lane];
-  for (std::size_t lane = 0; lane < lanes; ++lane)
-    at(count - 1)[lane] = pole / (pole * pole - 1) * (at(count - 1)[lane] + pole * at(count - 2)[lane]);
-  for (int k = count - 2; k >= 0; --k)
-    for (std::size_t lane = 0; lane < lanes; ++lane) at(k)[lane] = pole * (at(k + 1)[lane] - at(k)[lane]);
-  for (int k = 0; k < count; ++k)
-    for (std::size_t lane = 0; lane < lanes; ++lane) at(k)[lane] *= 6;
+int mirrored(int k, int last) {
+  while (std::abs(k) > last) k = (k > 0 ? 2 : -2) * last - k;
+  return k;
 }
 
 }  // namespace
@@ -75,11 +51,10 @@ Autocorrelation::Autocorrelation(const Surface& surface)
       half_(2 * lags_x_ + 1, lags_y_ + 1) {
   const Grid& grid = surface.grid();
   const Range r = surface.height_range();
-  if (r.span() == 0)
-    refuse("the autocorrelation of a flat surface was asked for", "it needs heights that differ");
+  if (r.span() == 0) refuse("a flat surface has no autocorrelation", "it needs heights that differ");
   if (grid.nx < 2 || grid.ny < 2)
-    refuse("the autocorrelation of a surface of " + std::to_string(grid.nx) + " x " +
-               std::to_string(grid.ny) + " cells was asked for",
+    refuse("there is no autocorrelation of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+               " cells",
            "it needs at least two cells each way");
   const Field& z = surface.measured_heights();
   const MeasuredValues measured(surface);
@@ -119,49 +94,15 @@ double Autocorrelation::operator()(int i, int j) const {
   return j < 0 ? half_(lags_x_ - i, -j) : half_(lags_x_ + i, j);
 }
 
-// Rows from lag -40 on suffice: farther rows change the spline below rounding.
+// Values are mirrored at the largest lags. A margin keeps the natural ends of the spline away.
 class Autocorrelation::Spline {
  public:
   explicit Spline(const Autocorrelation& f)
-      : below_(std::min(f.lags_y_, 40)),
-        lags_x_(f.lags_x_),
-        lags_y_(f.lags_y_),
-        hx_(f.hx_),
-        hy_(f.hy_),
-        coefficients_(2 * f.lags_x_ + 1, f.lags_y_ + 1 + below_) {
-    for (int j = -below_; j <= lags_y_; ++j)
-      for (int i = -lags_x_; i <= lags_x_; ++i) {
-        const double value = f(i, j);
-        coefficients_(i + lags_x_, j + below_) = std::isnan(value) ? 1 : value;  // no pairs: not fallen
-      }
-    const auto stride = static_cast<std::size_t>(coefficients_.nx());
-    parallel_for(coefficients_.ny(), [&](std::int64_t j) {
-      to_spline(coefficients_.row(static_cast<int>(j)).data(), coefficients_.nx(), 1, 1);
-    });
-    constexpr std::size_t lanes = 64;
-    parallel_for(static_cast<std::int64_t>((stride + lanes - 1) / lanes), [&](std::int64_t turn) {
-      const std::size_t first = static_cast<std::size_t>(turn) * lanes;
-      to_spline(coefficients_.data() + first, coefficients_.ny(), stride, std::min(lanes, stride - first));
-    });
-  }
+      : lags_x_(f.lags_x_), lags_y_(f.lags_y_), hx_(f.hx_), hy_(f.hy_), spline_(with_margins(f)) {}
 
   // At (x, y) in m, y >= 0.
   double operator()(double x, double y) const {
-    const double u = x / hx_ + lags_x_, v = y / hy_ + below_;
-    const int i = std::clamp(static_cast<int>(std::floor(u)), 0, coefficients_.nx() - 1),
-              j = std::clamp(static_cast<int>(std::floor(v)), 0, coefficients_.ny() - 1);
-    double wx[4], wy[4];
-    weights(u - i, wx);
-    weights(v - j, wy);
-    double sum = 0;
-    for (int b = 0; b < 4; ++b) {
-      const std::span<const double> row = coefficients_.row(mirrored(j + b - 1, coefficients_.ny()));
-      double along = 0;
-      for (int a = 0; a < 4; ++a)
-        along += wx[a] * row[static_cast<std::size_t>(mirrored(i + a - 1, coefficients_.nx()))];
-      sum += wy[b] * along;
-    }
-    return sum;
+    return spline_.at(x / hx_ + lags_x_ + margin, y / hy_ + margin).height;
   }
 
   struct Ray {
@@ -194,27 +135,24 @@ class Autocorrelation::Spline {
   }
 
  private:
-  static void weights(double t, double (&w)[4]) {
-    const double s = 1 - t;
-    w[0] = s * s * s / 6;
-    w[1] = (4 - 6 * t * t + 3 * t * t * t) / 6;
-    w[2] = (4 - 6 * s * s + 3 * s * s * s) / 6;
-    w[3] = t * t * t / 6;
-  }
-  static int mirrored(int k, int n) {
-    if (n == 1) return 0;
-    k = std::abs(k);
-    return k < n ? k : 2 * (n - 1) - k;
+  static constexpr int margin = 28;
+  static Field with_margins(const Autocorrelation& f) {
+    Field values(2 * (f.lags_x_ + margin) + 1, f.lags_y_ + 2 * margin + 1);
+    for (int j = 0; j < values.ny(); ++j)
+      for (int i = 0; i < values.nx(); ++i) {
+        const double value = f(mirrored(i - f.lags_x_ - margin, f.lags_x_), mirrored(j - margin, f.lags_y_));
+        values(i, j) = std::isnan(value) ? 1 : value;  // no pairs: not fallen
+      }
+    return values;
   }
 
-  int below_, lags_x_, lags_y_;
+  int lags_x_, lags_y_;
   double hx_, hy_;
-  Field coefficients_;
+  registration::NaturalSpline spline_;
 };
 
 TextureAspect Autocorrelation::texture(double level) const {
-  require(level > 0 && level < 1, "level", level, "",
-          "give what f is to fall to, between 0 and 1; 0.2 is the standard's");
+  require(level > 0 && level < 1, "level", level, "", "give a value between 0 and 1; 0.2 is the standard's");
   const Spline f(*this);
   constexpr int rays = 360;
   const auto angle_of = [](double k) { return k * std::numbers::pi / rays; };
@@ -233,32 +171,17 @@ TextureAspect Autocorrelation::texture(double level) const {
     if (r.fell && (shortest < 0 || r.length < ray[static_cast<std::size_t>(shortest)].length)) shortest = k;
   }
   if (shortest < 0) return result;
-  // Golden-section search between the neighbours of the shortest ray.
-  double low = shortest - 1, high = shortest + 1, best = ray[static_cast<std::size_t>(shortest)].length;
-  double best_place = shortest;
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  const auto length_at = [&](double place) {
-    const double turned = place < 0 ? place + rays : place >= rays ? place - rays : place;
-    const Spline::Ray r = f.ray(angle_of(turned), level);
-    const double length = r.fell ? r.length : INFINITY;
-    if (length < best) best = length, best_place = turned;
-    return length;
+  const auto turned = [](double place) {
+    return place < 0 ? place + rays : place >= rays ? place - rays : place;
   };
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = length_at(left), at_right = length_at(right);
-  while (high - low > 1e-3) {
-    if (at_left < at_right) {
-      high = right, right = left, at_right = at_left;
-      left = high - golden * (high - low);
-      at_left = length_at(left);
-    } else {
-      low = left, left = right, at_left = at_right;
-      right = low + golden * (high - low);
-      at_right = length_at(right);
-    }
-  }
+  const auto ray_at = [&](double place) { return f.ray(angle_of(turned(place)), level); };
+  double best = ray[static_cast<std::size_t>(shortest)].length;
+  constexpr int bits = 20;
+  const double place = boost::math::tools::brent_find_minima([&](double at) { return ray_at(at).length; },
+                                                             shortest - 1.0, shortest + 1.0, bits)
+                           .first;
+  if (const Spline::Ray between = ray_at(place); between.fell) best = std::min(best, between.length);
   result.Sal = best;
-  result.shortest_angle = angle_of(best_place);
   result.resolved = best >= 3 * std::max(hx_, hy_);
   (all_fell ? result.Str : result.Str_bound) = best / longest;
   return result;

@@ -5,8 +5,7 @@
 //
 // Sal is the shortest distance at which f falls to 0.2; Str its ratio to the longest. Rays every half degree
 // follow f on a cubic spline (bilinear: 1 % error below three cells). Unless f falls on every ray, only a
-// bound of Str exists. Isotropic maps of finite size have Str .78 ± .15 (13 correlation lengths) or .95 ± .03
-// (51).
+// bound of Str exists. Isotropic maps: Str .78 ± .15 (13 correlation lengths) or .95 ± .03 (51).
 #pragma once
 
 #include <optional>
@@ -20,11 +19,10 @@ struct TextureAspect {
   std::optional<double> Sal;        // m; empty if f falls on no ray
   std::optional<double> Str;        // 0 … 1; empty if f does not fall on every ray
   std::optional<double> Str_bound;  // upper bound if only Sal exists
-  double shortest_angle = 0;        // rad from x, 0 … π
   bool resolved = true;             // Sal is at least three cells
 };
 
-// Immutable. Memory: seven grids during construction, then one. Thread-safe; same bits for any thread count.
+// Immutable. Memory: seven grids during construction, then one. Thread-safe.
 class Autocorrelation {
  public:
   // Throws Error{bad_value} for equal heights or one node of width.

@@ -56,9 +56,7 @@ class Flood {
       if (parent_[node] == node && height(node) - lowest[node] >= rise && height(node) > lowest[node])
         kept.push_back(node);
     std::erase_if(kept, [this](NodeNumber node) { return at_the_rim(node); });
-    std::sort(kept.begin(), kept.end(), [this](NodeNumber a, NodeNumber b) {
-      return height(a) > height(b) || (height(a) == height(b) && a < b);
-    });
+    sort_downwards(kept);
     return kept;
   }
 
@@ -70,10 +68,14 @@ class Flood {
     order.reserve(z_.size());
     for (std::size_t k = 0; k < z_.size(); ++k)
       if (!std::isnan(z_[k])) order.push_back(static_cast<NodeNumber>(k));
-    std::sort(order.begin(), order.end(), [this](NodeNumber a, NodeNumber b) {
+    sort_downwards(order);
+    return order;
+  }
+
+  void sort_downwards(auto& nodes) const {
+    std::ranges::sort(nodes, [this](NodeNumber a, NodeNumber b) {
       return height(a) > height(b) || (height(a) == height(b) && a < b);
     });
-    return order;
   }
 
   NodeNumber find(NodeNumber node) {
@@ -103,7 +105,7 @@ class Flood {
   std::vector<bool> flooded_;
 };
 
-// Mean distance from the mean of the first five, upwards or (-1) downwards.
+// Mean distance of the first five from the mean, upwards or (-1) downwards.
 std::optional<double> mean_of_five(const Field& z, const std::vector<NodeNumber>& summits, double mean,
                                    double sign) {
   if (summits.size() < 5) return {};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hills and dales, ISO 25178-2: Spd, Spc, S5p, S5v, S10z. Descending flood; at a saddle, the hill with the
-// lower summit ends. A hill counts if its summit is `pruning` · Sz or more above the saddle (Wolf pruning, 5
-// %; unpruned numbers follow noise). Eight neighbours. Summits at rims or holes do not count. Dales: hills of
-// the inverted map.
+// Hills and dales, ISO 25178-2: Spd, Spc, S5p, S5v, S10z. A hill counts if its summit is `pruning` · Sz or
+// more above the saddle (Wolf pruning, 5 %; unpruned numbers follow noise). Eight neighbours. Summits at rims
+// or holes do not count. Dales: hills of the inverted map.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +20,7 @@ struct Hills {
   std::optional<double> S10z;  // S5p + S5v; all three empty with fewer than five
 };
 
-// Cost n log n; about 20 bytes per node and side. Same for any thread count. Throws Error{bad_value} unless
-// `pruning` is in 0 … 1.
+// Cost n log n; about 20 bytes per node and side. Throws Error{bad_value} unless `pruning` is in 0 … 1.
 Hills hills(const Surface& surface, double pruning = 0.05);
 
 }  // namespace asperity

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 
@@ -16,23 +14,19 @@ namespace {
 
 constexpr double window_width = 0.4;
 
-// Fixed runs, merged pairwise: same result for any thread count.
+// Fixed runs, merged pairwise.
 void sort_downwards(std::span<double> values) {
   constexpr std::size_t run = std::size_t{1} << 17;
   const std::size_t n = values.size();
-  const auto runs = static_cast<std::int64_t>((n + run - 1) / run);
-  parallel_for(runs, [&](std::int64_t k) {
-    const std::size_t first = static_cast<std::size_t>(k) * run;
-    std::sort(values.begin() + static_cast<std::ptrdiff_t>(first),
-              values.begin() + static_cast<std::ptrdiff_t>(std::min(n, first + run)), std::greater<>());
+  for_each_block(n, run, [&](std::size_t first, std::size_t last) {
+    std::ranges::sort(values.subspan(first, last - first), std::greater<>());
   });
-  if (runs <= 1) return;
+  if (n <= run) return;
   Array<double> other(n);
   std::span<double> from = values, to = other;
   for (std::size_t width = run; width < n; width *= 2) {
-    parallel_for(static_cast<std::int64_t>((n + 2 * width - 1) / (2 * width)), [&](std::int64_t k) {
-      const std::size_t first = static_cast<std::size_t>(k) * 2 * width;
-      const std::size_t middle = std::min(n, first + width), last = std::min(n, first + 2 * width);
+    for_each_block(n, 2 * width, [&](std::size_t first, std::size_t last) {
+      const std::size_t middle = std::min(n, first + width);
       std::merge(from.data() + first, from.data() + middle, from.data() + middle, from.data() + last,
                  to.data() + first, std::greater<>());
     });

@@ -22,7 +22,7 @@ struct CoreOfCurve {
   double Spk = 0, Svk = 0;    // reduced peak height and dale depth
   double Smr1 = 0, Smr2 = 1;  // ratios at the ends of the line
   double Spkx = 0, Svkx = 0;  // line ends to extreme samples; may be negative
-  double window = 0;          // start of the window; near a knee Sk, Spk and Smr1 depend on it
+  double window = 0;          // start; near a knee Sk, Spk and Smr1 depend on it
 };
 
 struct VolumesOfCurve {

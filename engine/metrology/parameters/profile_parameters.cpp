@@ -32,7 +32,6 @@ struct Mean {
   }
 };
 
-// Extreme of the last `width` samples, ignoring NaN.
 template <class Before>
 class MovingExtreme {
  public:
@@ -130,7 +129,6 @@ SectionedValue over_sections(int sections, const Of& of) {
   return result;
 }
 
-// A trace of form only leaves rounding errors.
 void refuse_rounding(const Profile& trace, std::span<const double> left, const std::string& once) {
   const Range before = trace.height_range();
   const double span = known_range(left).span();
@@ -248,7 +246,7 @@ PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation&
   if (preparation.S && !(*preparation.S < preparation.section))
     refuse("the nesting index `S`, " + metres(*preparation.S) + ", is not below the `section`, " +
                metres(preparation.section),
-           "waves between the two are kept, so `S` must be the smaller");
+           "give a smaller `S` or a longer `section`");
   const double h = trace.spacing(), samples = preparation.section / h;
   if (samples < 10)
     refuse(

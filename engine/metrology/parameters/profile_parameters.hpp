@@ -42,7 +42,7 @@ struct ProfileParameters {
 };
 
 // ISO 21920-3: F subtracts a polynomial, S is the low-pass Nis, L subtracts the low-pass Nic = section
-// length. Half a section at both ends (filter rim) is cut; `sections` from the middle remain.
+// length. Half a section at both ends is cut; `sections` from the middle remain.
 struct ProfilePreparation {
   std::optional<int> F;
   std::optional<double> S;  // m

@@ -38,7 +38,7 @@ Field band_passed(const HeightMap& map, double long_sigma) {
   return band;
 }
 
-// Turns the map about its centre, bilinearly, to centre (cx, cy); zeros outside.
+// Turns about the map's centre, bilinearly, to centre (cx, cy); zeros outside.
 void turn_into(const Field& band, double angle, double cx, double cy, Field& out) {
   const auto [sine, cosine] = elementary::sincos(angle);
   const int nx = band.nx(), ny = band.ny();
@@ -150,7 +150,6 @@ std::vector<double> angles(const CoarseOptions& options) {
 
 std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMap& after,
                                          const CoarseOptions& options, Monitor& monitor) {
-  // Narrow maps show only the mean of long waves.
   const int narrowest = std::min({before.nx(), before.ny(), after.nx(), after.ny()});
   const double long_sigma = std::clamp(narrowest / 6.0, least_long_sigma, greatest_long_sigma);
   const Field before_band = band_passed(before, long_sigma), after_band = band_passed(after, long_sigma);

@@ -27,8 +27,7 @@ struct Candidate {
   double peak = 0;  // in root mean squares of the correlation
 };
 
-// By falling peak, separated by more than a peak's width. Square cells of one spacing. Cost: two transforms
-// per angle, two padded maps per thread; same bits for any thread count.
+// By falling peak. Square cells of one spacing. Cost: two transforms per angle, two padded maps per thread.
 std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMap& after,
                                          const CoarseOptions& options, Monitor& monitor);
 

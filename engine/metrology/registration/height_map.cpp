@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 
 namespace asperity::registration {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps for registration: heights minus their plane, in units of roughness, about the centre, NaN in holes;
-// also coarsened or smoothed. Smoothing renormalises over measured nodes, which biases heights near holes and
-// rims; use nodes with `share` near 1.
+// Heights minus their plane, in units of roughness, about the centre, NaN in holes. Smoothing renormalises
+// over measured nodes, which biases heights near holes and rims; use nodes with `share` near 1.
 #pragma once
 
 #include <array>
@@ -29,7 +28,7 @@ struct Plane {
   double height = 0, slope_x = 0, slope_y = 0;
 };
 
-// Subtracts the least-squares plane and returns it in `plane`.
+// Returns the subtracted plane in `plane`.
 HeightMap levelled_map(const Surface& surface, double cell, Plane& plane);
 
 double rms_height(const HeightMap& map);

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <vector>
 
-#include "engine/core/parallel.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity::registration {
 
@@ -37,24 +36,22 @@ NaturalSpline::NaturalSpline(const Field& heights) : coefficients_(heights.nx() 
   Field& c = coefficients_;
   const int nx = heights.nx(), ny = heights.ny();
   const std::vector<double> in_row = pivots(nx), in_column = pivots(ny);
-  parallel_for((ny + 15) / 16, [&](std::int64_t turn) {
-    for (int j = static_cast<int>(turn) * 16; j < std::min(ny, static_cast<int>(turn + 1) * 16); ++j) {
-      double* line = c.row(j + 1).data() + 1;
-      std::copy(heights.row(j).begin(), heights.row(j).end(), line);
-      double before = line[0];
-      for (int i = 1; i < nx - 1; ++i) {
-        const double end = i == nx - 2 ? line[nx - 1] : 0;
-        line[i] = before = (6 * line[i] - before - end) * in_row[static_cast<std::size_t>(i - 1)];
-      }
-      for (int i = nx - 3; i >= 1; --i) line[i] -= in_row[static_cast<std::size_t>(i - 1)] * line[i + 1];
-      line[-1] = 2 * line[0] - line[1];
-      line[nx] = 2 * line[nx - 1] - line[nx - 2];
+  for_each_row(ny, [&](int j) {
+    double* line = c.row(j + 1).data() + 1;
+    std::copy(heights.row(j).begin(), heights.row(j).end(), line);
+    double before = line[0];
+    for (int i = 1; i < nx - 1; ++i) {
+      const double end = i == nx - 2 ? line[nx - 1] : 0;
+      line[i] = before = (6 * line[i] - before - end) * in_row[static_cast<std::size_t>(i - 1)];
     }
+    for (int i = nx - 3; i >= 1; --i) line[i] -= in_row[static_cast<std::size_t>(i - 1)] * line[i + 1];
+    line[-1] = 2 * line[0] - line[1];
+    line[nx] = 2 * line[nx - 1] - line[nx - 2];
   });
   // Blocks of columns stay in the cache.
-  constexpr int columns = 64;
-  parallel_for((nx + 2 + columns - 1) / columns, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * columns, last = std::min(nx + 2, first + columns);
+  constexpr std::size_t columns = 64;
+  for_each_block(static_cast<std::size_t>(nx + 2), columns, [&](std::size_t begin, std::size_t end_column) {
+    const int first = static_cast<int>(begin), last = static_cast<int>(end_column);
     for (int j = 1; j < ny - 1; ++j) {
       const double pivot = in_column[static_cast<std::size_t>(j - 1)];
       const double* before = c.row(j).data();

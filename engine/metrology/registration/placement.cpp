@@ -26,7 +26,7 @@ constexpr double gaussian_reach = 3;  // standard deviations
 // A second placement is as good below this multiple of the best's unexplained variance.
 constexpr double clearly_worse = 1.5, least_difference = 5e-4;
 
-// Required measured share of the Gaussian; lower if scattered holes would exclude most nodes.
+// Required measured share; lower if scattered holes would exclude most nodes.
 double share_that_counts(const SmoothMap& before, const SmoothMap& after, const HeightMap& before_raw,
                          const HeightMap& after_raw) {
   const auto counting = [](const SmoothMap& map, const HeightMap& raw, double share) {
@@ -58,8 +58,8 @@ bool elsewhere(const Pose& a, const Pose& b, double way, double turn) {
          std::abs(std::remainder(a.turn - b.turn, 2 * std::numbers::pi)) > turn;
 }
 
-// Refines candidates, then shifts the best both ways along its weakest direction. On ridges or spheres the
-// shifted placement fits as well. Its pose stays fixed: refinement would follow rim and noise.
+// Refines candidates, then shifts the best both ways along its weakest direction: on ridges or spheres this
+// fits as well. The shifted pose stays fixed: refinement would follow rim and noise.
 Judged judged(const HeightMap& before, const HeightMap& after, const std::vector<Candidate>& candidates,
               const CoarseOptions& search, Monitor& monitor) {
   const double spacing = before.hx;
@@ -80,11 +80,11 @@ Judged judged(const HeightMap& before, const HeightMap& after, const std::vector
     task.advance();
   }
   if (found.empty() && !relief)
-    refuse("the ground has no features across one direction: nothing tells where the after-map lies along it",
-           "measure ground with features of its own in every direction");
+    refuse("the surface has no features along one direction, so the after-map has no definite place",
+           "measure a place with features in every direction");
   if (found.empty())
-    refuse("no placement of the after-map leaves enough of the two maps on top of each other",
-           "measure more of the same ground, or search more angles and longer shifts (`angle`, `at_most`)");
+    refuse("no placement of the after-map makes the two maps overlap enough",
+           "measure more of the same place, or search more angles and longer shifts (`angle`, `at_most`)");
   const auto best = std::max_element(found.begin(), found.end(), [](const Refined& a, const Refined& b) {
     return a.explained < b.explained;
   });
@@ -114,23 +114,23 @@ void refuse_what_is_not_decided(const Refined& found, const Judged& coarse) {
   if (found.explained < least_explained || coarse.best.explained < least_explained)
     refuse("the best placement explains " +
                percent_of(std::max(0.0, std::min(found.explained, coarse.best.explained))) +
-               " of the heights: the maps do not show the same ground, or it is worn too far",
+               " of the heights: the maps show different places, or too much wear",
            "search more angles and longer shifts (`angle`, `at_most`), or take maps of one specimen");
   const double as_good = std::max(clearly_worse * (1 - coarse.best.explained), least_difference);
   const double other = std::max(coarse.moved, coarse.second);
   if (coarse.best.explained < firmly_explained && 1 - other < as_good)
     refuse("no placement stands out: the best explains " + percent_of(coarse.best.explained) +
                " of the heights, another one " + percent_of(other),
-           "take maps that show more of the same ground, or search more angles and longer shifts");
+           "take maps that show more of the same place, or search more angles and longer shifts");
   if (1 - coarse.moved < as_good)
     refuse(
-        "a few cells further the after-map lies as well: the ground has no features along one direction, or "
+        "the after-map fits a few cells away as well: the surface has no features along one direction, or "
         "looks the same when it is turned",
-        "measure ground with features of its own in every direction");
+        "measure a place with features in every direction");
   if (1 - coarse.second < as_good)
     refuse("another placement explains the heights as well (" + percent_of(coarse.second) + ", the best " +
-               percent_of(coarse.best.explained) + "): the ground repeats itself",
-           "narrow the search with `angle` and `at_most`, or measure ground with features of its own");
+               percent_of(coarse.best.explained) + "): the surface repeats itself",
+           "narrow the search with `angle` and `at_most`, or measure a place with distinct features");
 }
 
 // Smoothed heights need few samples.
@@ -145,7 +145,7 @@ std::string extent_of(const HeightMap& map, double cell) {
   return metres((map.extent_x() + map.hx) * cell) + " x " + metres((map.extent_y() + map.hy) * cell);
 }
 
-// Coarse maps: twice the cells, about 256² nodes; more for small or narrow maps.
+// Coarse maps: about 256² nodes; more for small or narrow maps.
 double coarse_spacing(const HeightMap& before, const HeightMap& after, double widest) {
   const double longest = std::max({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
   const double shortest =
@@ -182,10 +182,9 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   const int fewest = std::min({coarse_after.nx(), coarse_after.ny(), coarse_before.nx(), coarse_before.ny()});
   const double ratio = std::max(after.hx, after.hy) / std::max(before.hx, before.hy);
   if (fewest < least_coarse_cells && spacing <= 2 * widest && ratio < 2 && ratio > 0.5)
-    refuse("the maps are looked over in steps of " + metres(spacing * limits.cell) +
+    refuse("the search moves the maps in steps of " + metres(spacing * limits.cell) +
                ", twice their longest cell, and " + std::to_string(fewest) +
-               " of these along a side, under " + std::to_string(least_coarse_cells) +
-               ", do not tell a place",
+               " steps along a side are fewer than " + std::to_string(least_coarse_cells),
            "give the maps square cells with `resampled`, or measure on more cells");
   if (fewest < least_coarse_cells || known_count(coarse_after.heights.values()) == 0 ||
       known_count(coarse_before.heights.values()) == 0)
@@ -214,12 +213,12 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   if (!found.possible)
     refuse("the best placement leaves " + percent_of(found.overlap) +
                " of the smaller map on the other, or no relief there",
-           "measure more of the same ground");
+           "measure more of the same place");
   refuse_what_is_not_decided(found, coarse);
   PoseUncertainty u = jackknifed(maps, found, options);
   if (!u.possible)
-    refuse("too little of the maps overlaps to say how sure the placement is",
-           "measure more of the same ground");
+    refuse("the overlap of the maps is too small to estimate the uncertainty of the placement",
+           "measure more of the same place");
   // Chance can explain few features; then the tiles disagree.
   const double radius = 0.5 * std::max(after.extent_x(), after.extent_y());
   const double loose = std::max({u.pose.x, u.pose.y, u.pose.turn * radius});
@@ -227,7 +226,7 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
     refuse("the best placement explains " + percent_of(found.explained) +
                " of the heights, and the parts of the map disagree by " + metres(loose * limits.cell) +
                " about it",
-           "measure more ground with features of its own, or narrow the search with `angle` and `at_most`");
+           "measure a larger place with distinct features, or narrow the search with `angle` and `at_most`");
   const UnwornPlane unworn = plane_of_unworn_ground(maps, found, gaussian_reach * widest, options);
   if (unworn.possible) {
     found.plane = unworn.plane;

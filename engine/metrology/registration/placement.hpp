@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Refines candidates on coarse maps, selects by explained variance, then refines on finer maps. Refuses
-// unexplained heights, equally good alternatives, and surfaces that allow sliding or turning.
+// Refines candidates on coarse maps, selects by explained variance, then refines on finer maps.
 #pragma once
 
 #include "engine/core/monitor.hpp"
@@ -23,7 +22,8 @@ struct Placement {
   double second_best = 0;  // explained by the best placement elsewhere
 };
 
-// Maps of similar roughness, any height unit. Throws Error{bad_value} if undecided.
+// Maps of similar roughness, any height unit. Throws Error{bad_value} for unexplained heights, equally good
+// alternatives, and surfaces that allow sliding or turning.
 Placement find_placement(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits,
                          Monitor& monitor);
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over rows in fixed order: same bits for any thread count. Each row keeps four tiles apart.
+// Each row keeps four tiles apart.
 #include "engine/metrology/registration/refinement.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/statistics/least_squares.hpp"
 
 namespace asperity::registration {
 
@@ -177,7 +176,7 @@ class Problem {
     return 1.4826 * upper_median(sorted_);
   }
 
-  // Middle of the shortest interval of two fifths of the residuals: the unworn level.
+  // Middle of the shortest interval of two fifths of the residuals.
   double mode() {
     sorted_.clear();
     for (const Sample& s : samples_)
@@ -217,7 +216,6 @@ class Problem {
             to.curvature.entries[k] += curved * j[b];
           }
         }
-        // Either map's heights would do.
         const double height = after.heights(column * stride_, row * stride_);
         to.weight += weight;
         to.squares += weight * s.residual * s.residual;
@@ -314,7 +312,7 @@ Refined refined(const MapPair& maps, const Pose& start, const RefinementOptions&
   return found;
 }
 
-// Smallest eigenvector of the Schur complement of shift and turn (plane eliminated), by Jacobi rotations.
+// Smallest eigenvector of the Schur complement of shift and turn (plane eliminated): its last singular one.
 Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementOptions& options,
                     double length) {
   Problem problem(maps, options.stride);
@@ -330,32 +328,10 @@ Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementO
       for (std::size_t j = 0; j < p; ++j) m[i][j] -= share * m[p][j];
     }
   }
-  std::array<std::array<double, 3>, 3> v{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  for (int sweep = 0; sweep < 12; ++sweep)
-    for (std::size_t p = 0; p < 2; ++p)
-      for (std::size_t q = p + 1; q < 3; ++q) {
-        if (m[p][q] == 0) continue;
-        const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double a = m[k][p], b = m[k][q];
-          m[k][p] = c * a - s * b;
-          m[k][q] = s * a + c * b;
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double a = m[p][k], b = m[q][k];
-          m[p][k] = c * a - s * b;
-          m[q][k] = s * a + c * b;
-          const double d = v[k][p], e = v[k][q];
-          v[k][p] = c * d - s * e;
-          v[k][q] = s * d + c * e;
-        }
-      }
-  std::size_t least = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (m[k][k] < m[least][least]) least = k;
-  return {length * v[0][least], length * v[1][least], length * v[2][least] / problem.radius()};
+  TableColumns complement(3);
+  for (std::size_t k = 0; k < 3; ++k) complement[k].assign(m[k].begin(), m[k].begin() + 3);
+  const std::vector<double> weakest = singular_values(complement).v.back();
+  return {length * weakest[0], length * weakest[1], length * weakest[2] / problem.radius()};
 }
 
 namespace {

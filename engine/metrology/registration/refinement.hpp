@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Robust Gauss-Newton on shift, turn and plane between after-map and before-map's spline. Tukey's biweight
 // (Beaton & Tukey 1974) is scaled by positive residuals only: wear removes height. Standard uncertainties use
-// a jackknife over 4 x 4 tiles: residuals are correlated, so formal errors are several times too small.
+// a jackknife over 4 x 4 tiles, because residuals are correlated.
 #pragma once
 
 #include "engine/metrology/registration/height_map.hpp"
@@ -64,7 +64,7 @@ Refined refined(const MapPair& maps, const Pose& start, const RefinementOptions&
 Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementOptions& options,
                     double length);
 
-// Standard uncertainties; impossible with fewer than 4 tiles with samples.
+// Impossible with fewer than 4 tiles with samples.
 struct PoseUncertainty {
   bool possible = false;
   Pose pose;

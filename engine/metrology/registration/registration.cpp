@@ -3,20 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/metrology/registration/placement.hpp"
 #include "engine/surface/operations/holes.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -36,11 +35,11 @@ Prepared prepared(const Surface& surface, const char* which, double cell) {
            "measure on more cells");
   Prepared result;
   result.map = levelled_map(surface, cell, result.plane);
-  // Below the rounding error of a plane, no relief remains.
+  // Below the rounding error, no relief remains.
   const double rounding =
       1e-13 * std::max(std::abs(surface.height_range().min), std::abs(surface.height_range().max));
   if (!(rms_height(result.map) > rounding))
-    refuse(std::string(which) + " is flat but for its tilt: nothing tells where it lies",
+    refuse(std::string(which) + " is flat except for its tilt, so it has no definite place",
            "register a rough surface");
   return result;
 }
@@ -83,10 +82,7 @@ Field laid_on(const HeightMap& after, const HeightMap& before, const Pose& pose,
           levelled * unit + before_plane.height + before_plane.slope_x * at_x + before_plane.slope_y * at_y;
     }
   };
-  parallel_for((before.ny() + 7) / 8, [&](std::int64_t turn) {
-    for (int j = static_cast<int>(turn) * 8; j < std::min(before.ny(), static_cast<int>(turn + 1) * 8); ++j)
-      row(j);
-  });
+  for_each_row(before.ny(), row);
   return result;
 }
 
@@ -111,7 +107,7 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   const double ratio = rms_height(from_map) / rms_height(onto_map);
   if (ratio > no_wear || ratio < 1 / no_wear)
     refuse("the heights of the after-map are " + format_short(ratio, 3) + " times those of the before-map",
-           "take two maps of one specimen, and look at the units of both");
+           "take two maps of one specimen, and check the units of both");
 
   const double at_most = options.at_most.value_or(std::numeric_limits<double>::infinity());
   const Placement placement = find_placement(without_spikes(onto.map), without_spikes(from.map),
@@ -124,9 +120,7 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   std::size_t both = 0;
   for (std::size_t k = 0; k < heights.size(); ++k)
     both += !std::isnan(heights[k]) && !std::isnan(onto.map.heights[k]) ? 1 : 0;
-  SurfaceTraits traits;
-  traits.material = after.material();
-  Registration result{Surface::with_holes(before.grid(), std::move(heights), std::move(traits))};
+  Registration result{Surface::with_holes(before.grid(), std::move(heights), {.material = after.material()})};
 
   const Grid &a = after.grid(), &b = before.grid();
   result.shift_x = found.pose.x * cell + 0.5 * ((b.nx - 1) * b.hx() - (a.nx - 1) * a.hx());

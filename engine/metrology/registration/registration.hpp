@@ -4,13 +4,11 @@
 //   z_after(q) = z_before(p) + lift + tilt·(p − p0),   p = R(angle) (q − c) + c + shift,   p0 = c + shift
 //
 // c: centre of the after-map's nodes; node (0, 0) of both maps: origin. The after-map turns counter-clockwise
-// about its centre, then shifts, unstretched. Coarse search over angles (registration/coarse_search.hpp),
-// then robust Gauss-Newton (registration/refinement.hpp).
+// about its centre, then shifts, unstretched.
 #pragma once
 
 #include <optional>
 
-#include "engine/core/constants.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/surface/surface.hpp"
 
@@ -21,7 +19,7 @@ struct RegistrationOptions {
   std::optional<double> at_most;     // m
 };
 
-// Standard uncertainties; jackknife over 4 x 4 tiles.
+// Standard uncertainties (jackknife).
 struct RegistrationUncertainty {
   double shift_x = 0, shift_y = 0;  // m
   double angle = 0;                 // rad
@@ -46,9 +44,9 @@ struct Registration {
 };
 
 // Cells and sizes may differ. Cost: two transforms of about 512² per angle (360, or at most 15 within 5
-// degrees), then passes over nodes. Memory: about 130 bytes per node. Same bits for any thread count. Throws
-// Error{bad_value} for options out of range, flat maps, under 32 nodes along a side, little overlap, and
-// unexplained or ambiguous heights (repeating, ridges, a sphere).
+// degrees), then passes over nodes. Memory: about 130 bytes per node. Throws Error{bad_value} for options out
+// of range, flat maps, under 32 nodes along a side, little overlap, and unexplained or ambiguous heights
+// (repeating, ridges, a sphere).
 Registration registered(const Surface& after, const Surface& before, const RegistrationOptions& options = {},
                         Monitor& monitor = Monitor::silent());
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closed-form reference solutions in SI units. Functions that return a contact throw Error{bad_value} if a
-// result leaves the range of a double.
+// Closed-form reference solutions in SI units. Functions that return a contact throw Error{bad_value} for a
+// result outside the range of a double.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace asperity::exact {
 
-// --- box_paraboloid.cpp
+// --- paraboloid on a Winkler foundation
 
 struct BoxParaboloid {
   double load = 0;      // N
@@ -24,7 +24,7 @@ struct BoxParaboloid {
 BoxParaboloid box_paraboloid_under_load(double radius, double stiffness, double load);
 BoxParaboloid box_paraboloid_at_approach(double radius, double stiffness, double approach);
 
-// --- hertz.cpp
+// --- Hertz
 
 struct Hertz {
   double load = 0;            // N
@@ -44,21 +44,21 @@ Hertz hertz_at_approach(double radius, double modulus, double approach);
 // cap).
 double friction(const Hertz& contact, double tau0, double alpha, double tau_max);
 
-// --- persson.cpp
+// --- Persson
 
 struct PerssonArea {
-  double elastic = 0;  // area fraction below the hardness
-  double capped = 0;   // area fraction at the hardness
+  double elastic = 0;  // fraction below hardness
+  double capped = 0;   // fraction at hardness
 };
 
 // `modulus` E*, `pressure` p̄ and `hardness` H in Pa, all > 0. Infinite H: elastic = erf(√2 p̄/(E* h')) with
 // `rms_slope` h'; otherwise the sine series to the last bit. Throws Error{infeasible} for p̄ ≥ H.
 PerssonArea persson_area(double modulus, double rms_slope, double pressure, double hardness);
 
-// --- wavy.cpp
+// --- wavy half-spaces
 
 struct WavyContact {
-  double full_pressure = 0;    // Pa, mean pressure at full contact
+  double full_pressure = 0;    // Pa, at full contact
   double area_fraction = 0;    // 0 … 1
   double peak_pressure = 0;    // Pa
   double mean_gap = 0;         // m, over the tile
@@ -71,7 +71,7 @@ struct WavyContact {
 WavyContact one_wave(double amplitude, double wavelength, double modulus, double pressure);
 WavyContact crossed_waves(double amplitude, double wavelength, double modulus, double pressure);
 
-// --- weierstrass_mandelbrot_height.cpp
+// --- Weierstrass–Mandelbrot height
 
 // Height of node (i, j) in m; ignores `ny`, `band`, `phase_function` and `material`. O(M n_max) cosines.
 // Throws Error{bad_value} for phases given as a function.

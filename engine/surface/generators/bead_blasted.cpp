@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dents use unwrapped coordinates, so rims and small tiles are no special cases.
+// Dents use unwrapped coordinates: no special cases at rims.
 #include "engine/surface/generators/bead_blasted.hpp"
 
 #include <algorithm>
@@ -12,12 +12,11 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -45,7 +44,7 @@ Grid check(const BeadBlastedOptions& o) {
   if (o.dent_high > 0.5 * o.bead_low)
     refuse("`dent` allows a radius of " + metres(o.dent_high) + ", and `bead` a bead of radius " +
                metres(0.5 * o.bead_low),
-           "a dent is no wider than its bead: `dent` are radii and `bead` diameters");
+           "give smaller radii as `dent`, or larger diameters as `bead`");
   const double cell = std::max(grid.hx(), grid.hy());
   if (cell > o.dent_low)
     refuse("a cell of " + metres(cell) + " is longer than the radius of the smallest dent, " +
@@ -106,7 +105,7 @@ class Ground {
   Field take() && { return std::move(heights_); }
 
  private:
-  // Sums both results of act(height, r²) within radii · radius of the centre, by rows, then over the rows.
+  // Sums act(height, r²) within radii · radius of the centre, by rows, then over the rows.
   template <class Act>
   std::array<double, 2> visit(const Dent& dent, double radii, const Act& act) {
     const double hx = grid_.hx(), hy = grid_.hy(), far = radii * dent.radius;
@@ -120,9 +119,9 @@ class Ground {
       const double half = std::sqrt(std::max(far * far - y * y, 0.0));
       const auto from = static_cast<std::int64_t>(std::ceil((dent.x - half) / hx));
       const auto to = static_cast<std::int64_t>(std::floor((dent.x + half) / hx));
-      const std::span<double> row = heights_.row(wrapped(first + k, grid_.ny));
+      const std::span<double> row = heights_.row(wrapped_index(first + k, grid_.ny));
       std::array<double, 2> sum{};
-      int i = wrapped(from, grid_.nx);
+      int i = wrapped_index(from, grid_.nx);
       for (std::int64_t at = from; at <= to; ++at) {
         const double x = static_cast<double>(at) * hx - dent.x;
         const std::array<double, 2> term = act(row[static_cast<std::size_t>(i)], x * x + y * y);
@@ -132,14 +131,10 @@ class Ground {
       }
       sums_[static_cast<std::size_t>(k)] = sum;
     };
-    // Parallel only with enough work, and if no row occurs twice.
+    // Parallel only with enough work and without repeated rows.
     constexpr double worth_sharing = 1 << 16;
     if (rows <= grid_.ny && static_cast<double>(rows) * far / hx > worth_sharing) {
-      constexpr std::int64_t rows_a_block = 32;
-      parallel_for((rows + rows_a_block - 1) / rows_a_block, [&](std::int64_t block) {
-        const std::int64_t end = std::min(rows, (block + 1) * rows_a_block);
-        for (std::int64_t k = block * rows_a_block; k < end; ++k) one_row(k);
-      });
+      for_each_row<32>(static_cast<int>(rows), one_row);
     } else {
       for (std::int64_t k = 0; k < rows; ++k) one_row(k);
     }
@@ -149,11 +144,6 @@ class Ground {
       total[1] += sum[1];
     }
     return total;
-  }
-
-  static int wrapped(std::int64_t k, int n) {
-    const std::int64_t rest = k % n;
-    return static_cast<int>(rest < 0 ? rest + n : rest);
   }
 
   Grid grid_;
@@ -183,7 +173,6 @@ Scale scale_to(Field& heights, double ra) {
   return {average, ra / now};
 }
 
-// Errors of `use` name the texture.
 template <class Use>
 auto with_texture(const BeadBlastedOptions& o, const Grid& grid, const Use& use) {
   SelfAffineOptions fine;
@@ -229,7 +218,6 @@ struct Decided {
 
 Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monitor& monitor) {
   const Grid grid = check(options);
-  // Refuses an invalid texture before the dents.
   std::optional<Surface> fine;
   if (options.fine)
     fine = decided != nullptr ? (*decided->fine)(grid.nx, grid.ny, monitor)
@@ -250,9 +238,7 @@ Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monit
     else
       now.of_all = scale_to(heights, options.ra);
   }
-  SurfaceTraits traits;
-  traits.periodic = true;
-  Surface surface(grid, std::move(heights), std::move(traits));
+  Surface surface(grid, std::move(heights), {.periodic = true});
   if (decided != nullptr) return surface;
   if (fine) now.fine = fine->recipe();
   return surface.made_by([options, now](int nx, int ny, Monitor& watching) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bead-blasted surface, after the specimens of Hanaor, Gan & Einav (2013; aluminium, glass beads of 250–300
-// µm): random dents in sequence, plus a fine self-affine texture. A dent of radius a from a bead of radius
-// R has the floor
+// Bead-blasted surface, after Hanaor, Gan & Einav (2013): random dents in sequence, plus a fine self-affine
+// texture. A dent of radius a from a bead of radius R has the floor
 //
 //   z(r) = mean of the surface within a + (r² - a²)/2R    where lower and r² < 2.2 a²
 //
-// Half of the removed volume forms a Gaussian rim, exp(-((r - 1.15a)/0.2a)²). A possible step at r² = 2.2
-// a² makes node slopes grow with the number of cells; Ra does not. Not modelled: bead speed, hardening,
-// oblique impact.
+// Half of the removed volume forms a Gaussian rim, exp(-((r - 1.15a)/0.2a)²). A possible step at r² = 2.2 a²
+// makes node slopes grow with the number of cells. Not modelled: bead speed, hardening, oblique impact.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +39,10 @@ inline constexpr double most_dents = 1e7;
 double dent_count(const BeadBlastedOptions& options);
 
 // Periodic. Ra is exact on the nodes; the mean is zero. Dent k depends only on seed and k: a finer grid
-// resolves the same surface, up to the sampling error of sums over nodes. The recipe reuses the scales of
-// the first grid. Cost: about 25 node visits per node and unit of coverage / 4, plus one self-affine
-// surface; two fields. Same bits for any number of threads. Throws Error{bad_value} naming an option out of
-// range, for a dent wider than its bead, and for cells longer than the smallest dent's radius.
+// resolves the same surface, up to the sampling error of sums over nodes. The recipe reuses the scales of the
+// first grid. About 6 · coverage visits per node, plus one self-affine surface; two fields. Throws
+// Error{bad_value} naming an option out of range, for a dent wider than its bead, and for cells longer than
+// the smallest dent's radius.
 Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor = Monitor::silent());
 
 // Throws as bead_blasted_surface().

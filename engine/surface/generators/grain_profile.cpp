@@ -10,7 +10,6 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -21,8 +20,7 @@ constexpr int most_points = 1 << 24;
 
 void check(const GrainProfileOptions& o) {
   require_positive("radius", o.radius, "", "give a finite length above zero");
-  require(o.D > 1 && o.D < 2, "D", o.D, "",
-          "the dimension of an outline lies between 1 and 2, ends excluded");
+  require(o.D > 1 && o.D < 2, "D", o.D, "", "give a dimension between 1 and 2, both excluded");
   require(o.amplitude >= 0 && o.amplitude < 1, "amplitude", o.amplitude, "",
           "give a fraction of the radius, from 0 to below 1");
   require(o.points >= fewest_points && o.points <= most_points, "points", o.points, "",

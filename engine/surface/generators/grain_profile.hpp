@@ -2,8 +2,7 @@
 // Outline of a quasi-spherical fractal grain, Fig. 1 of Hanaor, Gan & Einav (2013):
 //   r(t) = R[1 + ε(2(w - min w)/(max w - min w) - 1)], t = 2πi/K,
 //   w(t) = Σ_n γ^((D-2)n) [cos φ_n - cos(k_n t + φ_n)], a Weierstrass sum, k_n = floor(3γⁿ + 1/2) < K/2.
-// At k_n = K/2 the sampled variance would depend on the phase. A repeated k_n (γ below about 1.3) is
-// skipped.
+// A repeated k_n (γ below about 1.3) is skipped.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +35,7 @@ Profile grain_profile(const GrainProfileOptions& options, Monitor& monitor = Mon
 
 // The terms of w.
 std::vector<GrainTerm> grain_terms(const GrainProfileOptions& options);
-// w at every point; the heights are w · 2εR/(max w - min w), less a constant.
+// w at every point; heights are w · 2εR/(max w - min w), less a constant.
 Array<double> grain_outline(const GrainProfileOptions& options, Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reuses heights from the run's store if they took over a second; faster results are cheaper than a file.
+// Reuses heights from the run's store if they took over a second.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct MadeHeights {
   double scale = 1;  // a number from the generator
 };
 
-// `key` covers all inputs; called only with a store.
+// `key`: all inputs; called only with a store.
 MadeHeights recall_or_make(std::string_view generator, const std::function<std::string()>& key,
                            Monitor& monitor, const std::function<MadeHeights()>& make);
 

@@ -8,10 +8,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -53,9 +50,9 @@ Array<double> wave(int n, Waves waves) {
 void check_resolved(double wavelength, double cell, const char* direction) {
   constexpr double rounding = 1e-12;
   if (wavelength >= 2 * cell * (1 - rounding)) return;
-  refuse("`wavelength` is " + format_quantity(wavelength, dimension::length) + ", under two cells of " +
-             format_quantity(cell, dimension::length) + " along " + direction,
-         "give at least " + format_quantity(2 * cell, dimension::length) + ", or more `cells`");
+  refuse("`wavelength` is " + metres(wavelength) + ", under two cells of " + metres(cell) + " along " +
+             direction,
+         "give at least " + metres(2 * cell) + ", or more `cells`");
 }
 
 }  // namespace
@@ -89,11 +86,9 @@ Surface sine_surface(const SineOptions& options, Monitor&) {
   Field heights(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) heights(i, j) = options.amplitude * (factors.x[i] * factors.y[j]);
-  SurfaceTraits traits;
-  traits.periodic = factors.periodic;
   SineOptions same = options;
   same.wavelength = factors.wavelength;
-  return Surface(grid, std::move(heights), std::move(traits))
+  return Surface(grid, std::move(heights), {.periodic = factors.periodic})
       .made_by([same](int nx, int ny, Monitor& monitor) {
         SineOptions on_other_cells = same;
         on_other_cells.grid.nx = nx;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// z = A cos(2πx/λ), or z = A cos(2πx/λ) cos(2πy/λ); crest at node (0, 0). Contact has known solutions:
-// Westergaard (1939); Johnson, Greenwood and Higginson (1985).
+// z = A cos(2πx/λ), or z = A cos(2πx/λ) cos(2πy/λ); crest at node (0, 0). Contact: Westergaard (1939);
+// Johnson, Greenwood and Higginson (1985).
 #pragma once
 
 #include <optional>
@@ -25,9 +25,8 @@ struct SineFactors {
 };
 SineFactors sine_factors(const SineOptions& options);
 
-// With whole wavelengths (to 1e-12), phases are exact, and the surface is periodic and mirror-symmetric to
-// the bit. O(nodes), nx + ny cosines. Throws Error{bad_value} naming `amplitude`, `directions`, or
-// `wavelength` below two cells.
+// With whole wavelengths (to 1e-12), the surface is periodic and mirror-symmetric to the bit. O(nodes).
+// Throws Error{bad_value} naming `amplitude`, `directions`, or `wavelength` below two cells.
 Surface sine_surface(const SineOptions& options, Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

@@ -6,12 +6,17 @@
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
+
+Surface flat_surface(const FlatOptions& options, Monitor&) {
+  const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
+  return Surface(grid, Field(grid.nx, grid.ny), {.periodic = true})
+      .made_by([grid](int nx, int ny, Monitor& monitor) {
+        return flat_surface({Grid{nx, ny, grid.size_x, grid.size_y}}, monitor);
+      });
+}
 
 namespace {
 
@@ -37,8 +42,8 @@ void require_makeable(const SphereOptions& options) {
   const double corner = elementary::hypot(grid.nx / 2 * grid.hx(), grid.ny / 2 * grid.hy());
   constexpr double rounding = 1e-12;
   if (options.shape == SphereShape::sphere && corner > radius * (1 + rounding))
-    refuse("`radius` is " + format_quantity(radius, dimension::length) + ", but the corner of the grid is " +
-               format_quantity(corner, dimension::length) + " from the apex",
+    refuse("`radius` is " + metres(radius) + ", but the corner of the grid is " + metres(corner) +
+               " from the apex",
            "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
 }
 

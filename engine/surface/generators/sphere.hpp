@@ -8,6 +8,14 @@
 
 namespace asperity {
 
+// Height 0 at every node.
+struct FlatOptions {
+  Grid grid;
+};
+
+// Periodic. O(nodes). Throws Error{bad_value} naming `cells` or `size`.
+Surface flat_surface(const FlatOptions& options, Monitor& monitor = Monitor::silent());
+
 enum class SphereShape { sphere, paraboloid };
 
 struct SphereOptions {
@@ -16,8 +24,8 @@ struct SphereOptions {
   SphereShape shape = SphereShape::sphere;
 };
 
-// Not periodic. The recipe keeps the position of the apex, possibly between nodes. O(nodes). Throws
-// Error{bad_value} naming a non-positive `radius`, or one too small for the farthest corner (sphere).
+// The recipe keeps the apex, possibly between nodes. O(nodes). Throws Error{bad_value} for a non-positive
+// `radius`, or one too small for the corners (sphere).
 Surface sphere_surface(const SphereOptions& options, Monitor& monitor = Monitor::silent());
 
 // Throws as sphere_surface().

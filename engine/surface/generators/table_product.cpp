@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/generators/table_product.hpp"
 
-// Keeps the linker from merging these functions with Eigen's from other sources.
+// Keeps the linker from merging these functions with Eigen's elsewhere.
 #define Eigen asperity_eigen
 // GCC 12 misreads undefined registers of its own AVX-512 header (GCC bug 105593).
 #if defined(__GNUC__) && !defined(__clang__)
@@ -25,7 +25,7 @@ namespace asperity::table_product {
 
 namespace {
 
-// Shorter than Eigen's choice for a first cache of 32 KiB.
+// Below Eigen's choice for a first cache of 32 KiB.
 constexpr int stretch = 128;
 
 using LeftTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>,

@@ -10,15 +10,34 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string_view>
 
+#include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
 
+// w(i, j) = Σ a cos(2π(sx·i + sy·j)/2⁶⁴ + φ) on a grid, as a matrix product nx × 2K by 2K × ny of cosines and
+// sines. Mirror images in x or y share columns; a wave along an axis costs a vector. The waves need not fit
+// the grid.
+
+struct PlaneWave {
+  std::uint64_t step_x = 0, step_y = 0;  // turns per grid step, in 2⁻⁶⁴
+  double amplitude = 0;                  // unit of the heights
+  double phase = 0;                      // rad
+};
+
+// Preconditions: 1 <= nx, ny <= max_cells, finite amplitudes and phases. Error: about 4e-16 · √K times the
+// root sum of squares of the amplitudes. Cost: 4·nx·ny·K flops, K waves after mirroring. Memory: the field,
+// under 100 bytes a wave, tables of 64 MiB at most.
+Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monitor& monitor,
+                         std::string_view what);
+
 enum class WavePhases { seeded, golden, function };
 enum class WaveBand {
-  all,       // as published; waves past Nyquist alias, nearly white noise
+  all,       // waves past Nyquist alias, nearly white noise
   resolved,  // only waves of at most half a turn per cell
 };
 
@@ -43,17 +62,15 @@ struct WeierstrassMandelbrotOptions {
 double seeded_phase_turns(std::uint64_t seed, int M, int m, int n);
 double golden_phase_turns(int n_max, int m, int n);
 
-// Share of variance in orders n > last_resolved, 0 … 1; order n: proportional to γ^(2(D−3)n).
+// Share of variance in orders n > last_resolved; order n: proportional to γ^(2(D−3)n).
 double share_of_variance_beyond(int last_resolved, double D, double gamma, int n_max);
 
 // Node (i, j) is at (i, j)·span·L/nx: square cells, size_x = span·L, size_y = size_x·ny/nx. aliased_share:
-// waves beyond half a turn per cell along their own direction; 0 for WaveBand::resolved. Orders that cannot
-// change a bit (together under 2⁻⁶⁰ of order 0) are skipped in the sum, not in the share. The recipe keeps
-// all waves on other square cells; waves beyond Nyquist alias there. phase_function runs on this thread,
-// once per (m, n), n outer and m inner. Cost: sum_of_plane_waves with under half of M·(n_max+1) waves,
-// because m and M−m are mirror images. Memory: heights, tables of 32 MiB at most (nx + ny <= 65536), about
-// 120 bytes a wave. Thread-safe; same bits for any number of threads. Throws Error{bad_value} naming the
-// key, the wave (m, n) of a non-finite phase, or `band` if no wave is resolved.
+// waves beyond half a turn per cell. Orders that cannot change a bit are skipped in the sum, not in the
+// share. The recipe keeps all waves on other square cells. phase_function runs on this thread, once per (m,
+// n), m inner. Cost: sum_of_plane_waves with under half of M·(n_max+1) waves; about 120 bytes a wave.
+// Thread-safe. Throws Error{bad_value} naming the key, the wave (m, n) of a non-finite phase, or `band` if no
+// wave is resolved.
 Surface weierstrass_mandelbrot(const WeierstrassMandelbrotOptions& options,
                                Monitor& monitor = Monitor::silent());
 

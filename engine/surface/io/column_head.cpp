@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/column_head.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/surface/io/length_unit.hpp"
+#include "engine/statistics/table_lines.hpp"
 
 namespace asperity {
 
@@ -15,42 +16,7 @@ namespace {
 constexpr std::size_t longest_head = 200;
 constexpr std::string_view unit_begins = "[(/", unit_ends = "])";
 
-std::string_view without_mark(std::string_view line) {
-  line = trimmed(line);
-  while (!line.empty() && (line.front() == '#' || line.front() == '%')) line.remove_prefix(1);
-  return trimmed(line);
-}
-
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-// A unit in brackets or after a slash belongs to the preceding name.
-std::vector<std::string> blank_cells(std::string_view line) {
-  std::vector<std::string> cells;
-  bool open = false;
-  for (const std::string_view word : cells_of(line, Separator::blank)) {
-    const bool goes_on = !cells.empty() && (open || cells.back().back() == '/' ||
-                                            unit_begins.find(word.front()) != std::string_view::npos);
-    if (goes_on)
-      cells.back() += " " + std::string(word);
-    else
-      cells.emplace_back(word);
-    const std::size_t begins = cells.back().find_last_of("[("), ends = cells.back().find_last_of(unit_ends);
-    open = begins != std::string::npos && (ends == std::string::npos || ends < begins);
-  }
-  return cells;
-}
-
-std::vector<std::string> head_cells(std::string_view line) {
-  for (const auto& [mark, separator] : {std::pair{';', Separator::semicolon}, std::pair{'\t', Separator::tab},
-                                        std::pair{',', Separator::comma}}) {
-    if (line.find(mark) == std::string_view::npos) continue;
-    std::vector<std::string> cells;
-    for (const std::string_view cell : cells_of(line, separator)) cells.emplace_back(cell);
-    if (cells.back().empty()) cells.pop_back();
-    return cells;
-  }
-  return blank_cells(line);
-}
 
 // Case matters: "m" of "x_m" is a unit, "a" of "x_a" is not.
 std::optional<double> exact_unit(std::string_view text) {
@@ -63,8 +29,6 @@ std::optional<double> exact_unit(std::string_view text) {
 }
 
 HeadColumn head_column(std::string_view cell) {
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-    cell = trimmed(cell.substr(1, cell.size() - 2));
   HeadColumn column;
   std::string_view name = cell;
   if (const std::size_t begins = cell.find_first_of(unit_begins); begins != std::string_view::npos) {
@@ -87,13 +51,36 @@ HeadColumn head_column(std::string_view cell) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view line) {
+  line = trimmed(line);
+  line.remove_prefix(std::min(line.find_first_not_of("#%"), line.size()));
+  return trimmed(line);
+}
+
+std::optional<double> length_unit(std::string_view text) {
+  std::string plain = lower_case(trimmed(text));
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '(' || c == ')' || c == '[' || c == ']'; }, ' ');
+  const std::vector<std::string_view> words = cells_of(plain, Separator::blank);
+  if (words.empty()) return {};
+  std::string_view last = words.back();
+  if (last.size() > 2 && last.ends_with('s')) last.remove_suffix(1);
+  if (last == "micrometer" || last == "micrometre" || last == "micron" || last == "\xB5m") return 1e-6;
+  if (last == "nanometer" || last == "nanometre") return 1e-9;
+  if (last == "millimeter" || last == "millimetre") return 1e-3;
+  if (last == "meter" || last == "metre") return 1.0;
+  if (last == "angstrom" || last == "\xC5" || last == "a") return 1e-10;
+  return exact_unit(last);
+}
+
 std::optional<std::vector<HeadColumn>> column_head(std::string_view line) {
   line = without_mark(line);
-  // "h=3 w=4" is a setting.
   if (line.empty() || line.size() > longest_head || line.find('=') != std::string_view::npos) return {};
+  std::vector<TableCell> cells = head_cells(line);
+  if (cells.size() > 1 && cells.back().text.empty()) cells.pop_back();
   std::vector<HeadColumn> columns;
-  for (const std::string& cell : head_cells(line)) {
-    columns.push_back(head_column(cell));
+  for (const TableCell& cell : cells) {
+    columns.push_back(head_column(trimmed(cell.text)));
     if (columns.back().name.empty() || !is_letter(columns.back().name.front())) return {};
   }
   return columns;

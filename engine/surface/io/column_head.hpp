@@ -13,6 +13,12 @@
 
 namespace asperity {
 
+// Metres per unit at the end of a text, such as "Height (nm)"; none if unknown.
+std::optional<double> length_unit(std::string_view text);
+
+// Without comment marks (# or %) and blanks around.
+std::string_view without_mark(std::string_view line);
+
 struct HeadColumn {
   std::string name;            // lower case
   std::string word;            // unit as written, or empty
@@ -26,13 +32,13 @@ std::optional<std::vector<HeadColumn>> column_head(std::string_view line);
 // Columns x, y, z in this order; unseparated names ("xyz") have no unit.
 std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line);
 
-// Two columns, position and height: at least one with a unit, or "x" and "z" (or "y").
+// Position and height: at least one with a unit, or "x" and "z" (or "y").
 std::optional<std::vector<HeadColumn>> profile_head(std::string_view line);
 
 bool are_points(const std::vector<HeadColumn>& columns);
 bool are_of_profile(const std::vector<HeadColumn>& columns);
 
-// Warns of an unknown unit and returns none; the call must then state the unit.
+// Warns of an unknown unit and returns none.
 std::optional<double> head_unit(const HeadColumn& column, const SourceFile& file, Monitor& monitor);
 
 }  // namespace asperity

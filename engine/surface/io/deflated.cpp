@@ -30,7 +30,6 @@ class GzipStream {
   GzipStream(const GzipStream&) = delete;
   GzipStream& operator=(const GzipStream&) = delete;
 
-  // Writes up to `room` bytes, in fact `came`; returns zlib's status.
   int fill(char* at, std::size_t room, std::size_t& came) {
     constexpr std::size_t most = std::numeric_limits<uInt>::max();
     const auto given = static_cast<uInt>(std::min(left_, most));
@@ -79,7 +78,7 @@ std::optional<SourceFile> inside_gzip(const SourceFile& file, Monitor& monitor) 
       refuse_file(file,
                   "unpacks to more than " + format_bytes(static_cast<std::int64_t>(most)) + " out of " +
                       format_bytes(static_cast<std::int64_t>(packed.size())),
-                  "if it does hold heights, unpack it with gunzip and read what is inside");
+                  "if it does hold heights, unpack it with gunzip and read the file inside");
   };
   for (;;) {
     if (filled == plain.size()) {
@@ -107,33 +106,11 @@ std::optional<SourceFile> inside_gzip(const SourceFile& file, Monitor& monitor) 
   }
   const std::string_view rest = stream.rest();
   if (!std::all_of(rest.begin(), rest.end(), [](char c) { return c == '\0'; }))
-    refuse_file(file, "has " + std::to_string(rest.size()) + " bytes after what gzip packed",
+    refuse_file(file, "has " + std::to_string(rest.size()) + " bytes after its packed data",
                 "the file is damaged");
   check_size();
   plain.resize(filled);
   return SourceFile(file.path(), std::move(plain), ending_inside(file.path()));
-}
-
-Array<char> inflated(const SourceFile& file, std::string_view packed, std::uint64_t wanted,
-                     std::string_view what) {
-  if (wanted / most_of_deflate > packed.size())
-    refuse_file(file,
-                "claims that " + std::string(what) + " unpack from " + std::to_string(packed.size()) +
-                    " bytes to " + std::to_string(wanted) + ", which cannot be",
-                "its header is wrong or the file is damaged");
-  Array<char> plain(static_cast<std::size_t>(wanted));
-  uLongf length = plain.size();
-  const int status = ::uncompress(reinterpret_cast<Bytef*>(plain.data()), &length,
-                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  if (status == Z_MEM_ERROR)
-    throw Error(ErrorCode::out_of_memory,
-                "no memory to unpack " + format_bytes(static_cast<std::int64_t>(wanted)));
-  if (status != Z_OK || length != plain.size())
-    refuse_file(file,
-                "does not unpack: " + std::string(what) + " should be " + std::to_string(wanted) +
-                    " bytes out of " + std::to_string(packed.size()),
-                "the file is cut short or damaged");
-  return plain;
 }
 
 }  // namespace asperity

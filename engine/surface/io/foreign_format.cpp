@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/text_encoding.hpp"
 #include "engine/surface/io/archive.hpp"
 
 namespace asperity {
@@ -15,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr const char* unpack = "unpack it and read what is inside";
+constexpr const char* unpack = "unpack it and read the file inside";
 constexpr const char* export_map =
     "export it from the instrument's software as X3P, SDF (.sdf), SUR or text, or save it as .gwy in "
     "Gwyddion";
@@ -69,7 +68,6 @@ struct ForeignEnding {
   const char* what;
 };
 
-// Formats without an unambiguous mark.
 constexpr std::array foreign_endings{
     ForeignEnding{"mnt", "a document of MountainsMap (.mnt)"},
     ForeignEnding{"stp", "a scan of Molecular Imaging (.stp)"},
@@ -108,7 +106,6 @@ std::optional<ForeignFormat> foreign_format(const SourceFile& file) {
   for (const ForeignMark& mark : foreign_marks)
     if (bytes.starts_with(mark.bytes)) return ForeignFormat{mark.what, mark.cure};
   if (bytes.starts_with("PK\x03\x04"sv)) return archive_format(file);
-  if (is_utf16(bytes)) return ForeignFormat{utf16_text, "save it as UTF-8"};
   if (file.looks_like_text()) return {};
   for (const ForeignEnding& ending : foreign_endings)
     if (file.extension() == ending.extension) return ForeignFormat{ending.what, export_map};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recognises unsupported files of instruments and office programs, so that an error can name the format and
-// its export. By content; by extension only for binary formats without a mark.
+// Recognises unsupported files of instruments and office programs by content; binary formats without a mark
+// by extension.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,6 @@
 #include "engine/core/files/source_file.hpp"
 
 namespace asperity {
-
-// read.cpp reads such a text if it holds a table.
-inline constexpr const char* utf16_text = "UTF-16 text";
 
 struct ForeignFormat {
   std::string what;  // "an Excel workbook (.xlsx)"

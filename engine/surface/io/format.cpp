@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// List of formats, and choice among them. A new format needs one source file and one line here
-// (docs/contributor.md).
+// A new format needs one source file and one line here (docs/contributor.md).
 #include "engine/surface/io/format.hpp"
 
 #include <algorithm>
@@ -8,12 +7,11 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/own_head.hpp"
 
-// In the order of trying. NAME_format() returns the record.
+// In the order of trying. NAME_format is the record.
 // clang-format off
 #define ASPERITY_FORMATS(format) \
   format(npy)        \
@@ -44,13 +42,13 @@
 
 namespace asperity {
 
-#define ASPERITY_DECLARED(name) const Format& name##_format();
+#define ASPERITY_DECLARED(name) extern const Format name##_format;
 ASPERITY_FORMATS(ASPERITY_DECLARED)
 #undef ASPERITY_DECLARED
 
 std::span<const Format* const> formats() {
-#define ASPERITY_LISTED(name) &name##_format(),
-  static const std::array all{ASPERITY_FORMATS(ASPERITY_LISTED)};
+#define ASPERITY_LISTED(name) &name##_format,
+  static constexpr std::array all{ASPERITY_FORMATS(ASPERITY_LISTED)};
 #undef ASPERITY_LISTED
   return all;
 }
@@ -61,30 +59,15 @@ void require_format(const SourceFile& file, bool recognised, const char* finding
 
 namespace {
 
-bool has_extension_of(const Format& format, const SourceFile& file) {
-  return std::ranges::find(format.extensions, file.extension()) != format.extensions.end();
+bool has_extension(const Format& format, std::string_view extension) {
+  return std::ranges::find(format.extensions, extension) != format.extensions.end();
 }
 
 const Format& if_certain(const Format& format, const SourceFile& file) {
-  if (&format != &text_format()) return format;
-  if (has_extension_of(xyz_format(), file)) return xyz_format();
+  if (&format != &text_format) return format;
+  if (has_extension(xyz_format, file.extension())) return xyz_format;
   if (const auto head = own_head(file)) refuse_uncertain_lattice(file, *head);
-  if (almost_triples(file))
-    refuse_file(
-        file,
-        "has three columns, of which the first two hold almost all points of a lattice: it may be x y z "
-        "triples, some missing or given twice, or a matrix of heights",
-        "say which: `format` = \"xyz\" or `format` = \"text\"");
-  if (many_triples(file))
-    refuse_file(
-        file,
-        "has three columns and a hundred lines or more: it may be x y z points that are not on a lattice, or "
-        "a matrix of heights",
-        "grid the points first, or say `format` = \"text\"");
-  if (may_be_triples(file))
-    refuse_file(file,
-                "has three columns: it may be x y z points of a lattice with holes, or a matrix of heights",
-                "say which: `format` = \"xyz\" for points with holes, or `format` = \"text\" for a matrix");
+  refuse_uncertain_points(file);
   return format;
 }
 
@@ -96,33 +79,30 @@ void turn_over(Field& field) {
 }
 
 const Format* format_of_extension(std::string_view extension) {
-  for (const Format* format : formats())
-    if (std::ranges::find(format->extensions, extension) != format->extensions.end()) return format;
-  return nullptr;
+  const auto found = std::ranges::find_if(
+      formats(), [&](const Format* format) { return has_extension(*format, extension); });
+  return found == formats().end() ? nullptr : *found;
 }
 
 const Format& choose_format(const SourceFile& file, const std::string& forced) {
-  std::vector<std::string> names;
-  std::vector<std::string> marks;
-  for (const Format* format : formats()) {
-    names.push_back(quoted(format->name));
-    marks.push_back(std::string(format->name) + " (" + std::string(format->marks) + ")");
-  }
   if (!forced.empty()) {
-    std::vector<std::string> plain;
+    std::vector<std::string> names, quoted_names;
     for (const Format* format : formats()) {
       if (format->name == forced) return *format;
-      plain.emplace_back(format->name);
+      names.emplace_back(format->name);
+      quoted_names.push_back(quoted(format->name));
     }
-    throw Error(ErrorCode::unknown_name, "`format` is \"" + forced + "\"" + did_you_mean(forced, plain),
-                "known formats are " + joined(names, " and "));
+    throw Error(ErrorCode::unknown_name, "`format` is \"" + forced + "\"" + did_you_mean(forced, names),
+                "known formats are " + joined(quoted_names, " and "));
   }
   for (const Format* format : formats())
     if (format->recognises(file)) return if_certain(*format, file);
   if (const std::optional<ForeignFormat> foreign = foreign_format(file))
     refuse_file(file, "is " + foreign->what + ", which is not read", foreign->cure);
+  if (const Format* const format = format_of_extension(file.extension())) return if_certain(*format, file);
+  std::vector<std::string> marks;
   for (const Format* format : formats())
-    if (has_extension_of(*format, file)) return if_certain(*format, file);
+    marks.push_back(std::string(format->name) + " (" + std::string(format->marks) + ")");
   refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),
               "if it is one of them, name it with `format`");
 }

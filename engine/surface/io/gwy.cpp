@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data",
-// with sizes, units and heights as doubles. Source: "Format of Gwyddion Files", Gwyddion user guide. A mask
-// "/N/mask" is applied only if "/N/meta", written by this program, declares its points as not measured;
-// users mask arbitrary points. Masked heights are the mean, because Gwyddion has no missing height.
+// GWY, Gwyddion's own files: nested objects of named, typed components. A map is the GwyDataField "/N/data".
+// Source: "Format of Gwyddion Files", Gwyddion user guide. A mask "/N/mask" is applied only if "/N/meta",
+// written by this program, declares it; users mask arbitrary points. Masked heights are the mean.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
@@ -33,22 +33,9 @@ struct Component {
 };
 
 std::size_t width_of(char type) {
-  switch (type) {
-    case 'b':
-    case 'c':
-    case 'C':
-      return 1;
-    case 'i':
-    case 'I':
-      return 4;
-    case 'q':
-    case 'Q':
-    case 'd':
-    case 'D':
-      return 8;
-    default:
-      return 0;
-  }
+  for (const auto& [types, width] : {std::pair{"bcC", 1}, std::pair{"iI", 4}, std::pair{"qQdD", 8}})
+    if (std::string_view(types).find(type) != std::string_view::npos) return static_cast<std::size_t>(width);
+  return 0;
 }
 
 struct Object {
@@ -140,7 +127,7 @@ std::optional<double> metres(std::string_view unit) {
   return {};
 }
 
-// Entry for a mask of holes; its value begins with their number.
+// Its value begins with the number of holes.
 constexpr std::string_view hole_entry = "Not measured";
 
 struct Channel {
@@ -184,7 +171,7 @@ std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& 
   return channels;
 }
 
-// `channel`: title or number. Default: the first map in a unit of length, else the first map.
+// `channel`: title or number. Default: the first map of lengths, else the first map.
 std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
                                                         const std::map<std::uint32_t, Channel>& channels,
                                                         const std::string& channel) {
@@ -207,8 +194,7 @@ std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
       "name one by its number or its title with `channel`");
 }
 
-// If mask and metadata disagree on the count, the user has changed the mask, and the measured points are
-// unknown.
+// If mask and metadata disagree on the count, the user has changed the mask.
 void take_out_holes(const SourceFile& file, const Channel& entry, const std::string& name, Field& heights) {
   const DataField mask = entry.masked() ? read_field(file, entry.mask) : DataField{};
   const std::size_t count = heights.size();
@@ -225,10 +211,10 @@ void take_out_holes(const SourceFile& file, const Channel& entry, const std::str
   }
   if (!entry.holes->starts_with(std::to_string(holes) + " "))
     refuse_file(file,
-                "says of " + name + " that it was not measured at " + shown(*entry.holes) +
-                    ", and its mask has " + std::to_string(holes),
-                "put the mask back, or take \"" + std::string(hole_entry) +
-                    "\" out of its metadata to have the points as they stand");
+                "holds " + name + " with " + std::to_string(holes) + " masked points, and its metadata say " +
+                    shown(*entry.holes),
+                "restore the mask, or delete \"" + std::string(hole_entry) +
+                    "\" from its metadata to read every point");
 }
 
 HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
@@ -236,11 +222,10 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
   const auto& [number, entry] = *chosen(file, channels, channel);
   const DataField field = read_field(file, entry.field);
   const auto side = [](std::int32_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
-  require_exactly(file, side(field.nx), side(field.ny), sizeof(double), field.data.size());
   const std::string name =
       "the map " + std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\"");
   HeightMap map;
-  map.heights = field_of_numbers<double>(field.data, field.nx, field.ny, monitor);
+  map.heights = exact_field(file, number_type<double>, field.data, side(field.nx), side(field.ny), monitor);
   map.unit = metres(field.unit_z);
   if (!map.unit && !field.unit_z.empty())
     refuse_file(file, "holds " + name + " in " + shown(field.unit_z) + ", which is no unit of length",
@@ -257,7 +242,7 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
     take_out_holes(file, entry, name, map.heights);
   else if (entry.masked())
     monitor.warn(file_name(file.path()) + ": " + name +
-                 " has a mask, which is not applied: its points are taken as they stand");
+                 " has a mask, which is not applied: all its points are read");
   return map;
 }
 
@@ -265,66 +250,47 @@ bool recognises_gwy(const SourceFile& file) { return file.bytes().starts_with(ma
 
 // --- writing
 
-template <class T>
-std::string raw(T value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
 std::string ended(std::string_view text) { return std::string(text) + '\0'; }
 std::string object(std::string_view name, std::string_view content) {
-  return ended(name) + raw(static_cast<std::uint32_t>(content.size())) + std::string(content);
+  return ended(name) + raw_bytes(static_cast<std::uint32_t>(content.size())) + std::string(content);
 }
 std::string unit_object(std::string_view unit) {
   return object("GwySIUnit", ended("unitstr") + "s" + ended(unit));
 }
 
-// Gwyddion shows this height under the mask.
-double mean_of_measured(const Surface& surface) {
-  Array<double> known;
-  known.reserve(surface.measured());
-  for (const double height : surface.measured_heights().values())
-    if (!std::isnan(height)) known.push_back(height);
-  return mean(known);
-}
-
 }  // namespace
 
-const Format& gwy_format() {
-  static const Format format{
-      "gwy",
-      "GWYP at the start",
-      {"Gwyddion's own files: any of their maps; a mask only where it says that points were not measured.",
-       "Maps that are no lengths, unless named with `channel`, volumes and curves.",
-       "The published layout, and files that this program writes; no instrument's file was compared."},
-      {FirstLine::top, "Gwyddion's data fields begin at the top left."},
-      {"gwy"},
-      recognises_gwy,
-      nullptr,
-      read_gwy_channel};
-  return format;
-}
+extern constexpr Format gwy_format{
+    "gwy",
+    "GWYP at the start",
+    {"Gwyddion's own files: any of their maps; a mask only where it says that points were not measured.",
+     "Maps that are no lengths, unless named with `channel`, volumes and curves.",
+     "The published layout, and files that this program writes; no instrument's file was compared."},
+    {FirstLine::top, "Gwyddion's data fields begin at the top left."},
+    {"gwy"},
+    recognises_gwy,
+    nullptr,
+    read_gwy_channel};
 
-// Heights in metres, bit for bit. Missing points get a mask and a metadata entry. Throws Error{bad_value}
-// above 4 GiB including the mask, and Error{bad_file}.
+// Throws Error{bad_value} above 4 GiB including the mask, and Error{bad_file}.
 void write_gwy(const Surface& surface, const std::string& path) {
-  static_assert(std::endian::native == std::endian::little, "GWY data are written as they lie in memory");
   const Grid& grid = surface.grid();
   const auto heights = surface.measured_heights().values();
   const bool holes = !surface.complete();
-  // 32-bit lengths include the text around heights and mask.
+  // Lengths include the text around heights and mask.
   constexpr std::uint64_t most = std::uint64_t{0xFFFFFFFF} - 65536;
   if ((holes ? 2 : 1) * heights.size_bytes() > most)
-    throw Error(ErrorCode::bad_value,
-                "a surface of " + std::to_string(heights.size()) + " heights" +
-                    (holes ? " and a mask of its holes do" : " does") + " not fit into a GWY file",
-                "write .h5 or .npy");
+    refuse("a surface of " + std::to_string(heights.size()) + " heights" +
+               (holes ? " and a mask of its holes do" : " does") + " not fit into a GWY file",
+           "write .h5 or .npy");
   const auto field_head = [&](std::string_view key, std::string_view unit_z) {
-    const std::string before = ended("xres") + "i" + raw(grid.nx) + ended("yres") + "i" + raw(grid.ny) +
-                               ended("xreal") + "d" + raw(grid.size_x) + ended("yreal") + "d" +
-                               raw(grid.size_y) + ended("si_unit_xy") + "o" + unit_object("m") +
-                               ended("si_unit_z") + "o" + unit_object(unit_z) + ended("data") + "D" +
-                               raw(static_cast<std::uint32_t>(heights.size()));
+    const std::string before = ended("xres") + "i" + raw_bytes(grid.nx) + ended("yres") + "i" +
+                               raw_bytes(grid.ny) + ended("xreal") + "d" + raw_bytes(grid.size_x) +
+                               ended("yreal") + "d" + raw_bytes(grid.size_y) + ended("si_unit_xy") + "o" +
+                               unit_object("m") + ended("si_unit_z") + "o" + unit_object(unit_z) +
+                               ended("data") + "D" + raw_bytes(static_cast<std::uint32_t>(heights.size()));
     return ended(key) + "o" + ended("GwyDataField") +
-           raw(static_cast<std::uint32_t>(before.size() + heights.size_bytes())) + before;
+           raw_bytes(static_cast<std::uint32_t>(before.size() + heights.size_bytes())) + before;
   };
   const std::string first = ended("/0/data/title") + "s" + ended("height") + field_head("/0/data", "m");
   std::string second, last;
@@ -338,13 +304,9 @@ void write_gwy(const Surface& surface, const std::string& path) {
   const std::uint64_t length =
       first.size() + second.size() + last.size() + (holes ? 2 : 1) * heights.size_bytes();
   AtomicFile file(path, FileWords::data);
-  file.write(std::string(mark) + ended("GwyContainer") + raw(static_cast<std::uint32_t>(length)) + first);
-  if (!holes) {
-    file.write({reinterpret_cast<const char*>(heights.data()), heights.size_bytes()});
-    file.commit();
-    return;
-  }
-  const double average = mean_of_measured(surface);
+  file.write(std::string(mark) + ended("GwyContainer") + raw_bytes(static_cast<std::uint32_t>(length)) +
+             first);
+  const double average = holes ? known_mean(heights) : 0;
   const auto write_rows = [&](auto&& value) {
     Array<double> row(static_cast<std::size_t>(grid.nx));
     for (int j = 0; j < grid.ny; ++j) {
@@ -353,9 +315,11 @@ void write_gwy(const Surface& surface, const std::string& path) {
     }
   };
   write_rows([&](double height) { return std::isnan(height) ? average : height; });
-  file.write(second);
-  write_rows([](double height) { return std::isnan(height) ? 1.0 : 0.0; });
-  file.write(last);
+  if (holes) {
+    file.write(second);
+    write_rows([](double height) { return std::isnan(height) ? 1.0 : 0.0; });
+    file.write(last);
+  }
   file.commit();
 }
 

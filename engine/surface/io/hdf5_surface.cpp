@@ -1,15 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/hdf5_surface.hpp"
 
+#include <array>
 #include <limits>
 
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
-#include "engine/surface/io/xdmf.hpp"
 
 namespace asperity {
+
+// XDMF orders axes slowest first: (z, y, x).
+
+namespace {
+
+// Escapes an XML attribute.
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return safe;
+}
+
+}  // namespace
+
+std::filesystem::path xdmf_path(const std::filesystem::path& hdf5) {
+  std::filesystem::path path = hdf5;
+  return path.replace_extension(".xdmf");
+}
+
+bool has_xdmf_beside(const std::filesystem::path& file) {
+  const std::string extension = file_extension(file.string());
+  return extension == "h5" || extension == "hdf5";
+}
+
+std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,
+                      const std::filesystem::path& hdf5) {
+  const std::string dimensions = "1 " + std::to_string(grid.ny) + " " + std::to_string(grid.nx);
+  const auto item = [](const std::string& numbers) {
+    return "        <DataItem Format=\"XML\" Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\">" +
+           numbers + "</DataItem>\n";
+  };
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+      "<Xdmf Version=\"3.0\">\n"
+      "  <Domain>\n"
+      "    <Grid Name=\"" +
+      escaped(name) +
+      "\" GridType=\"Uniform\">\n"
+      "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" +
+      dimensions +
+      "\"/>\n"
+      "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n";
+  // The single layer needs any nonzero spacing.
+  text += item("0 0 0") +
+          item(format_exact(grid.hx()) + " " + format_exact(grid.hy()) + " " + format_exact(grid.hx()));
+  text += "      </Geometry>\n";
+  constexpr std::array types{std::pair{"Float", "8"}, std::pair{"Int", "8"}, std::pair{"UChar", "1"}};
+  for (const Hdf5Array& array : content.arrays) {
+    if (array.shape !=
+        std::vector<std::size_t>{static_cast<std::size_t>(grid.ny), static_cast<std::size_t>(grid.nx)})
+      continue;
+    const auto& [type, bytes] = types[array.values.index()];
+    const std::string shown = array.unit.empty() ? array.name : array.name + " [" + array.unit + "]";
+    text += "      <Attribute Name=\"" + escaped(shown) + "\" AttributeType=\"Scalar\" Center=\"Node\">\n" +
+            "        <DataItem Format=\"HDF\" Dimensions=\"" + dimensions + "\" NumberType=\"" + type +
+            "\" Precision=\"" + bytes + "\">" + escaped(hdf5.filename().string()) + ":/" +
+            escaped(array.name) + "</DataItem>\n      </Attribute>\n";
+  }
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
+                         const Hdf5Content& content) {
+  write_hdf5(hdf5, content);
+  AtomicFile beside(xdmf_path(hdf5), FileWords::data);
+  beside.write(xdmf_text(grid, name, content, hdf5));
+  beside.commit();
+}
 
 namespace {
 
@@ -27,13 +98,7 @@ std::string listed(const Hdf5Content& content) {
   std::vector<std::string> names;
   for (const Hdf5Array& array : content.arrays) names.push_back(shape_text(array));
   for (const std::string& other : content.unread) names.push_back(other);
-  constexpr std::size_t most = 12;
-  if (names.size() > most) {
-    const std::size_t more = names.size() - most;
-    names.resize(most);
-    names.push_back(std::to_string(more) + " more");
-  }
-  return names.empty() ? "nothing" : joined(names, " and ");
+  return names.empty() ? "nothing" : listed_up_to(12, std::move(names));
 }
 
 // Order: `channel`; `height`; the only map; the only row of numbers.
@@ -62,7 +127,7 @@ const Hdf5Array& heights_of(const SourceFile& file, const Hdf5Content& content, 
       }
     if (count == 1) return *only;
     if (count > 1)
-      refuse_file(file, "holds several arrays, none of which is called `height`: " + listed(content),
+      refuse_file(file, "holds several arrays, and none is called `height`: " + listed(content),
                   "name the one to read with `channel`");
   }
   refuse_file(file, "holds no map of heights but " + listed(content),
@@ -135,19 +200,16 @@ void write_hdf5_surface(const Surface& surface, const std::filesystem::path& pat
   write_hdf5_and_xdmf(path, grid, "surface", content);
 }
 
-const Format& hdf5_format() {
-  static const Format format{
-      "hdf5",
-      "\\x89HDF at the start",
-      {"Arrays of two axes in HDF5, by name with `channel`, and surfaces that this program wrote.",
-       "Packings other than deflate and shuffle, complex numbers and records.",
-       "Files written by h5py and by this program."},
-      {FirstLine::bottom, "A matrix: its first row is j = 0, as the .xdmf file beside it says."},
-      {"h5", "hdf5", "he5"},
-      looks_like_hdf5,
-      nullptr,
-      read_hdf5_channel};
-  return format;
-}
+extern constexpr Format hdf5_format{
+    "hdf5",
+    "\\x89HDF at the start",
+    {"Arrays of two axes in HDF5, by name with `channel`, and surfaces that this program wrote.",
+     "Packings other than deflate and shuffle, complex numbers and records.",
+     "Files written by h5py and by this program."},
+    {FirstLine::bottom, "A matrix: its first row is j = 0, as the .xdmf file beside it says."},
+    {"h5", "hdf5", "he5"},
+    looks_like_hdf5,
+    nullptr,
+    read_hdf5_channel};
 
 }  // namespace asperity

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy's NPY format, versions 1 to 3. Shape is (ny, nx) for a surface and (n,) for a trace. The data size
-// is checked against the file before any allocation. Objects, records and complex numbers are refused.
+// NumPy's NPY format, versions 1 to 3. Shape is (ny, nx) for a surface and (n,) for a trace. Objects, records
+// and complex numbers are refused.
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 
-#include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/npy_header.hpp"
 
@@ -19,6 +16,20 @@ namespace asperity {
 namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
+
+struct NpyType {
+  std::string_view name;
+  NumberType little, big;
+};
+template <class T>
+constexpr NpyType npy_type(std::string_view name) {
+  return {name, number_type<T>, number_type<T, big_endian<T>>};
+}
+constexpr std::array npy_types{npy_type<float>("f4"),         npy_type<double>("f8"),
+                               npy_type<std::int8_t>("i1"),   npy_type<std::int16_t>("i2"),
+                               npy_type<std::int32_t>("i4"),  npy_type<std::int64_t>("i8"),
+                               npy_type<std::uint8_t>("u1"),  npy_type<std::uint16_t>("u2"),
+                               npy_type<std::uint32_t>("u4"), npy_type<std::uint64_t>("u8")};
 
 // The text after "'key':", or empty.
 std::string_view value_of(std::string_view dictionary, std::string_view key) {
@@ -58,16 +69,12 @@ NpyHeader read_npy_header(const SourceFile& file) {
   const std::string_view descr = value_of(dictionary, "descr");
   const std::string_view type =
       descr.size() > 1 ? descr.substr(1, descr.find(descr[0], 1) - 1) : std::string_view();
-  const bool known = type.size() == 3 && std::string_view("<>|=").find(type[0]) != std::string_view::npos &&
-                     (((type[1] == 'i' || type[1] == 'u') &&
-                       std::string_view("1248").find(type[2]) != std::string_view::npos) ||
-                      (type[1] == 'f' && (type[2] == '4' || type[2] == '8')));
-  if (!known)
+  const bool ordered = !type.empty() && std::string_view("<>|=").find(type[0]) != std::string_view::npos;
+  const auto known = std::ranges::find(npy_types, ordered ? type.substr(1) : "", &NpyType::name);
+  if (known == npy_types.end())
     refuse_file(file, "holds numbers of type " + shown(type.empty() ? descr : type),
                 "save it as float64; f4, f8, i1 … i8 and u1 … u8 are read");
-  header.order = type[0];
-  header.kind = type[1];
-  header.width = static_cast<std::size_t>(type[2] - '0');
+  header.type = type[0] == '>' ? known->big : known->little;
   const std::string_view order = value_of(dictionary, "fortran_order");
   header.fortran_order = order.starts_with("True");
   if (!header.fortran_order && !order.starts_with("False"))
@@ -86,36 +93,15 @@ NpyHeader read_npy_header(const SourceFile& file) {
   return header;
 }
 
-namespace {
-
-template <class T>
-double element(const char* at, bool swap) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), at, sizeof(T));
-  if (swap)
-    for (std::size_t k = 0; k < sizeof(T) / 2; ++k) std::swap(raw[k], raw[sizeof(T) - 1 - k]);
-  return static_cast<double>(std::bit_cast<T>(raw));
-}
-
-}  // namespace
-
-NpyNumber npy_number(const NpyHeader& header) {
-  const std::string type = header.kind + std::to_string(header.width);
-  if (type == "f4") return element<float>;
-  if (type == "f8") return element<double>;
-  if (type == "i1") return element<std::int8_t>;
-  if (type == "i2") return element<std::int16_t>;
-  if (type == "i4") return element<std::int32_t>;
-  if (type == "i8") return element<std::int64_t>;
-  if (type == "u1") return element<std::uint8_t>;
-  if (type == "u2") return element<std::uint16_t>;
-  if (type == "u4") return element<std::uint32_t>;
-  return element<std::uint64_t>;
-}
-
-bool NpyHeader::swapped() const {
-  return order == '>' ? std::endian::native == std::endian::little
-                      : order == '<' && std::endian::native == std::endian::big;
+std::string npy_header(const std::string& shape) {
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }";
+  constexpr std::size_t before = 10, alignment = 64;
+  header.append(alignment - (before + header.size() + 1) % alignment, ' ');
+  header += '\n';
+  std::string start = std::string(magic) + std::string("\x01\x00", 2);
+  start += static_cast<char>(header.size() & 0xFF);
+  start += static_cast<char>(header.size() >> 8);
+  return start + header;
 }
 
 namespace {
@@ -131,44 +117,37 @@ HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
   const std::uint64_t nx = header.shape.back();
   if (nx == 0 || ny == 0) refuse_file(file, "holds an array without elements");
   const std::uint64_t present = file.bytes().size() - header.data_at;
-  const std::uint64_t room = present / header.width;
+  const std::uint64_t width = header.type.width, room = present / width;
   constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-  if (nx > most || ny > most || nx > room / ny || nx * ny * header.width != present)
+  if (nx > most || ny > most || nx > room / ny || nx * ny * width != present)
     refuse_file(file,
                 "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
-                    " numbers of " + std::to_string(header.width) + " bytes but has " +
-                    std::to_string(present) + " bytes of data",
+                    " numbers of " + std::to_string(width) + " bytes but has " + std::to_string(present) +
+                    " bytes of data",
                 "the file is cut short or its header is wrong");
   HeightMap map;
   map.trace = header.shape.size() == 1;
-  map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
-  const bool swap = header.swapped();
-  const NpyNumber reader = npy_number(header);
-  const char* const data = file.bytes().data() + header.data_at;
-  Task task(monitor, "reading", static_cast<std::int64_t>(ny));
-  for (std::uint64_t j = 0; j < ny; ++j) {
-    for (std::uint64_t i = 0; i < nx; ++i) {
-      const std::uint64_t k = header.fortran_order ? i * ny + j : j * nx + i;
-      map.heights[j * nx + i] = reader(data + k * header.width, swap);
-    }
-    task.advance();
+  const std::string_view data = file.bytes().substr(header.data_at);
+  if (!header.fortran_order) {
+    map.heights = field_of_numbers(header.type, data, nx, ny, monitor);
+    return map;
   }
+  const Field columns = field_of_numbers(header.type, data, ny, nx, monitor);
+  map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
+  for (std::uint64_t k = 0; k < nx * ny; ++k) map.heights[k] = columns[k % nx * ny + k / nx];
   return map;
 }
 
 }  // namespace
 
-const Format& npy_format() {
-  static const Format format{
-      "npy",
-      "\\x93NUMPY at the start",
-      {"NumPy arrays of one or two axes, integers or floating-point numbers.",
-       "Complex numbers, records and objects; arrays of three axes.", "Arrays written by NumPy."},
-      {FirstLine::bottom, "A matrix: its first row is j = 0."},
-      {"npy"},
-      recognises_npy,
-      read_npy};
-  return format;
-}
+extern constexpr Format npy_format{
+    "npy",
+    "\\x93NUMPY at the start",
+    {"NumPy arrays of one or two axes, integers or floating-point numbers.",
+     "Complex numbers, records and objects; arrays of three axes.", "Arrays written by NumPy."},
+    {FirstLine::bottom, "A matrix: its first row is j = 0."},
+    {"npy"},
+    recognises_npy,
+    read_npy};
 
 }  // namespace asperity

@@ -4,27 +4,25 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/core/files/source_file.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 
 struct NpyHeader {
-  char order = '|';  // '<' or '>' or '|'
-  char kind = 'f';   // f, i, u
-  std::size_t width = 8;
+  NumberType type;
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
   std::size_t data_at = 0;  // bytes from the beginning of the file
-  bool swapped() const;     // byte order differs from this machine's
 };
 
 // `file` may hold only the first 64 KiB. Throws Error{bad_file}.
 NpyHeader read_npy_header(const SourceFile& file);
 
-// Converts the bytes of one number.
-using NpyNumber = double (*)(const char* at, bool swap);
-NpyNumber npy_number(const NpyHeader& header);
+// Version 1, doubles. `shape`: "ny, nx", or "n," for a trace.
+std::string npy_header(const std::string& shape);
 
 }  // namespace asperity

@@ -11,8 +11,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/foreign_format.hpp"
-#include "engine/surface/io/length_unit.hpp"
 
 namespace asperity {
 
@@ -20,9 +20,10 @@ namespace {
 
 constexpr std::size_t most_lines = 1000, longest_setting = 200;
 
-using Words = std::span<const std::string_view>;
-
-bool is_one_of(std::string_view text, Words words) { return std::ranges::find(words, text) != words.end(); }
+// `words` stand between bars.
+bool is_one_of(const std::string& text, std::string_view words) {
+  return words.find("|" + text + "|") != std::string_view::npos;
+}
 
 // "X-Size_[um]" gives "x size" and "um".
 struct SettingKey {
@@ -102,7 +103,7 @@ std::optional<std::array<std::string_view, 2>> two_values(std::string_view text)
   return {};
 }
 
-// Contradictory values become NaN, and are dropped after the whole head.
+// Contradictory values become NaN, and are later dropped.
 void settle(OwnHead& head, std::optional<double> OwnHead::*member, const std::optional<double>& value,
             std::string_view what) {
   if (!value) return;
@@ -122,78 +123,50 @@ void leave_out_unsettled(OwnHead& head) {
     if (head.*member && std::isnan(*(head.*member))) (head.*member).reset();
 }
 
-constexpr std::array<std::string_view, 13> column_counts{"columns",
-                                                         "cols",
-                                                         "nx",
-                                                         "x points",
-                                                         "points x",
-                                                         "x pixels",
-                                                         "pixels x",
-                                                         "xpixels",
-                                                         "samples per line",
-                                                         "samples/line",
-                                                         "points per line",
-                                                         "points/line",
-                                                         "pixels per line"};
-constexpr std::array<std::string_view, 7> row_counts{"rows",     "lines",    "ny",      "y points",
-                                                     "points y", "y pixels", "pixels y"};
-constexpr std::array<std::string_view, 9> sizes_x{"x size",   "size x",  "x range", "range x",   "x length",
-                                                  "length x", "xlength", "width",   "scan width"};
-constexpr std::array<std::string_view, 8> sizes_y{"y size",   "size y",   "y range", "range y",
-                                                  "y length", "length y", "ylength", "scan height"};
-constexpr std::array<std::string_view, 4> both_counts{"pixels", "points", "samples", "resolution"};
-constexpr std::array<std::string_view, 7> both_sizes{"size",          "scan size", "scan range", "scan area",
-                                                     "field of view", "fov",       "image size"};
-constexpr std::array<std::string_view, 8> spacings_x{
-    "dx", "x spacing", "x step", "x increment", "x pixel size", "pixel size x", "pixel width", "spacing x"};
-constexpr std::array<std::string_view, 8> spacings_y{
-    "dy", "y spacing", "y step", "y increment", "y pixel size", "pixel size y", "pixel height", "spacing y"};
-constexpr std::array<std::string_view, 9> both_spacings{
-    "pixel size", "pixelsize",      "pixel spacing",    "point spacing",    "spacing",
-    "xy spacing", "xy calibration", "lateral sampling", "sampling interval"};
-constexpr std::array<std::string_view, 9> height_units{"z unit",          "z units",      "unit z",
-                                                       "height unit",     "height units", "unit of height",
-                                                       "units of height", "value unit",   "value units"};
-constexpr std::array<std::string_view, 5> height_words{"z", "height", "heights", "raw", "topography"};
+struct AxisWords {
+  std::string_view name, count_name, counts, sizes, spacings;
+  std::optional<double> OwnHead::*count, OwnHead::*size, OwnHead::*spacing;
+};
+constexpr std::array axes{
+    AxisWords{"x", "its columns",
+              "|columns|cols|nx|x points|points x|x pixels|pixels x|xpixels|samples per line|samples/line|"
+              "points per line|points/line|pixels per line|",
+              "|x size|size x|x range|range x|x length|length x|xlength|width|scan width|",
+              "|dx|x spacing|x step|x increment|x pixel size|pixel size x|pixel width|spacing x|",
+              &OwnHead::stated_columns, &OwnHead::size_x, &OwnHead::spacing_x},
+    AxisWords{"y", "its rows", "|rows|lines|ny|y points|points y|y pixels|pixels y|",
+              "|y size|size y|y range|range y|y length|length y|ylength|scan height|",
+              "|dy|y spacing|y step|y increment|y pixel size|pixel size y|pixel height|spacing y|",
+              &OwnHead::stated_rows, &OwnHead::size_y, &OwnHead::spacing_y}};
+constexpr std::string_view both_counts = "|pixels|points|samples|resolution|";
+constexpr std::string_view both_sizes = "|size|scan size|scan range|scan area|field of view|fov|image size|";
+constexpr std::string_view both_spacings =
+    "|pixel size|pixelsize|pixel spacing|point spacing|spacing|xy spacing|xy calibration|lateral sampling|"
+    "sampling interval|";
+constexpr std::string_view height_units =
+    "|z unit|z units|unit z|height unit|height units|unit of height|units of height|value unit|value units|";
+constexpr std::string_view height_words = "|z|height|heights|raw|topography|";
 
 void take_setting(OwnHead& head, const SettingKey& key, std::string_view value) {
-  if (is_one_of(key.name, height_units)) {
-    settle(head, &OwnHead::unit, length_unit(value), "the unit of its heights");
-    return;
+  if (is_one_of(key.name, height_units))
+    return settle(head, &OwnHead::unit, length_unit(value), "the unit of its heights");
+  const auto both = two_values(value);
+  const auto x = stated_value(both ? (*both)[0] : value), y = stated_value(both ? (*both)[1] : value);
+  if (!x || !y) return;
+  const std::string& unit = both && !y->word.empty() ? y->word : key.unit;  // "10 x 20 um"
+  for (const AxisWords& axis : axes) {
+    const Stated& stated = &axis == &axes[0] ? *x : *y;
+    const std::optional<double> length = stated_length(stated, unit);
+    const std::string along = " along " + std::string(axis.name);
+    if (is_one_of(key.name, both ? both_sizes : axis.sizes))
+      settle(head, axis.size, length, "its size" + along);
+    if (is_one_of(key.name, both_spacings) || (!both && is_one_of(key.name, axis.spacings)))
+      settle(head, axis.spacing, length, "its spacing" + along);
+    if (unit.empty() && is_one_of(key.name, both ? both_counts : axis.counts))
+      settle(head, axis.count, stated_count(stated), axis.count_name);
   }
-  if (const auto both = two_values(value)) {
-    const auto x = stated_value((*both)[0]), y = stated_value((*both)[1]);
-    if (!x || !y) return;
-    const std::string& unit = !y->word.empty() ? y->word : key.unit;  // "10 x 20 um"
-    if (is_one_of(key.name, both_sizes)) {
-      settle(head, &OwnHead::size_x, stated_length(*x, unit), "its size along x");
-      settle(head, &OwnHead::size_y, stated_length(*y, unit), "its size along y");
-    } else if (is_one_of(key.name, both_spacings)) {
-      settle(head, &OwnHead::spacing_x, stated_length(*x, unit), "its spacing along x");
-      settle(head, &OwnHead::spacing_y, stated_length(*y, unit), "its spacing along y");
-    }
-    if (unit.empty() && is_one_of(key.name, both_counts)) {
-      settle(head, &OwnHead::stated_columns, stated_count(*x), "its columns");
-      settle(head, &OwnHead::stated_rows, stated_count(*y), "its rows");
-    }
-    return;
-  }
-  const auto one = stated_value(value);
-  if (!one) return;
-  const std::optional<double> length = stated_length(*one, key.unit);
-  if (is_one_of(key.name, sizes_x)) settle(head, &OwnHead::size_x, length, "its size along x");
-  if (is_one_of(key.name, sizes_y)) settle(head, &OwnHead::size_y, length, "its size along y");
-  if (is_one_of(key.name, both_sizes)) settle(head, &OwnHead::size, length, "its size");
-  if (is_one_of(key.name, spacings_x)) settle(head, &OwnHead::spacing_x, length, "its spacing along x");
-  if (is_one_of(key.name, spacings_y)) settle(head, &OwnHead::spacing_y, length, "its spacing along y");
-  if (is_one_of(key.name, both_spacings)) {
-    settle(head, &OwnHead::spacing_x, length, "its spacing along x");
-    settle(head, &OwnHead::spacing_y, length, "its spacing along y");
-  }
-  if (!key.unit.empty()) return;
-  if (is_one_of(key.name, column_counts))
-    settle(head, &OwnHead::stated_columns, stated_count(*one), "its columns");
-  if (is_one_of(key.name, row_counts)) settle(head, &OwnHead::stated_rows, stated_count(*one), "its rows");
+  if (!both && is_one_of(key.name, both_sizes))
+    settle(head, &OwnHead::size, stated_length(*x, unit), "its size");
 }
 
 // For example "X Range: 10 um", "Columns = 3", "\"XY calibration\",\"277\",\"nm\"", "Scan size 10 um".
@@ -239,9 +212,8 @@ std::optional<OwnHead> own_head(const SourceFile& file) {
   for (LineReader lines(file.text()); rows < 2;) {
     if (words > most_lines || !lines.next(line)) return {};
     line = trimmed(line);
-    if (line.empty()) continue;
     if (is_skipped(line)) {
-      settings.push_back(trimmed(line.substr(std::min(line.find_first_not_of("#%"), line.size()))));
+      settings.push_back(without_mark(line));
       continue;
     }
     if (is_row_of_numbers(line)) {
@@ -266,7 +238,7 @@ std::optional<OwnHead> own_head(const SourceFile& file) {
   head.lines = begins - 1;
   for (const std::string_view setting : settings) take_head_line(head, setting);
   if (auto names = column_head(last)) {
-    // A sentence with the same number of words looks alike.
+    // A sentence may have as many words.
     const bool parted = last.find_first_of(";,\t") != std::string_view::npos;
     const bool have_units =
         std::ranges::any_of(*names, [](const HeadColumn& column) { return !column.word.empty(); });
@@ -284,8 +256,8 @@ std::optional<OwnHead> own_head(const SourceFile& file) {
 void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head) {
   const auto refuse_as = [&](const std::string& finding, const std::string& cure) {
     refuse_file(file,
-                "has a head of its own, from line " + std::to_string(head.first) + ", " + head.words +
-                    ", to line " + std::to_string(head.lines) + ", over " + std::to_string(head.columns) +
+                "has a head in lines " + std::to_string(head.first) + " (" + head.words + ") to " +
+                    std::to_string(head.lines) + " over " + std::to_string(head.columns) +
                     (head.columns == 1 ? " column" : " columns") + " of numbers: " + finding,
                 cure);
   };
@@ -293,39 +265,35 @@ void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head) {
   const std::size_t columns = head.columns;
   if (columns == 1 || head.stated_columns || (head.names && are_of_profile(*head.names))) return;
   if (head.names)
-    refuse_as("line " + std::to_string(head.lines) + " names them, and not as positions and heights",
-              "a table of measured numbers is read by `table.read`; " + as_matrix);
+    refuse_as("line " + std::to_string(head.lines) + " names other columns than positions and heights",
+              "read a table of measured numbers by `table.read`; " + as_matrix);
   if (columns == 3)
     refuse_as("they may be x y z points, or a matrix of heights",
-              "a line such as \"x [mm],y [mm],z [um]\" below the head says so of points; " + as_matrix);
+              "for points, write a line such as \"x [mm],y [mm],z [um]\" below the head; " + as_matrix);
   LineReader lines(file.text());
   std::string_view line;
   while (lines.number() < head.lines && lines.next(line)) continue;
   const TextTable table = read_table(lines, file, Monitor::silent());
   const auto nx = static_cast<std::size_t>(table.columns), ny = static_cast<std::size_t>(table.rows);
-  Array<double> column(ny);
-  for (std::size_t k = 0; k < ny; ++k) column[k] = table.values[k * nx];
+  const Array<double> column = table.column(0);
   if (nx == 2 && ny > 2 && rises_evenly(column, 0.25))
-    refuse_as(
-        "they may be positions and heights, or a matrix of heights",
-        "a line such as \"x [mm],z [um]\" below the head says so of a trace; or say `format` = \"text\": "
-        "`profile.read` then takes positions and heights, `surface.read` a matrix");
+    refuse_as("they may be positions and heights, or a matrix of heights",
+              "for a trace, write a line such as \"x [mm],z [um]\" below the head; with `format` = \"text\", "
+              "`profile.read` takes positions and heights, `surface.read` a matrix");
   constexpr std::size_t enough = 4;
-  constexpr double rounded = 0.02;  // of a step; heights of a tilted map scatter more
+  constexpr double rounded = 0.02;  // of a step; tilted maps scatter more
   // The shared corner may hold anything.
   const auto may_be_positions = [&](std::span<const double> values) {
     return values.size() > enough && rises_evenly(values.subspan(1), rounded);
   };
   const bool of_column = may_be_positions(column);
   if (of_column || may_be_positions({table.values.data(), nx}))
-    refuse_as("its first " + std::string(of_column ? "column" : "line") +
-                  " rises evenly, as positions do and heights seldom",
+    refuse_as("its first " + std::string(of_column ? "column" : "line") + " rises evenly, as positions do",
               "delete the positions; " + as_matrix);
   constexpr std::size_t wrapped = 20;
   if (ny >= wrapped * nx)
-    refuse_as(
-        "on " + std::to_string(ny) + " lines, where a matrix may be wrapped, or columns of a log stand",
-        "a line \"columns = " + std::to_string(nx) + "\" in the head says so of a matrix; " + as_matrix);
+    refuse_as(std::to_string(ny) + " lines may be a wrapped matrix, or columns of a log",
+              "for a matrix, write \"columns = " + std::to_string(nx) + "\" into the head; " + as_matrix);
 }
 
 }  // namespace asperity

@@ -2,8 +2,7 @@
 // Tables under a head of words, as instruments export them:
 //   Stylus profiler / Operator Li / Speed 0.5 mm/s / x [mm],z [um] / 0,1 / 0.1,2 / …
 // Only unambiguous entries are used: counts, lengths with a unit, the unit of heights, and a last line that
-// names every column. The table may hold positions and heights, points, a log or a wrapped matrix;
-// undecided tables are refused.
+// names every column. Undecided tables are refused.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +21,6 @@ struct OwnHead {
   std::size_t first = 0;  // first line of words
   std::string words;      // this line, for errors
   std::size_t columns = 0;
-  // From the last line before the table.
   std::optional<std::vector<HeadColumn>> names;
   std::optional<double> stated_columns, stated_rows;
   std::optional<double> size_x, size_y;        // m, nodes times spacing
@@ -32,12 +30,12 @@ struct OwnHead {
   std::vector<std::string> twice;              // contradictory entries
 };
 
-// The head, if the first line (without comments) has words and two rows of numbers follow. None for a line
-// of column names alone (column_head.hpp) and for known formats. O(length of the head).
+// The head, if the first line (without comments) has words and two rows of numbers follow. None for column
+// names alone and for known formats.
 std::optional<OwnHead> own_head(const SourceFile& file);
 
-// Throws Error{bad_file} if other columns are named, if the first row or column may hold positions, or if
-// the matrix may be wrapped.
+// Throws Error{bad_file} for other named columns, possible positions in the first row or column, and a
+// possibly wrapped matrix.
 void refuse_uncertain_lattice(const SourceFile& file, const OwnHead& head);
 
 }  // namespace asperity

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Converts the numbers of any format to metres: unit, size, holes.
+// Converts numbers of any format to metres.
 #include "engine/surface/io/read.hpp"
 
 #include <algorithm>
@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/text_encoding.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/deflated.hpp"
-#include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/operations/holes.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -25,7 +23,6 @@ void require_length(const char* key, std::optional<double> value) {
   require_positive(key, value, "m", "give a finite length above zero");
 }
 
-// Refuses wrong calls before the file is opened.
 void check_call(const ReadOptions& options) {
   require_length("size", options.size_x);
   require_length("size", options.size_y);
@@ -38,26 +35,6 @@ void check_call(const ReadProfileOptions& options) {
   require_length("spacing", options.spacing);
   require_length("unit", options.unit);
   require_length("unit_xy", options.unit_xy);
-}
-
-// Spreadsheets save "Unicode text" in UTF-16. Formats with a UTF-16 head decode it themselves.
-std::optional<SourceFile> as_utf8(const SourceFile& file, const std::string& forced) {
-  const std::optional<ForeignFormat> foreign = foreign_format(file);
-  if (!foreign || foreign->what != utf16_text) return {};
-  for (const Format* format : formats()) {
-    if (format == &text_format() || format == &xyz_format() || format == &stylus_csv_format()) continue;
-    if (forced.empty() ? format->recognises(file) : format->name == forced) return {};
-  }
-  const std::optional<std::string> text = utf8_of_utf16(file.bytes());
-  if (!text) return {};
-  return SourceFile(file.path(), Array<char>(text->begin(), text->end()), file.extension());
-}
-
-// After gunzip and conversion to UTF-8; none if not needed.
-std::optional<SourceFile> plain_file(const SourceFile& given, const std::string& forced, Monitor& monitor) {
-  std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
-  if (std::optional<SourceFile> text = as_utf8(unpacked ? *unpacked : given, forced)) return text;
-  return unpacked;
 }
 
 // Tolerance: four-byte rounding.
@@ -73,33 +50,35 @@ std::optional<double> settled(const std::optional<double>& asked, const std::opt
   return asked;
 }
 
-[[noreturn]] void refuse_missing(const SourceFile& file, const std::vector<std::string>& missing) {
+// `length_key` names the size or the spacing.
+void require_scale(const SourceFile& file, const HeightMap& map, bool unit_known, bool length_known,
+                   const std::string& length_key) {
   std::vector<std::string> things, keys;
-  for (const std::string& key : missing) {
-    things.push_back(key == "unit_xy" ? "the unit of its positions" : "its " + key);
+  const auto lacks = [&](const std::string& key) {
+    things.push_back(key == "unit_xy" ? "the unit of its positions" : (things.empty() ? "its " : "") + key);
     keys.push_back(quoted(key));
-  }
-  for (std::size_t k = 1; k < things.size(); ++k)
-    if (things[k].starts_with("its ")) things[k].erase(0, 4);
-  const auto lacks = [&](const char* key) {
-    return std::find(missing.begin(), missing.end(), key) != missing.end();
   };
+  if (!length_known && !map.size_in_units) lacks(length_key);
+  if (!unit_known) lacks("unit");
+  const bool lacks_unit_xy = !length_known && map.size_in_units;
+  if (lacks_unit_xy) lacks("unit_xy");
+  if (keys.empty()) return;
   throw Error(ErrorCode::bad_value, file_name(file.path()) + " does not say " + joined(things, " and "),
               "give " + joined(keys, " and ") + " in the call" +
-                  (lacks("unit") ? ": `unit` is the length of one number, such as \"um\"" : "") +
-                  (!lacks("unit_xy") ? ""
-                   : lacks("unit")   ? ", `unit_xy` that of a position, which may be another"
-                                     : ": the length of one number of a position, such as \"mm\""));
+                  (unit_known ? "" : ": `unit` is the length of one number, such as \"um\"") +
+                  (!lacks_unit_xy ? ""
+                   : unit_known   ? ": the length of one number of a position, such as \"mm\""
+                                  : ", `unit_xy` that of a position, which may be another"));
 }
 
-// A contradiction to the line of column names is an error: either may be a mistake.
+// A contradiction to column names is an error.
 std::optional<double> unit_of(const std::optional<double>& asked, const std::optional<double>& found,
                               const HeightMap& map, const SourceFile& file, const std::string& key,
                               Monitor& monitor) {
   if (map.named_columns && asked && found && differ(*asked, *found))
     throw Error(ErrorCode::bad_value,
-                file_name(file.path()) + " says in the line that names its columns that its " +
-                    (key == "unit" ? "heights" : "positions") + " are in units of " +
+                file_name(file.path()) + " names its columns with " +
+                    (key == "unit" ? "heights" : "positions") + " in units of " +
                     format_quantity(*found, dimension::length) + ", and " + quoted(key) + " is " +
                     format_quantity(*asked, dimension::length),
                 "leave " + quoted(key) + " out, or correct that line");
@@ -114,7 +93,7 @@ void positions_into_metres(HeightMap& map, const std::optional<double>& asked, c
       throw Error(ErrorCode::bad_value,
                   "`unit_xy` is " + format_quantity(*asked, dimension::length) + ", and " +
                       file_name(file.path()) + " holds no positions, only heights",
-                  "leave it out: it is of x y z points and of profiles in two columns");
+                  "leave it out: only x y z points and profiles in two columns have positions");
     return;
   }
   const std::optional<double> unit = unit_of(asked, map.position_unit, map, file, "unit_xy", monitor);
@@ -132,19 +111,15 @@ void warn_of_proportions(const HeightMap& map, const SourceFile& file, double hx
     monitor.warn(file_name(file.path()) + " " + finding + ": check its size and its unit");
   };
   if (const double least = std::min(hx, hy), most = std::max(size_x, size_y); least < shortest) {
-    warn("has points that lie " + length(least) + " apart");
+    warn("has points " + length(least) + " apart");
   } else if (most > longest) {
     warn("is " + length(most) + " long");
   } else if (!map.trace && (hx > narrowest * hy || hy > narrowest * hx)) {
-    warn("has points that lie " + length(hx) + " apart along x and " + length(hy) + " along y");
+    warn("has points " + length(hx) + " apart along x and " + length(hy) + " along y");
   }
-  double low = INFINITY, high = -INFINITY;
-  for (const double height : map.heights.values()) {
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
-  if (high - low > steepest * std::max(size_x, size_y))
-    warn("has heights that span " + length(high - low) + " over " + length(std::max(size_x, size_y)));
+  if (const double span = known_range(map.heights.values()).span();
+      span > steepest * std::max(size_x, size_y))
+    warn("has heights that span " + length(span) + " over " + length(std::max(size_x, size_y)));
 }
 
 HeightMap read_map(const SourceFile& file, const std::string& forced, const std::string& channel,
@@ -183,17 +158,9 @@ void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx,
   }
   if (holes == 0) return;
   if (holes == map.heights.size()) refuse_file(file, "holds no height, only missing points");
-  switch (fill.kind) {
-    case HoleFill::Kind::none:
-      break;
-    case HoleFill::Kind::value:
-      for (double& height : map.heights.values())
-        if (std::isnan(height)) height = fill.height;
-      break;
-    case HoleFill::Kind::interpolate:
-      fill_harmonic(map.heights, hx, hy, monitor);
-      break;
-  }
+  if (fill.kind == HoleFill::Kind::none) return;
+  const bool by_value = fill.kind == HoleFill::Kind::value;
+  fill_holes(map.heights, by_value ? std::optional(fill.height) : std::nullopt, hx, hy, monitor);
 }
 
 // Position and height become a trace.
@@ -228,18 +195,13 @@ void stand_upright(HeightMap& map, const Format& format) {
 
 }  // namespace
 
-Surface read_surface(const std::string& path, const ReadOptions& options, Monitor& monitor) {
-  check_call(options);
-  return read_surface(SourceFile(path, monitor), options, monitor);
-}
-
 Surface read_surface(const SourceFile& given, const ReadOptions& options, Monitor& monitor) {
   check_call(options);
-  const std::optional<SourceFile> plain = plain_file(given, options.format, monitor);
-  const SourceFile& file = plain ? *plain : given;
+  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
+  const SourceFile& file = unpacked ? *unpacked : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
-  if (format == &text_format() && options.format.empty() && !map.size_x && map.heights.nx() == 3 &&
+  if (format == &text_format && options.format.empty() && !map.size_x && map.heights.nx() == 3 &&
       map.heights.ny() == 1)
     refuse_file(file, "holds one line of three numbers: a point, or a matrix of three heights",
                 "say `format` = \"text\" for a matrix; one point is no surface");
@@ -251,12 +213,7 @@ Surface read_surface(const SourceFile& given, const ReadOptions& options, Monito
   const std::optional<double> size_x = settled(options.size_x, map.size_x, file, "size", monitor);
   std::optional<double> size_y = settled(options.size_y, map.size_y, file, "size", monitor);
   if (map.trace && size_x && !size_y) size_y = *size_x / map.heights.nx();
-  std::vector<std::string> missing;
-  const bool without_size = !size_x || !size_y;
-  if (without_size && !map.size_in_units) missing.emplace_back("size");
-  if (!unit) missing.emplace_back("unit");
-  if (without_size && map.size_in_units) missing.emplace_back("unit_xy");
-  if (!missing.empty()) refuse_missing(file, missing);
+  require_scale(file, map, unit.has_value(), size_x && size_y, "size");
 
   const Grid grid = make_grid(map.heights.nx(), map.heights.ny(), *size_x, *size_y);
   into_metres(map, file, *unit, grid.hx(), grid.hy(), options.fill, monitor);
@@ -265,18 +222,13 @@ Surface read_surface(const SourceFile& given, const ReadOptions& options, Monito
                              {.material = options.material, .periodic = false, .aliased_share = {}});
 }
 
-Profile read_profile(const std::string& path, const ReadProfileOptions& options, Monitor& monitor) {
-  check_call(options);
-  return read_profile(SourceFile(path, monitor), options, monitor);
-}
-
 Profile read_profile(const SourceFile& given, const ReadProfileOptions& options, Monitor& monitor) {
   check_call(options);
-  const std::optional<SourceFile> plain = plain_file(given, options.format, monitor);
-  const SourceFile& file = plain ? *plain : given;
+  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
+  const SourceFile& file = unpacked ? *unpacked : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
-  if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format()))
+  if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format))
     fold_positions(map, file);
   stand_upright(map, *format);
   const int nx = map.heights.nx(), ny = map.heights.ny();
@@ -292,11 +244,7 @@ Profile read_profile(const SourceFile& given, const ReadProfileOptions& options,
   std::optional<double> found = map.spacing;
   if (!found && length) found = *length / (nx * ny);
   const std::optional<double> spacing = settled(options.spacing, found, file, "spacing", monitor);
-  std::vector<std::string> missing;
-  if (!spacing && !map.size_in_units) missing.emplace_back("spacing");
-  if (!unit) missing.emplace_back("unit");
-  if (!spacing && map.size_in_units) missing.emplace_back("unit_xy");
-  if (!missing.empty()) refuse_missing(file, missing);
+  require_scale(file, map, unit.has_value(), spacing.has_value(), "spacing");
 
   into_metres(map, file, *unit, *spacing, *spacing, options.fill, monitor);
   map.trace = true;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads measured topographies in all formats() (format.hpp), plain or gzipped. `format`, else the content,
-// else the extension selects the format. The call must give size and unit if the file does not. A value of
-// the call overrides the file with a warning, but must not contradict units in a line of column names.
-// Damaged or mislabelled files throw Error{bad_file}. Memory is limited to a fixed multiple of the file's
-// size.
+// Reads measured topographies in all formats() (format.hpp), plain or gzipped. The call must give size and
+// unit if the file does not. A value of the call overrides the file with a warning, but must not contradict
+// units in a line of column names. Damaged or mislabelled files throw Error{bad_file}.
 #pragma once
 
 #include <optional>
@@ -45,19 +43,14 @@ struct ReadProfileOptions {
   std::string format, channel;
 };
 
-// In maps y points up: j = 0 is the lowest line, for each order of lines in the file (Format::lines). A
-// trace becomes one row, ny = 1; default size_y: one cell. Traits: only the material. Errors: bad_file,
-// also if no point was measured; bad_value for a missing `size`, `unit` or `unit_xy`, a contradictory unit,
-// a `unit_xy` without positions, or more than 65536 cells a side; unknown_name for `format`. Warns of
-// implausible sizes.
-Surface read_surface(const std::string& path, const ReadOptions& options = {},
-                     Monitor& monitor = Monitor::silent());
+// j = 0 is the lowest line. A trace becomes one row, ny = 1; default size_y: one cell. Traits: only the
+// material. Errors: bad_file, also if no point was measured; bad_value for a missing `size`, `unit` or
+// `unit_xy`, a contradictory unit, a `unit_xy` without positions, or more than 65536 cells a side;
+// unknown_name for `format`. Warns of implausible sizes.
 Surface read_surface(const SourceFile& file, const ReadOptions& options = {},
                      Monitor& monitor = Monitor::silent());
 
 // A trace, a single row or column, or two columns, position and height. Throws Error{bad_file} for a map.
-Profile read_profile(const std::string& path, const ReadProfileOptions& options = {},
-                     Monitor& monitor = Monitor::silent());
 Profile read_profile(const SourceFile& file, const ReadProfileOptions& options = {},
                      Monitor& monitor = Monitor::silent());
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CSV traces of stylus profilers: lines `key,value`, `Scan Data`, column names with units (`Lateral um,Raw
-// Micrometer`), samples. Positions and `Resolution` are rounded (0.1 um for a spacing of 0.156 um), so the
-// spacing is the least-squares slope of position against sample number; error about rounding / n^1.5.
-// Uneven spacing and samples shorter than `Length` are errors.
+// Micrometer`), samples. Positions and `Resolution` are rounded, so the spacing is the least-squares slope of
+// position against sample number. Uneven spacing and samples shorter than `Length` are errors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/table_head.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/length_unit.hpp"
 
 namespace asperity {
 
@@ -41,20 +41,7 @@ int decimals(std::string_view text) {
              : static_cast<int>(std::min<std::size_t>(text.size() - point - 1, 17));
 }
 
-// Also "1500.0 \xB5m".
-std::optional<double> length_of(std::string_view text) {
-  std::string plain(text);
-  if (const std::size_t micro = plain.find('\xB5');
-      micro != std::string::npos && (micro == 0 || plain[micro - 1] != '\xC2'))
-    plain[micro] = 'u';
-  try {
-    return parse_quantity_as(plain, dimension::length);
-  } catch (const Error&) {  // optional check
-    return {};
-  }
-}
-
-// Tolerance: half a sample, because some headers count from first to last sample.
+// Tolerance: half a sample; some headers count from first to last sample.
 void check_length(const SourceFile& file, double found, double spacing, double stated, Monitor& monitor) {
   const std::string stated_text = format_quantity(stated, dimension::length),
                     found_text = format_quantity(found, dimension::length);
@@ -70,7 +57,6 @@ struct Line {
   double spacing = 0, first = 0;
 };
 
-// Least squares by centred sums.
 Line fitted(std::span<const double> positions) {
   const auto n = static_cast<double>(positions.size());
   const double middle = 0.5 * (n - 1), average = mean(positions);
@@ -87,13 +73,12 @@ Line evenly_spaced(const SourceFile& file, std::span<const double> positions, in
   if (positions.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     refuse_file(file, "has too many samples");
   const Line fit = fitted(positions);
-  // Rounding moves a position by half of its last digit.
   const double allowed = std::max(0.5 * fit.spacing, 0.6 * elementary::pow(10.0, -places));
   if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
     refuse_file(file, "has positions that do not increase");
   for (std::size_t k = 0; k < positions.size(); ++k)
     if (!(std::abs(positions[k] - (fit.first + fit.spacing * static_cast<double>(k))) <= allowed))
-      refuse_file(file, "is not evenly spaced: sample " + std::to_string(k + 1) + " stands at " +
+      refuse_file(file, "is not evenly spaced: sample " + std::to_string(k + 1) + " is at " +
                             format_short(positions[k]) + " instead of " +
                             format_short(fit.first + fit.spacing * static_cast<double>(k)));
   return fit;
@@ -108,7 +93,9 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   while (!found && lines.next(line)) {
     found = is_scan_mark(line);
     const std::vector<std::string_view> cells = cells_of(line, Separator::comma);
-    if (cells.size() >= 2 && lower_case(cells[0]) == "length" && !length) length = length_of(cells[1]);
+    if (cells.size() < 2 || lower_case(cells[0]) != "length" || length) continue;
+    const std::optional<Quantity> stated = quantity_in_cell(utf8_or_cp1252(cells[1]));
+    if (stated && stated->dimension == dimension::length) length = stated->value;
   }
   require_format(file, found, "has no line \"Scan Data\"");
   do {
@@ -157,17 +144,15 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& stylus_csv_format() {
-  static const Format format{"stylus-csv",
-                             "a line \"Scan Data\"",
-                             {"Traces of stylus profilers (Dektak) as CSV with a line \"Scan Data\".",
-                              "Uneven spacing, scans cut short of their stated length.",
-                              "A file of the public test set of SurfaceTopography."},
-                             {FirstLine::bottom, "Profiles only."},
-                             {},
-                             recognises_stylus_csv,
-                             read_stylus_csv};
-  return format;
-}
+extern constexpr Format stylus_csv_format{
+    "stylus-csv",
+    "a line \"Scan Data\"",
+    {"Traces of stylus profilers (Dektak) as CSV with a line \"Scan Data\".",
+     "Uneven spacing, scans cut short of their stated length.",
+     "A file of the public test set of SurfaceTopography."},
+    {FirstLine::bottom, "Profiles only."},
+    {},
+    recognises_stylus_csv,
+    read_stylus_csv};
 
 }  // namespace asperity

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text matrices: one line of numbers per y, j = 0 first; top first under Gwyddion's head. Known headers:
-// our own (`# asperity surface`, `# asperity profile`), `h= w= pixel size= height conversion factor=`, and
+// Text matrices: one line of numbers per y, j = 0 first; top first under Gwyddion's head. Known headers: our
+// own (`# asperity surface`, `# asperity profile`), `h= w= pixel size= height conversion factor=`, and
 // comments `Width:`, `Height:`, `Value units:`. Two columns are position and height in our own profiles and
-// under a line such as "x [mm],z [um]"; any other table holds heights. Heads of words: own_head.hpp.
+// under a line such as "x [mm],z [um]"; else heights.
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/statistics/table_head.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/own_head.hpp"
@@ -17,106 +21,81 @@ namespace asperity {
 namespace {
 
 struct Header {
-  bool own_profile = false;
+  bool own_profile = false, own_matrix = false;
   std::optional<double> columns, rows;
-  std::optional<double> size_x, size_y, unit, pixel, closed_radius;
-  std::optional<std::vector<HeadColumn>> pair;  // position and height
-  bool pair_named = false;                      // by a line, not by a comment
-  bool width = false, height = false;           // as in Gwyddion's heads
+  std::optional<double> width, height, unit, pixel, closed_radius;  // m
+  std::optional<std::vector<HeadColumn>> pair;                      // position and height
+  bool pair_named = false;                                          // not by a comment
 };
 
-std::optional<double> plain_number(std::string_view text) {
-  const TextCell cell = read_cell(trimmed(text), Separator::blank);
-  if (cell.kind != CellKind::number) return {};
-  return cell.value;
-}
-
-// "3.7e-007 m", "10 um", or metres.
-std::optional<double> length_with_unit(std::string_view text) {
-  if (const auto number = plain_number(text)) return number;
-  try {
-    return parse_quantity_as(trimmed(text), dimension::length);
-  } catch (const Error&) {
-    return {};
-  }
-}
-
-double needed(const std::optional<double>& value, const SourceFile& file, std::string_view key,
-              std::string_view text) {
-  if (!value || !(*value > 0))
-    refuse_file(file, "has a header whose `" + std::string(key) + "` is " + shown(trimmed(text)),
+// A number or a length, such as "3.7e-007 m", above zero.
+double needed(std::string_view text, const SourceFile& file, std::string_view key) {
+  text = trimmed(text);
+  double value = 0;
+  if (const TextCell cell = read_cell(text, Separator::blank); cell.kind == CellKind::number)
+    value = cell.value;
+  else if (const auto own = quantity_in_cell(text);
+           own && own->dimension == dimension::length && text.find(',') == std::string_view::npos)
+    value = own->value;
+  if (!(value > 0))
+    refuse_file(file, "has a header whose `" + std::string(key) + "` is " + shown(text),
                 "it must be a number above zero, with or without a unit of length");
-  return *value;
+  return value;
 }
 
 // Skips keys unrelated to the grid.
 void take_in(Header& header, const SourceFile& file, std::string_view key_text, std::string_view value) {
+  using Member = std::optional<double> Header::*;
+  // Gwyddion's head is localised.
+  static constexpr std::array<std::pair<std::string_view, Member>, 11> members{
+      {{"h", &Header::rows},
+       {"w", &Header::columns},
+       {"samples", &Header::rows},
+       {"pixel size", &Header::pixel},
+       {"spacing [m]", &Header::pixel},
+       {"unit [m]", &Header::unit},
+       {"closed radius [m]", &Header::closed_radius},
+       {"width", &Header::width},
+       {"breite", &Header::width},
+       {"height", &Header::height},
+       {"h\u00F6he", &Header::height}}};
   const std::string key = lower_case(trimmed(key_text));
-  if (key == "h") {
-    header.rows = needed(plain_number(value), file, key, value);
-  } else if (key == "w") {
-    header.columns = needed(plain_number(value), file, key, value);
-  } else if (key == "pixel size") {
-    header.pixel = needed(length_with_unit(value), file, key, value);
-  } else if (key.starts_with("height conversion factor")) {
-    header.unit = needed(plain_number(value), file, "height conversion factor", value);
-  } else if (key == "unit [m]") {
-    header.unit = needed(plain_number(value), file, key, value);
-  } else if (key == "cells" || key == "size [m]") {
+  for (const auto& [name, member] : members)
+    if (key == name) header.*member = needed(value, file, key);
+  if (key.starts_with("height conversion factor"))
+    header.unit = needed(value, file, "height conversion factor");
+  if (key == "cells" || key == "size [m]") {
     const std::string_view both = trimmed(value);
-    const std::size_t gap = both.find(' ');
-    const std::string_view second = gap == std::string_view::npos ? std::string_view() : both.substr(gap);
-    (key == "cells" ? header.columns : header.size_x) =
-        needed(plain_number(both.substr(0, gap)), file, key, value);
-    (key == "cells" ? header.rows : header.size_y) = needed(plain_number(second), file, key, value);
-  } else if (key == "samples") {
-    header.rows = needed(plain_number(value), file, key, value);
-  } else if (key == "spacing [m]") {
-    header.pixel = needed(plain_number(value), file, key, value);
-  } else if (key == "closed radius [m]") {
-    header.closed_radius = needed(plain_number(value), file, key, value);
-  } else if (key == "width" || key == "breite") {  // Gwyddion's head is localised
-    header.size_x = needed(length_with_unit(value), file, key, value);
-    header.width = true;
-  } else if (key == "height" || key == "h\u00F6he") {
-    header.size_y = needed(length_with_unit(value), file, key, value);
-    header.height = true;
-  } else if (key == "value units") {
-    try {
-      const Quantity unit = parse_unit(trimmed(value));
-      if (unit.dimension == dimension::length) header.unit = unit.value;
-    } catch (const Error&) {  // unknown: the call must state it
-    }
+    const std::size_t gap = std::min(both.find(' '), both.size());
+    (key == "cells" ? header.columns : header.width) = needed(both.substr(0, gap), file, key);
+    (key == "cells" ? header.rows : header.height) = needed(both.substr(gap), file, key);
+    header.own_matrix = true;
   }
+  if (key == "value units")
+    if (const auto unit = unit_in_cell(value); unit && unit->dimension == dimension::length)
+      header.unit = unit->value;  // otherwise the call must state it
 }
 
 // "h=305 w=75" holds two settings, "height conversion factor (-> m)=3e-8" one.
 void take_in_line(Header& header, const SourceFile& file, std::string_view line) {
-  const std::size_t first = line.find('=');
-  if (first == std::string_view::npos) {
-    const std::size_t colon = line.find(':');
-    if (colon != std::string_view::npos) take_in(header, file, line.substr(0, colon), line.substr(colon + 1));
+  const std::vector<std::string_view> words = cells_of(line, Separator::blank);
+  if (words.size() > 1 && std::ranges::count(line, '=') > 1) {
+    for (const std::string_view word : words)
+      if (word.find('=') != std::string_view::npos) take_in_line(header, file, word);
     return;
   }
-  if (line.find('=', first + 1) == std::string_view::npos) {
-    take_in(header, file, line.substr(0, first), line.substr(first + 1));
-    return;
-  }
-  for (const std::string_view setting : cells_of(line, Separator::blank)) {
-    const std::size_t equals = setting.find('=');
-    if (equals != std::string_view::npos)
-      take_in(header, file, setting.substr(0, equals), setting.substr(equals + 1));
-  }
+  std::size_t sign = line.find('=');
+  if (sign == std::string_view::npos) sign = line.find(':');
+  if (sign != std::string_view::npos) take_in(header, file, line.substr(0, sign), line.substr(sign + 1));
 }
 
-// A comment with fewer than two units may be unrelated to the columns.
+// A comment with fewer than two units may be unrelated.
 std::optional<std::vector<HeadColumn>> units_of_pair(std::string_view line) {
   auto pair = profile_head(line);
   if (pair && (*pair)[0].unit && (*pair)[1].unit) return pair;
   return {};
 }
 
-// Reads up to the first row of numbers.
 Header read_header(LineReader& lines, const SourceFile& file) {
   Header header;
   std::string_view line;
@@ -124,9 +103,7 @@ Header read_header(LineReader& lines, const SourceFile& file) {
     line = trimmed(line);
     if (line.empty()) continue;
     if (line.front() == '#' || line.front() == '%') {
-      line = trimmed(line.substr(line.find_first_not_of("#%") == std::string_view::npos
-                                     ? line.size()
-                                     : line.find_first_not_of("#%")));
+      line = without_mark(line);
       if (line == "asperity profile") header.own_profile = true;
       take_in_line(header, file, line);
       if (!header.own_profile && !header.pair) header.pair = units_of_pair(line);
@@ -172,6 +149,13 @@ void check_count(const SourceFile& file, const std::optional<double>& said, int 
                 "the file is cut short or its header is wrong");
 }
 
+HeightMap map_of(const TextTable& table) {
+  HeightMap map;
+  map.heights = Field(table.columns, table.rows);
+  std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+  return map;
+}
+
 HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const SourceFile& file,
                   Monitor& monitor) {
   map.pairs = map.named_columns = true;
@@ -180,17 +164,16 @@ HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const Sour
   return map;
 }
 
-// Nodes times spacing. A stated length may exclude the last cell.
 std::optional<double> size_along(const SourceFile& file, const std::optional<double>& size,
                                  const std::optional<double>& spacing, int nodes, const std::string& axis) {
   if (!spacing) return size;
   const double found = *spacing * nodes;
   if (size && !(*size > 0.99 * (found - *spacing) && *size < 1.01 * found))
     refuse_file(file,
-                "states in its head that it is " + format_quantity(*size, dimension::length) +
-                    " long along " + axis + " and that its " + std::to_string(nodes) + " points lie " +
+                "states a length of " + format_quantity(*size, dimension::length) + " along " + axis +
+                    " and " + std::to_string(nodes) + " points " +
                     format_quantity(*spacing, dimension::length) + " apart",
-                "correct the one that is wrong");
+                "correct the wrong value");
   return found;
 }
 
@@ -206,14 +189,12 @@ HeightMap read_under_own_head(const SourceFile& file, const OwnHead& head, Monit
                 "states " + std::to_string(table.rows) + " columns and " + std::to_string(table.columns) +
                     " rows, and holds " + std::to_string(table.columns) + " numbers on each of " +
                     std::to_string(table.rows) + " lines",
-                "a line of numbers is one y: if lines of the file run along y, transpose it");
+                "a line holds one y: transpose the numbers, or correct the head");
   check_count(file, head.stated_columns, table.columns, "columns");
   check_count(file, head.stated_rows, table.rows, "rows");
   for (const std::string& what : head.twice)
-    monitor.warn(file_name(file.path()) + " states " + what + " in two ways in its head; neither is used");
-  HeightMap map;
-  map.heights = Field(table.columns, table.rows);
-  std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+    monitor.warn(file_name(file.path()) + " has two values for " + what + " in its head; neither is used");
+  HeightMap map = map_of(table);
   map.unit = head.unit;
   if (head.names && table.columns == 2 && are_of_profile(*head.names))
     return pair_of(std::move(map), *head.names, file, monitor);
@@ -230,22 +211,20 @@ HeightMap read_under_own_head(const SourceFile& file, const OwnHead& head, Monit
 }
 
 HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
-  if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
-    refuse_file(file, "is UTF-16 text", "save it as UTF-8");
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   if (const auto head = own_head(file)) return read_under_own_head(file, *head, monitor);
   LineReader lines(file.text());
   const Header header = read_header(lines, file);
   TextTable table = read_table(lines, file, monitor);
   warn_if_cut(file, monitor);
-  HeightMap map;
+  HeightMap map = map_of(table);
   if (header.own_profile) {
     check_count(file, header.rows, table.rows, "samples");
     if (table.columns != 2)
       refuse_file(file, "has " + std::to_string(table.columns) + " columns",
                   "a profile has two, position and height");
     map.heights = Field(table.rows, 1);
-    for (std::size_t k = 0; k < map.heights.size(); ++k) map.heights[k] = table.values[2 * k + 1];
+    std::ranges::copy(table.column(1), map.heights.values().begin());
     if (header.pixel) map.size_x = *header.pixel * table.rows;
     map.spacing = header.pixel;
     map.unit = 1.0;
@@ -256,14 +235,12 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   check_count(file, header.columns, table.columns, "columns");
   check_count(file, header.rows, table.rows, "rows");
   map.unit = header.unit;
-  if (header.width && header.height) map.first_line = FirstLine::top;
-  map.heights = Field(table.columns, table.rows);
-  std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+  if (header.width && header.height && !header.own_matrix) map.first_line = FirstLine::top;  // Gwyddion
   if (header.pair_named && table.columns != 2)
     refuse_file(file, "has " + std::to_string(table.columns) + " columns under a head that names two");
   if (header.pair && table.columns == 2) return pair_of(std::move(map), *header.pair, file, monitor);
-  map.size_x = header.size_x;
-  map.size_y = header.size_y;
+  map.size_x = header.width;
+  map.size_y = header.height;
   if (header.pixel) {
     map.size_x = *header.pixel * table.columns;
     map.size_y = *header.pixel * table.rows;
@@ -273,20 +250,17 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& text_format() {
-  static const Format format{
-      "text",
-      "a line of numbers first",
-      {"A matrix of numbers, one line a row, or a trace, bare or under a head: of this program, of Gwyddion, "
-       "of common exports, or of words, of which lengths with a unit and counts are taken; in UTF-16 too.",
-       "Lines of different lengths; tables under words that may be points, a log or a "
-       "wrapped matrix, unless the head or the call says.",
-       "Files of the public test set of SurfaceTopography."},
-      {FirstLine::bottom, "A matrix: its first line is j = 0; under Gwyddion's head it is the top."},
-      {"txt", "csv", "asc", "dat", "tsv"},
-      recognises_text_matrix,
-      read_text_matrix};
-  return format;
-}
+extern constexpr Format text_format{
+    "text",
+    "a line of numbers first",
+    {"A matrix of numbers, one line a row, or a trace, bare or under a head: of this program, of Gwyddion, "
+     "of common exports, or of words, of which lengths with a unit and counts are taken; in UTF-16 too.",
+     "Lines of different lengths; tables under words that may be points, a log or a "
+     "wrapped matrix, unless the head or the call says.",
+     "Files of the public test set of SurfaceTopography."},
+    {FirstLine::bottom, "A matrix: its first line is j = 0; under Gwyddion's head it is the top."},
+    {"txt", "csv", "asc", "dat", "tsv"},
+    recognises_text_matrix,
+    read_text_matrix};
 
 }  // namespace asperity

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text and NPY. Numbers are written in the shortest form that reads back as the same double.
+// Numbers are written in the shortest form that reads back.
 #include "engine/surface/io/write.hpp"
 
-#include <bit>
 #include <utility>
 
 #include "engine/core/error.hpp"
@@ -11,6 +10,7 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_surface.hpp"
+#include "engine/surface/io/npy_header.hpp"
 
 namespace asperity {
 
@@ -27,24 +27,15 @@ constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
   const std::string extension = file_extension(path);
   throw Error(ErrorCode::bad_file,
               extension.empty()
-                  ? file_name(path) + " has no extension, which says what to write"
+                  ? file_name(path) + " has no extension to name the format"
                   : "cannot write " + file_name(path) + ": no format has the extension ." + extension,
               "use " + known);
 }
 
-// Version 1. Padding aligns the data to 64 bytes.
 void write_npy(const std::string& path, const std::string& shape, std::span<const double> values, int rows,
                Monitor& monitor) {
-  static_assert(std::endian::native == std::endian::little, "NPY data are written as they lie in memory");
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }";
-  constexpr std::size_t before = 10, alignment = 64;
-  header.append(alignment - (before + header.size() + 1) % alignment, ' ');
-  header += '\n';
-  std::string start("\x93NUMPY\x01\x00", 8);
-  start += static_cast<char>(header.size() & 0xFF);
-  start += static_cast<char>(header.size() >> 8);
   AtomicFile file(path, FileWords::data);
-  file.write(start + header);
+  file.write(npy_header(shape));
   Task task(monitor, "writing", rows);
   const std::size_t row = values.size() / static_cast<std::size_t>(rows);
   for (int j = 0; j < rows; ++j) {
@@ -117,39 +108,26 @@ void write_surface(const Surface& given, const std::string& path, Monitor& monit
   const std::string extension = file_extension(path);
   const Surface surface = as_stored(given, extension);
   const Grid& grid = surface.grid();
-  if (extension == "npy") {
-    write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx),
-              surface.measured_heights().values(), grid.ny, monitor);
-  } else if (extension == "x3p") {
-    write_x3p(surface, path);
-  } else if (extension == "h5" || extension == "hdf5") {
-    write_hdf5_surface(surface, path);
-  } else if (extension == "gwy") {
-    write_gwy(surface, path);
-  } else if (extension == "sur") {
-    write_sur(surface, path, monitor);
-  } else if (extension == "sdf") {
-    write_sdf(surface, path, monitor);
-  } else if (extension == "txt" || extension == "asc") {
-    write_matrix(surface, path, ' ', monitor);
-  } else if (extension == "csv") {
-    write_matrix(surface, path, ',', monitor);
-  } else {
-    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .sdf, .sur, .txt, .asc or .csv");
-  }
+  if (extension == "npy")
+    return write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx),
+                     surface.measured_heights().values(), grid.ny, monitor);
+  if (extension == "x3p") return write_x3p(surface, path);
+  if (extension == "h5" || extension == "hdf5") return write_hdf5_surface(surface, path);
+  if (extension == "gwy") return write_gwy(surface, path);
+  if (extension == "sur") return write_sur(surface, path, monitor);
+  if (extension == "sdf") return write_sdf(surface, path, monitor);
+  if (extension == "txt" || extension == "asc") return write_matrix(surface, path, ' ', monitor);
+  if (extension == "csv") return write_matrix(surface, path, ',', monitor);
+  refuse_extension(path, ".h5, .npy, .x3p, .gwy, .sdf, .sur, .txt, .asc or .csv");
 }
 
 void write_profile(const Profile& profile, const std::string& path, Monitor& monitor) {
   const std::string extension = file_extension(path);
-  if (extension == "npy") {
-    write_npy(path, std::to_string(profile.size()) + ",", profile.measured_heights(), 1, monitor);
-  } else if (extension == "txt") {
-    write_trace(profile, path, ' ', monitor);
-  } else if (extension == "csv") {
-    write_trace(profile, path, ',', monitor);
-  } else {
-    refuse_extension(path, ".csv, .txt or .npy");
-  }
+  if (extension == "npy")
+    return write_npy(path, std::to_string(profile.size()) + ",", profile.measured_heights(), 1, monitor);
+  if (extension == "txt") return write_trace(profile, path, ' ', monitor);
+  if (extension == "csv") return write_trace(profile, path, ',', monitor);
+  refuse_extension(path, ".csv, .txt or .npy");
 }
 
 }  // namespace asperity

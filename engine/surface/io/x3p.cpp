@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// X3P, the XML container of ISO 25178-72 (formerly ISO 5436-2): a zip archive of main.xml and heights, in a
-// binary file or in main.xml. x runs fastest; z = raw * Increment + Offset, in metres. Data types: I, L
-// (signed 16 and 32 bits), F, D. An absolute x or y axis must be evenly spaced. Holes: NaN, an infinite
-// height (Alicona), an empty datum, a cleared bit of the valid-points file. A wrong MD5 of data is an
-// error, of main.xml a warning: people edit main.xml, and some programs write another sum. Offsets of x and
-// y and rotation are ignored.
+// X3P of ISO 25178-72 (formerly ISO 5436-2): a zip archive of main.xml and heights, in a binary file or in
+// main.xml. z = raw * Increment + Offset, in metres. Data types: I, L (signed 16 and 32 bits), F, D. An
+// absolute x or y axis must be evenly spaced. Holes: NaN, an infinite height (Alicona), an empty datum, a
+// cleared bit of the valid-points file. A wrong MD5 of data is an error, of main.xml a warning: people edit
+// main.xml. Offsets of x and y and rotation are ignored.
+#include <zip.h>
+#include <pugixml.hpp>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <pugixml.hpp>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -37,15 +43,13 @@ pugi::xml_node child(pugi::xml_node parent, std::string_view name) {
 }
 
 std::string_view text_of(pugi::xml_node node) {
-  std::string_view text = node.child_value();
-  while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos)
-    text.remove_prefix(1);
-  while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos)
-    text.remove_suffix(1);
-  return text;
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::string_view text = node.child_value();
+  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
+  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-// Extra digits: increment times count must round to the intended size.
+// Extra digits: increment times count must round to the size.
 std::optional<long double> number_of(pugi::xml_node node) {
   std::string_view text = text_of(node);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -58,10 +62,9 @@ std::optional<long double> number_of(pugi::xml_node node) {
 
 struct X3pAxis {
   bool absolute = false;  // coordinate stored with every point
-  char type = 'D';        // I, L, F, D
+  NumberType type = number_type<double>;
   long double increment = 1, offset = 0;
   bool has_increment = false;
-  std::size_t width() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
 
 X3pAxis axis_of(const SourceFile& file, pugi::xml_node axes, const std::string& name) {
@@ -74,10 +77,15 @@ X3pAxis axis_of(const SourceFile& file, pugi::xml_node axes, const std::string& 
   axis.absolute = kind == "A" || name == "CZ";
   const std::string_view type = text_of(child(node, "DataType"));
   if (axis.absolute) {
-    if (type != "I" && type != "L" && type != "F" && type != "D")
+    const std::map<std::string_view, NumberType> types{{"I", number_type<std::int16_t>},
+                                                       {"L", number_type<std::int32_t>},
+                                                       {"F", number_type<float>},
+                                                       {"D", number_type<double>}};
+    const auto known = types.find(type);
+    if (known == types.end())
       refuse_file(file, "has data of type " + shown(type) + " on axis " + name,
                   "types I, L, F and D are read");
-    axis.type = type[0];
+    axis.type = known->second;
   }
   if (const pugi::xml_node increment = child(node, "Increment"); increment && !text_of(increment).empty()) {
     const auto value = number_of(increment);
@@ -120,31 +128,15 @@ struct Map {
   }
 };
 
-double raw_value(const char* at, char type) {
-  static_assert(std::endian::native == std::endian::little, "X3P data are little-endian");
-  std::array<char, 8> raw{};
-  const std::size_t width = type == 'I' ? 2 : type == 'D' ? 8 : 4;
-  std::memcpy(raw.data(), at, width);
-  const auto as = [&]<class T>(T value) {
-    std::memcpy(&value, raw.data(), sizeof value);
-    return static_cast<double>(value);
-  };
-  switch (type) {
-    case 'I':
-      return as(std::int16_t{});
-    case 'L':
-      return as(std::int32_t{});
-    case 'F':
-      return as(float{});
-    default:
-      return as(double{});
-  }
+std::string md5_of(std::span<const char> bytes) {
+  Md5 md5;
+  md5.add(bytes);
+  return md5.hex();
 }
 
-void compare_md5(const SourceFile& file, Md5& md5, std::string_view wanted, const std::string& of) {
-  if (wanted.empty()) return;
-  const std::string found = md5.hex();
-  if (found == lower_case(wanted)) return;
+void compare_md5(const SourceFile& file, const std::string& found, std::string_view wanted,
+                 const std::string& of) {
+  if (wanted.empty() || found == lower_case(wanted)) return;
   const bool digits = wanted.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
   refuse_file(file,
               "is damaged: the MD5 of its " + of + " is " + found + ", not " +
@@ -158,7 +150,14 @@ std::int64_t linked_entry(const Archive& archive, const std::string& folder, std
   return index < 0 ? archive.find(name) : index;
 }
 
-// `found`: MD5 of main.xml. A missing entry or sum is ignored.
+std::int64_t required_entry(const SourceFile& file, const Archive& archive, const std::string& folder,
+                            std::string_view name) {
+  const std::int64_t index = linked_entry(archive, folder, name);
+  if (index < 0) refuse_file(file, "has no entry " + shown(name) + ", which its main.xml names");
+  return index;
+}
+
+// `found`: MD5 of main.xml. Ignores a missing sum.
 void compare_own_md5(const SourceFile& file, const Archive& archive, const std::string& folder,
                      std::string_view name, const std::string& found, Monitor& monitor) {
   constexpr std::uint64_t longest = 4096;
@@ -170,17 +169,14 @@ void compare_own_md5(const SourceFile& file, const Archive& archive, const std::
   if (digits != found.size() || lower_case(line.substr(0, digits)) == found) return;
   monitor.warn(file_name(file.path()) + ": the MD5 of its main.xml is " + found + ", and " +
                archive.entry_text(index) + " says " + lower_case(line.substr(0, digits)) +
-               "; main.xml may have been altered: compare the size and the unit of height with those that "
-               "were measured");
+               "; main.xml may be altered, so check the size and the unit of height");
 }
 
 void read_binary(const SourceFile& file, const Archive& archive, const std::string& folder,
                  pugi::xml_node link, Map& map, Monitor& monitor) {
-  const std::string name(text_of(child(link, "PointDataLink")));
-  const std::int64_t index = linked_entry(archive, folder, name);
-  if (index < 0) refuse_file(file, "has no entry " + shown(name) + ", which its main.xml names");
+  const std::int64_t index = required_entry(file, archive, folder, text_of(child(link, "PointDataLink")));
   std::size_t record = 0;
-  for (const X3pAxis& axis : map.axes) record += axis.absolute ? axis.width() : 0;
+  for (const X3pAxis& axis : map.axes) record += axis.absolute ? axis.type.width : 0;
   const std::uint64_t expected = map.nx * map.ny * record;
   if (const std::uint64_t claimed = archive.claimed_size(index); claimed != expected)
     refuse_file(file,
@@ -197,26 +193,23 @@ void read_binary(const SourceFile& file, const Archive& archive, const std::stri
     for (std::uint64_t i = 0; i < map.nx; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!map.axes[axis].absolute) continue;
-        map.put(axis, j * map.nx + i, raw_value(at, map.axes[axis].type));
-        at += map.axes[axis].width();
+        map.put(axis, j * map.nx + i, map.axes[axis].type.read(at));
+        at += map.axes[axis].type.width;
       }
     }
     task.advance();
   }
   entry.expect_end();
-  compare_md5(file, entry.md5(), text_of(child(link, "MD5ChecksumPointData")),
+  compare_md5(file, entry.md5().hex(), text_of(child(link, "MD5ChecksumPointData")),
               "data, " + archive.entry_text(index) + ",");
 
   const std::string_view valid = text_of(child(link, "ValidPointsLink"));
   if (valid.empty()) return;
-  const std::int64_t mask_index = linked_entry(archive, folder, valid);
-  if (mask_index < 0) refuse_file(file, "has no entry " + shown(valid) + ", which its main.xml names");
+  const std::int64_t mask_index = required_entry(file, archive, folder, valid);
   const std::uint64_t points = map.nx * map.ny;
   const Array<char> mask = archive.contents(mask_index, (points + 7) / 8 + 8);
   if (mask.size() < (points + 7) / 8) refuse_file(file, "has too few bits in its valid-points entry");
-  Md5 md5;
-  md5.add(mask);
-  compare_md5(file, md5, text_of(child(link, "MD5ChecksumValidPoints")),
+  compare_md5(file, md5_of(mask), text_of(child(link, "MD5ChecksumValidPoints")),
               "valid points, " + archive.entry_text(mask_index) + ",");
   for (std::uint64_t k = 0; k < points; ++k)
     if ((static_cast<unsigned char>(mask[k / 8]) >> (k % 8) & 1) == 0)
@@ -237,8 +230,7 @@ void read_inline(const SourceFile& file, pugi::xml_node list, Map& map) {
   for (const pugi::xml_node datum : list.children()) {
     if (datum.type() != pugi::node_element) continue;
     const std::string_view text = text_of(datum);
-    const std::string where =
-        "has a point that is not as its axes want it: number " + std::to_string(k + 1) + ", ";
+    const std::string where = "has an invalid point: number " + std::to_string(k + 1) + ", ";
     if (!text.empty()) {
       const std::vector<std::string_view> cells =
           cells_of(text, text.find(';') == std::string_view::npos ? Separator::blank : Separator::semicolon);
@@ -270,8 +262,7 @@ double size_of(const SourceFile& file, const X3pAxis& axis, std::span<const doub
   return spacing * static_cast<double>(count);
 }
 
-// Accounts an upper bound of pugixml's memory: two nodes per tag (element and text), one attribute per
-// equals sign.
+// Upper bound of pugixml's memory: two nodes per tag, one attribute per equals sign.
 class TreeMemory {
  public:
   explicit TreeMemory(std::span<const char> xml) {
@@ -312,9 +303,7 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   // Text packs about twenty times at most.
   const std::uint64_t limit = (std::uint64_t{1} << 20) + 32 * static_cast<std::uint64_t>(file.bytes().size());
   Array<char> xml = archive.contents(index, limit);
-  Md5 md5;
-  md5.add(xml);
-  const std::string xml_md5 = md5.hex();  // before parsing in place
+  const std::string xml_md5 = md5_of(xml);  // before parsing in place
   const TreeMemory tree(xml);
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(
@@ -363,19 +352,125 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& x3p_format() {
-  static const Format format{
-      "x3p",
-      "a zip archive with main.xml",
-      {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
-       "points, zipped in a folder or not.",
-       "Point clouds, several layers, uneven spacing.",
-       "A file of the public test set of SurfaceTopography, heights and sizes."},
-      {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
-      {"x3p"},
-      recognises_x3p,
-      read_x3p};
-  return format;
+extern constexpr Format x3p_format{
+    "x3p",
+    "a zip archive with main.xml",
+    {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
+     "points, zipped in a folder or not.",
+     "Point clouds, several layers, uneven spacing.",
+     "A file of the public test set of SurfaceTopography, heights and sizes."},
+    {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
+    {"x3p"},
+    recognises_x3p,
+    read_x3p};
+
+// Writes incremental x and y, z in double precision, a fixed date. Missing points are NaN: the valid-points
+// mask of the standard is for integers.
+
+namespace {
+
+// To 21 digits.
+std::string increment(double size, int count) {
+  std::array<char, 64> buffer;
+  const auto [end, failure] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                            static_cast<long double>(size) / static_cast<long double>(count),
+                                            std::chars_format::scientific, 20);
+  if (failure != std::errc{}) throw Error(ErrorCode::internal, "an increment was not written");
+  return {buffer.data(), end};
+}
+
+std::string main_xml(const Grid& grid, const std::string& md5) {
+  return R"(<?xml version="1.0" encoding="UTF-8" standalone="no"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.opengps.eu/2008/ISO5436_2 http://www.opengps.eu/2008/ISO5436_2/ISO5436_2.xsd">
+  <Record1>
+    <Revision>ISO5436 - 2000</Revision>
+    <FeatureType>SUR</FeatureType>
+    <Axes>
+      <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>)" +
+         increment(grid.size_x, grid.nx) + R"(</Increment><Offset>0</Offset></CX>
+      <CY><AxisType>I</AxisType><DataType>D</DataType><Increment>)" +
+         increment(grid.size_y, grid.ny) + R"(</Increment><Offset>0</Offset></CY>
+      <CZ><AxisType>A</AxisType><DataType>D</DataType></CZ>
+    </Axes>
+  </Record1>
+  <Record2>
+    <Date>1970-01-01T00:00:00</Date>
+    <Instrument>
+      <Manufacturer>Asperity</Manufacturer>
+      <Model>Asperity</Model>
+      <Serial>not available</Serial>
+      <Version>1</Version>
+    </Instrument>
+    <CalibrationDate>1970-01-01T00:00:00</CalibrationDate>
+    <ProbingSystem><Type>Software</Type><Identification>not available</Identification></ProbingSystem>
+  </Record2>
+  <Record3>
+    <MatrixDimension><SizeX>)" +
+         std::to_string(grid.nx) + "</SizeX><SizeY>" + std::to_string(grid.ny) +
+         R"(</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+    <DataLink>
+      <PointDataLink>bindata/data.bin</PointDataLink>
+      <MD5ChecksumPointData>)" +
+         md5 + R"(</MD5ChecksumPointData>
+    </DataLink>
+  </Record3>
+  <Record4>
+    <ChecksumFile>md5checksum.hex</ChecksumFile>
+  </Record4>
+</p:ISO5436_2>
+)";
+}
+
+}  // namespace
+
+// Throws Error{bad_file}. Increments have more digits than a double: the size reads back exactly.
+void write_x3p(const Surface& surface, const std::string& path) {
+  static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");
+  const auto heights = surface.measured_heights().values();
+  const std::span<const char> data{reinterpret_cast<const char*>(heights.data()), heights.size_bytes()};
+  const std::string xml = main_xml(surface.grid(), md5_of(data));
+  const std::string checksum = md5_of(xml) + " *main.xml\n";
+
+  AtomicFile file(path, FileWords::data);
+  // A temporary file of libzip would survive a killed process.
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* archive = zip_source_buffer_create(nullptr, 0, 0, &error);
+  zip_t* zip = archive == nullptr ? nullptr : zip_open_from_source(archive, ZIP_TRUNCATE, &error);
+  const auto refuse = [&](const std::string& reason) {
+    if (zip != nullptr) zip_discard(zip);
+    if (archive != nullptr) zip_source_free(archive);
+    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written: " + reason,
+                "check permission and space on the disk");
+  };
+  if (zip == nullptr) refuse(zip_error_strerror(&error));
+  zip_source_keep(archive);
+  const auto add = [&](const char* name, std::span<const char> bytes) {
+    zip_source_t* source = zip_source_buffer(zip, bytes.data(), bytes.size(), 0);
+    const zip_int64_t index = source == nullptr ? -1 : zip_file_add(zip, name, source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) {
+      if (source != nullptr) zip_source_free(source);
+      refuse(zip_strerror(zip));
+    }
+    constexpr zip_uint16_t first_of_january_1980 = (1 << 5) | 1;
+    if (zip_file_set_dostime(zip, static_cast<zip_uint64_t>(index), 0, first_of_january_1980, 0) != 0)
+      refuse(zip_strerror(zip));
+  };
+  add("main.xml", xml);
+  add("bindata/data.bin", data);
+  add("md5checksum.hex", checksum);
+  if (zip_close(zip) != 0) refuse(zip_strerror(zip));
+  zip = nullptr;
+  zip_stat_t facts;
+  if (zip_source_stat(archive, &facts) != 0 || zip_source_open(archive) != 0)
+    refuse(zip_error_strerror(zip_source_error(archive)));
+  std::string bytes(facts.size, '\0');
+  const zip_int64_t taken = zip_source_read(archive, bytes.data(), bytes.size());
+  zip_source_close(archive);
+  if (taken != static_cast<zip_int64_t>(bytes.size())) refuse("the archive cannot be read back");
+  zip_source_free(archive);
+  file.write(bytes);
+  file.commit();
 }
 
 }  // namespace asperity

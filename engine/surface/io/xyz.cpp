@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// x y z triples of a regular grid, one point per line, in any order. Spacing = (last - first)/(n - 1) of
-// the distinct x and y; every coordinate must be within a quarter of a cell of its lattice line. A
-// duplicate point is an error, a missing point is a hole. Units: column_head.hpp. Scattered points are not
-// gridded here. If unnamed columns may or may not be a lattice, the caller must name the format.
+// x y z triples of a regular grid, one point per line, in any order. Spacing = (last - first)/(n - 1) of the
+// distinct x and y; every coordinate must be within a quarter of a cell of its lattice line. A duplicate
+// point is an error, a missing point is a hole. Scattered points are not gridded. If unnamed columns may or
+// may not be a lattice, the call must name the format.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -38,8 +39,7 @@ struct LatticeAxis {
 };
 
 LatticeAxis axis_of(const TextTable& table, std::size_t column) {
-  Array<double> values(static_cast<std::size_t>(table.rows));
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = table.values[3 * k + column];
+  Array<double> values = table.column(column);
   std::sort(values.begin(), values.end());
   const double same = 1e-6 * (values.back() - values.front());
   LatticeAxis axis;
@@ -98,9 +98,35 @@ TriplesHead take_head(LineReader& lines, const SourceFile& file) {
   return head;
 }
 
+// Counts of the pairs of x and y.
+struct Coverage {
+  double places = 0;  // possible pairs
+  int points = 0;     // distinct pairs
+  bool equally_often = true;
+};
+
+Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
+  Array<std::uint64_t> pairs(static_cast<std::size_t>(table.rows));
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    pairs[k] = x.rank(table.values[3 * k]) << 32 | y.rank(table.values[3 * k + 1]);
+  std::sort(pairs.begin(), pairs.end());
+  Coverage coverage;
+  coverage.places = static_cast<double>(x.lines) * y.lines;
+  std::size_t often = 0;
+  for (std::size_t k = 0, next = 0; k < pairs.size(); k = next) {
+    while (next < pairs.size() && pairs[next] == pairs[k]) ++next;
+    if (k == 0) often = next;
+    if (next - k != often) coverage.equally_often = false;
+    ++coverage.points;
+  }
+  return coverage;
+}
+
 struct Triples {
   TextTable table;
-  bool named = false;
+  bool named;
+  LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
+  Coverage coverage = coverage_of(table, x, y);
 };
 
 // A table of three columns without holes in x and y.
@@ -126,43 +152,14 @@ std::optional<Triples> triples_of(const SourceFile& file) {
   return {};
 }
 
-// How often each pair of x and y occurs.
-struct Coverage {
-  double places = 0;  // possible pairs
-  int points = 0;     // distinct pairs
-  bool equally_often = true;
-};
-
-Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
-  Array<std::uint64_t> pairs(static_cast<std::size_t>(table.rows));
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    pairs[k] = x.rank(table.values[3 * k]) << 32 | y.rank(table.values[3 * k + 1]);
-  std::sort(pairs.begin(), pairs.end());
-  Coverage coverage;
-  coverage.places = static_cast<double>(x.lines) * y.lines;
-  std::size_t often = 0;
-  for (std::size_t k = 0, next = 0; k < pairs.size(); k = next) {
-    while (next < pairs.size() && pairs[next] == pairs[k]) ++next;
-    if (k == 0) often = next;
-    if (next - k != often) coverage.equally_often = false;
-    ++coverage.points;
-  }
-  return coverage;
-}
-
-// Named columns, or a lattice with each point once. A full lattice of 2 x 2 or more is never accidental;
-// with missing points, at least 16 rows are required.
+// Named columns, or a lattice with each point once: full, or of at least 16 rows with missing points.
 bool recognises_xyz(const SourceFile& file) {
   const std::optional<Triples> triples = triples_of(file);
-  if (!triples) return false;
-  if (triples->named) return true;
-  const TextTable& table = triples->table;
-  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
-  if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
-  const double places = static_cast<double>(x.lines) * y.lines;
-  if (places != table.rows && !(table.rows >= 16 && places > table.rows && places < 2.0 * table.rows))
-    return false;
-  return coverage_of(table, x, y).points == table.rows;
+  if (!triples || triples->named) return triples.has_value();
+  const auto& [table, named, x, y, coverage] = *triples;
+  const double rows = table.rows, places = coverage.places;
+  return x.even && y.even && x.lines > 1 && y.lines > 1 && coverage.points == table.rows &&
+         (places == rows || (rows >= 16 && places > rows && places < 2 * rows));
 }
 
 // Occurs only in matrices.
@@ -181,35 +178,30 @@ void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const So
   map.unit = head_unit(columns[2], file, monitor);
   map.named_columns = map.unit || x || y;
   if (x.has_value() != y.has_value())
-    refuse_file(
-        file,
-        std::string("says the unit of its ") + (x ? "x" : "y") + " and not that of its " + (x ? "y" : "x"),
-        "write both into the line that names the columns");
+    refuse_file(file, std::string("gives a unit of ") + (x ? "x" : "y") + " and none of " + (x ? "y" : "x"),
+                "write both into the line that names the columns");
   map.position_unit = x;
   if (x && map.size_y) map.size_y = *map.size_y * (*y / *x);
 }
 
-// True if the points follow scan lines, along either axis in either direction, and end within a line. In a
-// truncated file, the rest of the last line looks like missing points.
+// True if points follow scan lines, along either axis in either direction, and end within a line, as in a
+// truncated file.
 bool ends_within_a_line(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
-  for (const bool along_x : {true, false})
-    for (const bool falling_fast : {false, true})
-      for (const bool falling_slow : {false, true}) {
-        const LatticeAxis &fast = along_x ? x : y, &slow = along_x ? y : x;
-        const std::size_t column = along_x ? 0 : 1;
-        const auto place = [](const LatticeAxis& axis, double coordinate, bool falling) {
-          return falling ? axis.lines - 1 - axis.place(coordinate) : axis.place(coordinate);
-        };
-        int k = 0;
-        while (k < table.rows) {
-          const double* const point = &table.values[3 * static_cast<std::size_t>(k)];
-          if (place(fast, point[column], falling_fast) != k % fast.lines ||
-              place(slow, point[1 - column], falling_slow) != k / fast.lines)
-            break;
-          ++k;
-        }
-        if (k == table.rows) return true;
-      }
+  const auto place = [](const LatticeAxis& axis, double coordinate, bool falling) {
+    return falling ? axis.lines - 1 - axis.place(coordinate) : axis.place(coordinate);
+  };
+  for (int way = 0; way < 8; ++way) {
+    const bool along_y = (way & 1) != 0, falling_fast = (way & 2) != 0, falling_slow = (way & 4) != 0;
+    const LatticeAxis &fast = along_y ? y : x, &slow = along_y ? x : y;
+    int k = 0;
+    for (; k < table.rows; ++k) {
+      const double* const point = &table.values[3 * static_cast<std::size_t>(k)];
+      if (place(fast, point[along_y ? 1 : 0], falling_fast) != k % fast.lines ||
+          place(slow, point[along_y ? 0 : 1], falling_slow) != k / fast.lines)
+        break;
+    }
+    if (k == table.rows) return true;
+  }
   return false;
 }
 
@@ -253,9 +245,9 @@ HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
     map.heights(i, j) = table.values[3 * k + 2];
   }
   if (places > table.rows && ends_within_a_line(table, x, y))
-    monitor.warn(file_name(file.path()) + " ends within a line of its points: the last " +
+    monitor.warn(file_name(file.path()) + " ends within a line of points: the last " +
                  std::to_string(static_cast<std::int64_t>(places) - table.rows) +
-                 " are missing, as in a file that was cut short");
+                 " are missing; the file may be cut short");
   map.size_in_units = true;
   map.size_x = x.spacing * x.lines;
   if (y.lines > 1) map.size_y = y.spacing * y.lines;
@@ -288,28 +280,16 @@ std::optional<double> lattice_lines(const LatticeAxis& axis, double most) {
 
 // Monotonic, like the slow axis of a scan.
 bool goes_one_way(const TextTable& table, std::size_t column) {
-  bool rises = true, falls = true;
-  for (std::size_t k = 1; k < static_cast<std::size_t>(table.rows); ++k) {
-    const double step = table.values[3 * k + column] - table.values[3 * (k - 1) + column];
-    rises = rises && step >= 0;
-    falls = falls && step <= 0;
-  }
-  return rises || falls;
+  const Array<double> values = table.column(column);
+  return std::ranges::is_sorted(values) || std::ranges::is_sorted(values, std::ranges::greater());
 }
 
-}  // namespace
-
-// Coarsely quantised heights repeat pairs too, but by chance: n pairs drawn from m give m (1 - exp(-n/m))
-// distinct pairs, 73 % of n at m = 1.5 n and 79 % at 2 n. Points of a scan are nearly all distinct or
-// equally frequent.
-bool almost_triples(const SourceFile& file) {
-  const std::optional<Triples> triples = triples_of(file);
-  if (!triples || triples->table.rows < 5 || names_a_width(file)) return false;
-  const TextTable& table = triples->table;
-  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
+// Coarsely quantised heights repeat pairs by chance: n pairs drawn from m give m (1 - exp(-n/m)) distinct
+// pairs, 73 % of n at m = 1.5 n. Points of a scan are nearly all distinct or equally frequent.
+bool almost_fill_a_lattice(const Triples& triples) {
+  const auto& [table, named, x, y, coverage] = triples;
   const double rows = table.rows;
-  if (x.lines < 2 || y.lines < 2 || 1.5 * x.lines >= rows || 1.5 * y.lines >= rows) return false;
-  const Coverage coverage = coverage_of(table, x, y);
+  if (rows < 5 || x.lines < 2 || y.lines < 2 || 1.5 * x.lines >= rows || 1.5 * y.lines >= rows) return false;
   if (coverage.points == coverage.places && coverage.equally_often) return true;
   if (coverage.places < 0.5 * rows || coverage.places >= 2 * rows) return false;
   if (rows < 16)
@@ -318,41 +298,51 @@ bool almost_triples(const SourceFile& file) {
   return coverage.points >= (coverage.places <= 1.5 * rows ? 0.8 : 0.9) * rows;
 }
 
-bool many_triples(const SourceFile& file) {
-  constexpr int many = 100;
-  const std::optional<Triples> triples = triples_of(file);
-  if (!triples || triples->table.rows < many || names_a_width(file)) return false;
-  const TextTable& table = triples->table;
-  return 2 * axis_of(table, 0).lines >= table.rows && 2 * axis_of(table, 1).lines >= table.rows;
-}
-
-// Two lines of three heights could be the rest of a sparse lattice. A table is a matrix only if a place
-// repeats, if the places fit no small lattice, or if no coordinate repeats and neither is monotonic.
-bool may_be_triples(const SourceFile& file) {
-  const std::optional<Triples> triples = triples_of(file);
-  if (!triples || triples->table.rows < 2 || names_a_width(file)) return false;
-  const TextTable& table = triples->table;
-  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
-  if (coverage_of(table, x, y).points != table.rows) return false;
+// A table is a matrix only if a place repeats, if the places fit no small lattice, or if no coordinate
+// repeats and neither is monotonic.
+bool may_fit_a_lattice(const Triples& triples) {
+  const auto& [table, named, x, y, coverage] = triples;
+  if (table.rows < 2 || coverage.points != table.rows) return false;
   const double most_places = 4.0 * table.rows + 10000;
   const bool x_again = x.lines < table.rows, y_again = y.lines < table.rows;
-  if (x_again && y_again && static_cast<double>(x.lines) * y.lines <= most_places) return true;
+  if (x_again && y_again && coverage.places <= most_places) return true;
   const auto columns = lattice_lines(x, most_places), rows = lattice_lines(y, most_places);
   if (!columns || !rows || *columns * *rows > most_places) return false;
   return x_again || y_again || goes_one_way(table, 0) || goes_one_way(table, 1);
 }
 
-const Format& xyz_format() {
-  static const Format format{"xyz",
-                             "x y z triples on a lattice",
-                             {"Lines of x, y and z on a lattice, in any order, with holes.",
-                              "Points that are not on a lattice, points given twice.",
-                              "Files of the public test set of SurfaceTopography."},
-                             {FirstLine::bottom, "The coordinates of the points."},
-                             {"xyz"},
-                             recognises_xyz,
-                             read_xyz};
-  return format;
+}  // namespace
+
+void refuse_uncertain_points(const SourceFile& file) {
+  const std::optional<Triples> triples = triples_of(file);
+  if (!triples || names_a_width(file)) return;
+  if (almost_fill_a_lattice(*triples))
+    refuse_file(file,
+                "has three columns, and the first two hold almost all points of a lattice: x y z triples "
+                "with gaps or repeats, or a matrix of heights",
+                "give `format` = \"xyz\" or `format` = \"text\"");
+  constexpr int many = 100;
+  const int rows = triples->table.rows;
+  if (rows >= many && 2 * triples->x.lines >= rows && 2 * triples->y.lines >= rows)
+    refuse_file(
+        file,
+        "has three columns and a hundred lines or more: it may be x y z points that are not on a lattice, or "
+        "a matrix of heights",
+        "grid the points first, or say `format` = \"text\"");
+  if (may_fit_a_lattice(*triples))
+    refuse_file(file,
+                "has three columns: it may be x y z points of a lattice with holes, or a matrix of heights",
+                "give `format` = \"xyz\" for points with holes, or `format` = \"text\" for a matrix");
 }
+
+extern constexpr Format xyz_format{"xyz",
+                                   "x y z triples on a lattice",
+                                   {"Lines of x, y and z on a lattice, in any order, with holes.",
+                                    "Points that are not on a lattice, points given twice.",
+                                    "Files of the public test set of SurfaceTopography."},
+                                   {FirstLine::bottom, "The coordinates of the points."},
+                                   {"xyz"},
+                                   recognises_xyz,
+                                   read_xyz};
 
 }  // namespace asperity

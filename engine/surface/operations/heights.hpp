@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operations that keep the grid: scaling, sums, differences, multiples, cutting of peaks. Holes remain holes.
-// Pure; O(n); throw only Error. Recipes are kept, with the factors and levels found here.
+// Operations that keep the grid. Holes remain holes. Pure; O(n). Recipes are kept, with the factors and
+// levels found here.
 #pragma once
 
 #include "engine/surface/profile.hpp"
@@ -22,11 +22,9 @@ enum class ScaleAbout {
 // Error{bad_value} for a negative or non-finite target, and for a flat surface unless the target is 0.
 Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbout about = ScaleAbout::mean);
 
-// Material of the first; periodic if both are. Throws Error{bad_value} for different cells or sizes (to
-// 1e-9).
+// Material of the first; periodic if both are. Throws Error{bad_value} for different grids (to 1e-9).
 Surface plus(const Surface& first, const Surface& second);
-// A hole of either is a hole of the result. plus() and minus() throw Error{bad_value} without a common
-// measured point.
+// plus() and minus() throw Error{bad_value} without a common measured point.
 Surface minus(const Surface& first, const Surface& second);
 
 // Finite factor; finite, nonzero divisor. Keeps material and periodicity.

@@ -9,11 +9,10 @@
 
 namespace asperity {
 
-// Replaces every NaN; cells are hx by hy metres. Conjugate gradients with multigrid to 1e-12 of the height
-// range. Returns the number of iterations: ten to twenty for any width of holes. Cost: proportional to the
-// missing points, about 150 bytes each. Same bits for any number of threads. Reports progress;
-// can be stopped. Throws Error{bad_value} if all heights are missing or their range overflows, and
-// Error{not_converged}.
+// Replaces every NaN; cells are hx by hy metres. Error: about 1e-12 of the height range. Returns the number
+// of iterations: 1 for at most 60,000 missing points, 25 to 60 for millions in one hole. About 220 bytes and
+// 3 µs for each missing point. Throws Error{bad_value} if all heights are missing or their range overflows,
+// Error{out_of_memory} and Error{not_converged}.
 int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor);
 
 }  // namespace asperity

@@ -6,14 +6,11 @@
 #include <iterator>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/surface/operations/holes.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -23,24 +20,20 @@ constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
 // Gaussian standard deviation / median absolute deviation: 1/Φ⁻¹(3/4).
 constexpr double deviation_over_mad = 1.4826022185056018;
 
-template <class Heights>
-void require_any_measured(const Heights& heights, std::string_view what) {
-  if (std::all_of(heights.begin(), heights.end(), [](double z) { return std::isnan(z); }))
-    refuse(
-        "no point of the " + std::string(what) + " that was measured remains: each touches one that was not",
-        "fill the holes first, `" + std::string(what) + ":filled{ by=\"interpolate\" }`");
+void require_any_measured(std::span<const double> heights, const std::string& whole) {
+  if (known_count(heights) == 0)
+    refuse("no measured point of the " + whole + " remains: each has a missing neighbour",
+           "fill the holes first, `" + whole + ":filled{ by=\"interpolate\" }`");
 }
 
-bool is_hole(double mask) { return std::isnan(mask) || mask == 0; }
-
-std::size_t put_holes(std::span<double> heights, std::span<const double> mask) {
-  std::size_t fresh = 0;
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    if (!is_hole(mask[k]) || std::isnan(heights[k])) continue;
-    heights[k] = no_height;
-    ++fresh;
-  }
-  return fresh;
+bool put_holes(std::span<double> heights, std::span<const double> mask, const std::string& whole) {
+  const std::size_t before = known_count(heights);
+  for (std::size_t k = 0; k < heights.size(); ++k)
+    if (mask[k] == 0 || std::isnan(mask[k])) heights[k] = no_height;
+  const std::size_t after = known_count(heights);
+  if (after == 0)
+    refuse("the mask leaves no measured point of the " + whole, "mark fewer points as not measured");
+  return after < before;
 }
 
 void check_outlier_rule(const OutlierRule& rule) {
@@ -54,8 +47,6 @@ void check_outlier_rule(const OutlierRule& rule) {
 Field median_residuals(const Field& z, int window, bool wraps_x, bool wraps_y, Monitor& monitor) {
   Field residuals(z.nx(), z.ny(), no_height);
   const int half = window / 2;
-  constexpr int rows_a_block = 4, rows_a_turn = 256;
-  Task task(monitor, "residuals of a median filter", z.ny());
   const auto one_row = [&](int j, Array<double>& around) {
     for (int i = 0; i < z.nx(); ++i) {
       if (std::isnan(z(i, j))) continue;
@@ -63,23 +54,15 @@ Field median_residuals(const Field& z, int window, bool wraps_x, bool wraps_y, M
       for (int dj = -half; dj <= half; ++dj)
         for (int di = -half; di <= half; ++di) {
           int p = i + di, q = j + dj;
-          if (wraps_x) p = ((p % z.nx()) + z.nx()) % z.nx();
-          if (wraps_y) q = ((q % z.ny()) + z.ny()) % z.ny();
+          if (wraps_x) p = wrapped_index(p, z.nx());
+          if (wraps_y) q = wrapped_index(q, z.ny());
           if (p < 0 || p >= z.nx() || q < 0 || q >= z.ny() || std::isnan(z(p, q))) continue;
           around.push_back(z(p, q));
         }
       residuals(i, j) = z(i, j) - upper_median(around);
     }
   };
-  for (int first = 0; first < z.ny(); first += rows_a_turn) {
-    const int rows = std::min(rows_a_turn, z.ny() - first);
-    parallel_for((rows + rows_a_block - 1) / rows_a_block, [&](std::int64_t block) {
-      Array<double> around;
-      const int begin = static_cast<int>(block) * rows_a_block;
-      for (int j = begin; j < std::min(rows, begin + rows_a_block); ++j) one_row(first + j, around);
-    });
-    task.advance(rows);
-  }
+  for_each_row_reported(z.ny(), 0, monitor, "residuals of a median filter", one_row);
   return residuals;
 }
 
@@ -97,10 +80,9 @@ Outliers outliers_of(const Field& z, const OutlierRule& rule, bool wraps_x, bool
   const bool all_alike = std::all_of(known.begin(), known.end(), [](double r) { return r == 0; });
   if (result.deviation == 0 && !all_alike)
     refuse(
-        "more than half of the heights differ by one and the same number from the median of those "
-        "around them, so that the rule \"mad\" would mark every other one",
-        "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, "
-        "or say which points are outliers with `where`");
+        "more than half of the heights differ equally from the median around them, so the rule \"mad\" would "
+        "mark all others",
+        "give a wider `window`, or mark the outliers with `mask`");
   result.mask = Field(z.nx(), z.ny());
   for (std::size_t k = 0; k < z.size(); ++k) {
     if (std::isnan(z[k])) continue;
@@ -119,6 +101,12 @@ bool hole_on_rim(const Field& z) {
   return false;
 }
 
+void check_fill(std::optional<double> height) {
+  if (height) require(std::isfinite(*height), "value", *height, "m", "give a finite height");
+}
+
+}  // namespace
+
 void fill_holes(Field& z, std::optional<double> height, double hx, double hy, Monitor& monitor) {
   if (!height) {
     fill_harmonic(z, hx, hy, monitor);
@@ -127,12 +115,6 @@ void fill_holes(Field& z, std::optional<double> height, double hx, double hy, Mo
   for (double& h : z.values())
     if (std::isnan(h)) h = *height;
 }
-
-void check_fill(std::optional<double> height) {
-  if (height) require(std::isfinite(*height), "value", *height, "m", "give a finite height");
-}
-
-}  // namespace
 
 Field line_of(const Profile& profile) {
   Field line(profile.size(), 1);
@@ -167,16 +149,14 @@ Profile remade_with(bool holes, double spacing, Array<double> heights, std::opti
 
 Field mask_of(const Surface& surface) {
   const Field& z = surface.measured_heights();
-  Field mask(z.nx(), z.ny(), 1);
-  if (!surface.complete())
-    for (std::size_t k = 0; k < z.size(); ++k) mask[k] = std::isnan(z[k]) ? 0 : 1;
+  Field mask(z.nx(), z.ny());
+  for (std::size_t k = 0; k < z.size(); ++k) mask[k] = std::isnan(z[k]) ? 0 : 1;
   return mask;
 }
 
 Array<double> mask_of(const Profile& profile) {
-  Array<double> mask(static_cast<std::size_t>(profile.size()), 1.0);
-  for (std::size_t k = 0; k < mask.size(); ++k)
-    if (std::isnan(profile.measured_heights()[k])) mask[k] = 0;
+  Array<double> mask;
+  for (const double z : profile.measured_heights()) mask.push_back(std::isnan(z) ? 0 : 1);
   return mask;
 }
 
@@ -187,10 +167,7 @@ Surface masked(const Surface& surface, const Field& mask) {
                " points, and the surface " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
            "give a mask of the same cells");
   Field heights = surface.measured_heights();
-  if (put_holes(heights.values(), mask.values()) == 0) return surface;
-  if (known_count(heights.values()) == 0)
-    refuse("the mask leaves no point of the surface that was measured",
-           "let it mark fewer points as not measured");
+  if (!put_holes(heights.values(), mask.values(), "surface")) return surface;
   SurfaceTraits traits = surface.traits();
   traits.aliased_share.reset();
   return Surface::with_holes(grid, std::move(heights), std::move(traits));
@@ -202,10 +179,7 @@ Profile masked(const Profile& profile, std::span<const double> mask) {
                std::to_string(profile.size()),
            "give a number a sample: 1 measured, 0 not");
   Array<double> heights(profile.measured_heights().begin(), profile.measured_heights().end());
-  if (put_holes(heights, mask) == 0) return profile;
-  if (known_count(heights) == 0)
-    refuse("the mask leaves no point of the profile that was measured",
-           "let it mark fewer points as not measured");
+  if (!put_holes(heights, mask, "profile")) return profile;
   return Profile::with_holes(profile.spacing(), std::move(heights), profile.closed_radius());
 }
 

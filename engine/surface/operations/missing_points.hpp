@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Missing points: masks, outlier rules, filling. New heights pass holes on with `remade_with`.
+// Missing points: masks, outlier rules, filling.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace asperity {
 
-// In node order. Without holes a view of the heights, which must outlive it; otherwise a copy.
+// Without holes a view of the heights, which must outlive it; otherwise a copy.
 class MeasuredValues {
  public:
   explicit MeasuredValues(const Surface& surface);
@@ -48,8 +48,8 @@ Surface masked(const Surface& surface, const Field& mask);
 Profile masked(const Profile& profile, std::span<const double> mask);
 
 // Rule "mad". Residual: height minus the median of the measured heights in a square of `window` nodes a side
-// (periodic, or clipped at the rim). A point is an outlier if its residual differs from the median residual
-// by more than `factor` times 1.4826 MAD, the standard deviation of Gaussian residuals.
+// (periodic, or clipped at the rim). An outlier differs from the median residual by more than `factor` times
+// 1.4826 MAD, the standard deviation of Gaussian residuals.
 struct OutlierRule {
   double factor = 6;  // > 0; 6 Gaussian deviations: one point in 5e8
   int window = 5;     // nodes a side, odd, 3 … 31
@@ -62,14 +62,16 @@ struct Outliers {
   double limit = 0;      // m, factor · deviation
 };
 
-// O(nodes · window²); two copies of the grid. Same bits for any number of threads. Throws Error{bad_value}
-// naming `factor` or `window`, and if most residuals are equal (coarse steps, a plateau, a smooth surface),
-// because zero deviation marks every other point.
+// O(nodes · window²); two copies of the grid. Throws Error{bad_value} naming `factor` or `window`, and if
+// most residuals are equal (coarse steps, a plateau, a smooth surface).
 Outliers find_outliers(const Surface& surface, const OutlierRule& rule, Monitor& monitor = Monitor::silent());
 // `window` samples; a closed outline wraps.
 Outliers find_outliers(const Profile& profile, const OutlierRule& rule);
 
-// Fills with `height`, else harmonically (io/holes.hpp); in a profile linearly across gaps and constant at
+// By `height`, else harmonically; cells are hx by hy metres.
+void fill_holes(Field& z, std::optional<double> height, double hx, double hy, Monitor& monitor);
+
+// Fills with `height`, else harmonically (holes.hpp); in a profile linearly across gaps and constant at
 // ends. A hole on the rim ends periodicity. Throws Error{bad_value} for a non-finite height.
 Surface filled(const Surface& surface, std::optional<double> height, Monitor& monitor = Monitor::silent());
 Profile filled(const Profile& profile, std::optional<double> height, Monitor& monitor = Monitor::silent());

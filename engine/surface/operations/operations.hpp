@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operations on surfaces: heights, placement, grid, sections. All are pure functions. Levelling and
-// filtering belong to metrology.
+// All operations are pure functions. Levelling and filtering: engine/metrology.
 #pragma once
 
 #include "engine/surface/operations/heights.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fractional shifts multiply the spectrum by a phase; Nyquist bins take its real part, so the result is
-// real and all other waves shift back exactly.
+// Fractional shifts multiply the spectrum by a phase; Nyquist bins take its real part.
 #include "engine/surface/operations/placement.hpp"
 
 #include <algorithm>
@@ -11,11 +10,11 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/operations/interpolation.hpp"
 #include "engine/surface/operations/missing_points.hpp"
+#include "engine/surface/operations/resampling.hpp"
+#include "engine/surface/parallel_rows.hpp"
 
 namespace asperity {
 
@@ -82,8 +81,7 @@ Surface shifted_between_nodes(const Surface& surface, double right, double up) {
   const auto place = [](double at) { return is_whole(at) ? std::round(at) : at; };
   right = place(right);
   up = place(up);
-  parallel_for(g.ny, [&](std::int64_t row) {
-    const int j = static_cast<int>(row);
+  for_each_row<1>(g.ny, [&](int j) {
     const CubicWeights y = cubic_weights(j - up, g.ny, true);
     for (int i = 0; i < g.nx; ++i)
       result(i, j) = cubic_height(surface.measured_heights(), cubic_weights(i - right, g.nx, true), y, true);
@@ -140,7 +138,6 @@ Surface rotated(const Surface& surface, double angle) {
   const double width = (g.nx - 1) * g.hx(), height = (g.ny - 1) * g.hy();
   int nx = g.nx, ny = g.ny;
   if (!periodic) {
-    // Scale at which the turned-back corners fit into the rectangle.
     const double share = std::min(width / (width * std::abs(c) + height * std::abs(s)),
                                   height / (width * std::abs(s) + height * std::abs(c)));
     const double kept = share > 0 ? share : 0.0;  // 0 for a single node
@@ -154,26 +151,21 @@ Surface rotated(const Surface& surface, double angle) {
   Field result(nx, ny);
   const Field& h = surface.measured_heights();
   const bool holes = !surface.complete();
-  constexpr int rows = 16;
-  parallel_for((ny + rows - 1) / rows, [&](std::int64_t block) {
-    const int first = static_cast<int>(block) * rows;
-    for (int j = first; j < std::min(ny, first + rows); ++j) {
-      for (int i = 0; i < nx; ++i) {
-        const double x = (i - 0.5 * (nx - 1)) * g.hx(), y = (j - 0.5 * (ny - 1)) * g.hy();
-        double u = (c * x + s * y) / g.hx() + 0.5 * (g.nx - 1);
-        double v = (c * y - s * x) / g.hy() + 0.5 * (g.ny - 1);
-        if (!periodic) {
-          u = std::clamp(u, 0.0, g.nx - 1.0);
-          v = std::clamp(v, 0.0, g.ny - 1.0);
-        }
-        result(i, j) =
-            cubic_height(h, cubic_weights(u, g.nx, periodic), cubic_weights(v, g.ny, periodic), holes);
+  for_each_row(ny, [&](int j) {
+    for (int i = 0; i < nx; ++i) {
+      const double x = (i - 0.5 * (nx - 1)) * g.hx(), y = (j - 0.5 * (ny - 1)) * g.hy();
+      double u = (c * x + s * y) / g.hx() + 0.5 * (g.nx - 1);
+      double v = (c * y - s * x) / g.hy() + 0.5 * (g.ny - 1);
+      if (!periodic) {
+        u = std::clamp(u, 0.0, g.nx - 1.0);
+        v = std::clamp(v, 0.0, g.ny - 1.0);
       }
+      result(i, j) =
+          cubic_height(h, cubic_weights(u, g.nx, periodic), cubic_weights(v, g.ny, periodic), holes);
     }
   });
   const Grid grid = periodic ? g : make_grid(nx, ny, nx * g.hx(), ny * g.hy());
-  return remade_with(holes, grid, std::move(result),
-                     {.material = surface.material(), .periodic = false, .aliased_share = {}});
+  return remade_with(holes, grid, std::move(result), {.material = surface.material()});
 }
 
 Surface mirrored(const Surface& surface) {
@@ -189,8 +181,8 @@ Surface cropped(const Surface& surface, double i, double j, double nx, double ny
     const bool whole = first == std::floor(first) && count == std::floor(count);
     if (!(whole && first >= 0 && count >= 1 && first + count <= all))
       refuse("a crop of " + format_short(count) + " cells from node " + format_short(first) + " along " +
-                 along + " does not lie in a surface of " + std::to_string(all) + " cells",
-             "a part starts at node 0 or later and ends at the rim or before; a surface never wraps here");
+                 along + " exceeds a surface of " + std::to_string(all) + " cells",
+             "give whole cells between node 0 and the rim");
   };
   check(i, nx, g.nx, "x");
   check(j, ny, g.ny, "y");
@@ -206,9 +198,8 @@ Surface cropped(const Surface& surface, double i, double j, double nx, double ny
   const Grid grid{columns, rows, columns == g.nx ? g.size_x : columns * g.hx(),
                   rows == g.ny ? g.size_y : rows * g.hy()};
   if (!surface.complete() && known_count(result.values()) == 0)
-    refuse("no point of this part of the surface was measured", "take a part that holds points that were");
-  return remade_with(!surface.complete(), grid, std::move(result),
-                     {.material = surface.material(), .periodic = false, .aliased_share = {}});
+    refuse("no point of this part of the surface was measured", "give a part with measured points");
+  return remade_with(!surface.complete(), grid, std::move(result), {.material = surface.material()});
 }
 
 Surface cropped_to(const Surface& surface, double x, double y, double size_x, double size_y) {

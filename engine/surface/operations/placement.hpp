@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shifts, turns, mirroring, cropping. Whole cells and quarter turns copy heights; other moves interpolate,
-// and a touched hole gives a hole. Material is kept.
+// Whole cells and quarter turns copy heights; other moves interpolate, and a touched hole gives a hole.
+// Material is kept.
 #pragma once
 
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
 
-// Cyclic: result(x) = original(x - shift), in metres; leaves a step if not periodic. Whole cells, to 1e-9,
-// are exact. A fraction is exact for all resolved waves (Fourier) if periodic, cubic if holes are present,
-// else an Error{bad_value}.
+// Cyclic: result(x) = original(x - shift), in metres. Whole cells, to 1e-9, are exact. A fraction is exact
+// for all resolved waves if periodic, cubic if holes are present, else an Error{bad_value}.
 Surface shifted(const Surface& surface, double x, double y);
 
 // `angle` in radians counter-clockwise, seen from +z, about the centre of the nodes. Quarter turns, to

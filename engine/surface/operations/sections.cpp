@@ -31,20 +31,16 @@ Profile section(const Surface& surface, double spacing, Array<double> heights, c
   return remade_with(!surface.complete(), spacing, std::move(heights));
 }
 
-Profile column(const Surface& surface, int i) {
+Profile line(const Surface& surface, LineDirection along, int k) {
   const Field& h = surface.measured_heights();
-  Array<double> heights(static_cast<std::size_t>(h.ny()));
-  for (int j = 0; j < h.ny(); ++j) heights[static_cast<std::size_t>(j)] = h(i, j);
-  return section(surface, surface.grid().hy(), std::move(heights), "column " + std::to_string(i));
+  const bool row = along == LineDirection::x;
+  Array<double> heights(static_cast<std::size_t>(row ? h.nx() : h.ny()));
+  for (int n = 0; n < std::ssize(heights); ++n)
+    heights[static_cast<std::size_t>(n)] = row ? h(n, k) : h(k, n);
+  return section(surface, row ? surface.grid().hx() : surface.grid().hy(), std::move(heights),
+                 (row ? "row " : "column ") + std::to_string(k));
 }
 
-Profile row(const Surface& surface, int j) {
-  const auto values = surface.measured_heights().row(j);
-  return section(surface, surface.grid().hx(), Array<double>(values.begin(), values.end()),
-                 "row " + std::to_string(j));
-}
-
-// `share` is the weight of `above`.
 struct Between {
   int below = 0, above = 0;
   double share = 0;
@@ -61,7 +57,7 @@ Between between(double place, int n, bool wraps) {
   return {below, (below + 1) % n, place - std::floor(place)};
 }
 
-// The clamp keeps a flat exactly flat. A NaN of no share is ignored.
+// The clamp keeps a flat exactly flat.
 double mixed(double a, double b, double share) {
   if (std::isnan(a) || std::isnan(b)) return share == 0 ? a : share == 1 ? b : std::nan("");
   return std::clamp((1 - share) * a + share * b, std::min(a, b), std::max(a, b));
@@ -70,19 +66,18 @@ double mixed(double a, double b, double share) {
 }  // namespace
 
 Profile profile_row(const Surface& surface, double j) {
-  return row(surface, line_number(j, surface.grid().ny, "row"));
+  return line(surface, LineDirection::x, line_number(j, surface.grid().ny, "row"));
 }
 
 Profile profile_column(const Surface& surface, double i) {
-  return column(surface, line_number(i, surface.grid().nx, "column"));
+  return line(surface, LineDirection::y, line_number(i, surface.grid().nx, "column"));
 }
 
 std::vector<Profile> profiles(const Surface& surface, LineDirection along) {
   std::vector<Profile> result;
   const int count = along == LineDirection::x ? surface.grid().ny : surface.grid().nx;
   result.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k)
-    result.push_back(along == LineDirection::x ? row(surface, k) : column(surface, k));
+  for (int k = 0; k < count; ++k) result.push_back(line(surface, along, k));
   return result;
 }
 

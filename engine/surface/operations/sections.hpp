@@ -19,9 +19,8 @@ struct Point {
   double x = 0, y = 0;  // m
 };
 
-// `points` heights (2 … 16777216), equally spaced and inclusive; default: spacing within the smaller side
-// of a cell. A periodic surface wraps; otherwise points outside the nodes (0 … (n-1) h) are an
-// Error{bad_value}.
+// `points`: 2 … 16777216, inclusive; default: spacing within the smaller side of a cell. A periodic surface
+// wraps; otherwise points outside the nodes are an Error{bad_value}.
 Profile profile_between(const Surface& surface, Point from, Point to, std::optional<double> points = {});
 
 enum class LineDirection { x, y };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rough surface in slabs: each process holds some rows. Heights equal those of the generators in one
-// process, to rounding. Immutable; copies share the heights. Collective.
+// A rough surface in slabs: each process holds some rows. Heights equal those of one process, to rounding.
+// Immutable; copies share the heights. Collective.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct SlabSurface {
 // Writes nx heights to `to`; called in the order of rows.
 using SlabRow = std::function<void(int j, double* to)>;
 
-// All processes throw Error{bad_value} for a non-finite height, or the error of `row`, in any of them.
+// All processes throw Error{bad_value} for a non-finite height, or an error of `row`.
 SlabSurface slab_surface(Team& team, const Grid& grid, const SlabRow& row, Monitor& monitor);
 
 // Inverse transform in slabs; 16 bytes a node over all processes.
@@ -43,12 +43,12 @@ struct SlabFileOptions {
   std::optional<double> size_x, size_y;  // m; required
   std::optional<double> unit;            // m per number; default 1
 };
-// NPY file of shape (ny, nx), each process its rows. Throws Error{bad_file} as read_surface() and for
-// Fortran order; Error{bad_value} without `size` and for NaN.
+// NPY file of shape (ny, nx). Throws Error{bad_file} as read_surface() and for Fortran order;
+// Error{bad_value} without `size` and for NaN.
 SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions& options, Monitor& monitor);
 
-// NPY file of shape (ny, nx), float64, through the first process, a few rows at a time. Collective; the
-// first process's `path` counts.
+// NPY file of shape (ny, nx), float64, through the first process, a few rows at a time. The first process's
+// `path` counts.
 void write_slabs(Team& team, const Slab& slab, const SlabRow& row, const std::string& path, Monitor& monitor);
 
 }  // namespace asperity

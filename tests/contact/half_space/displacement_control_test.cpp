@@ -208,7 +208,7 @@ TEST(ApproachSolve, GroundThatNothingFacesCarriesNothing) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::infeasible);
-    EXPECT_NE(error.sentence().find("all of the overlap is at its hardness"), std::string::npos)
+    EXPECT_NE(error.sentence().find("the whole overlap is at its hardness"), std::string::npos)
         << error.what();
   }
 }

@@ -238,18 +238,6 @@ TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
   EXPECT_NEAR(0.5 * dot(p, applied(compliance, p)) / energy, 1, 1e-12);
 }
 
-TEST(FreeCompliance, HasNoInverse) {
-  HalfSpaceCompliance compliance(8, 8, 1, Boundary::free);
-  Field u(8, 8);
-  try {
-    compliance.apply_inverse(u.values(), u.values());
-    ADD_FAILURE() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::internal);
-    EXPECT_STREQ(error.what(), "a free half-space has no inverse filter");
-  }
-}
-
 TEST(FreeCompliance, DoesNotWrap) {
   const int n = 50;
   HalfSpaceCompliance compliance(n, n, 1, Boundary::free);

@@ -157,7 +157,7 @@ Scene light_scene(Boundary boundary, const std::optional<PlasticityOptions>& pla
   metal.hardness = 1.1e9;
   Scene scene{self_affine_surface(options).with_material(metal), rigid_material(), boundary,
               HalfSpaceOptions{}, Accuracy{}};
-  scene.effects.set(plasticity);
+  if (plasticity) scene.effects.set(*plasticity);
   return scene;
 }
 
@@ -328,7 +328,7 @@ Scene rough_pair(Boundary boundary, const std::optional<PlasticityOptions>& plas
     return self_affine_surface(options).with_material(metal);
   };
   Scene scene{body(1), body(2), boundary, HalfSpaceOptions{}, Accuracy{1e-8}};
-  scene.effects.set(plasticity);
+  if (plasticity) scene.effects.set(*plasticity);
   return scene;
 }
 

@@ -102,7 +102,7 @@ TEST(RecalledSolve, EveryNumberOfTheProblemIsInItsKey) {
 TEST(RecalledSolve, AttractionAndItsBranchAreInTheKey) {
   Shelf shelf;
   ShelfMonitor monitor(shelf);
-  AdhesiveProblem problem{waves(), {{"adhesion", GapLaw::exponential, 1e-4, 1e-3, 0}}};
+  AdhesiveProblem problem{waves(), {{"adhesion", GapLaw::exponential, 1e-4, 1e-3}}};
   const auto solve = [&](double approach, const AdhesiveAnswer* start) {
     return recall_or_adhere(problem, "approach", approach, start, monitor,
                             [&] { return adhere_at_approach(problem, approach, start, monitor); });
@@ -119,9 +119,9 @@ TEST(RecalledSolve, AttractionAndItsBranchAreInTheKey) {
   EXPECT_EQ(again.result.stationarity, retracted.stationarity);
   EXPECT_EQ(again.result.first_contact.transforms, retracted.first_contact.transforms);
   const int found = shelf.found;
-  for (auto change : {+[](GapTerm& t) { t.work *= 2; }, +[](GapTerm& t) { t.range *= 2; },
-                      +[](GapTerm& t) { t.law = GapLaw::dugdale; }, +[](GapTerm& t) { t.edge = 0.1; },
-                      +[](GapTerm& t) { t.effect = "capillarity"; }}) {
+  for (auto change :
+       {+[](GapTerm& t) { t.work *= 2; }, +[](GapTerm& t) { t.range *= 2; },
+        +[](GapTerm& t) { t.law = GapLaw::dugdale; }, +[](GapTerm& t) { t.effect = "capillarity"; }}) {
     const GapTerm before = problem.attraction.front();
     change(problem.attraction.front());
     solve(0.001, nullptr);

@@ -74,6 +74,47 @@ TEST(LoadProjection, ReachesBothEnds) {
   EXPECT_NEAR(block_sum(p) / 1e-300, 1, 1e-12);
 }
 
+// The load as a step of the shift: no shift carries it, and two neighbours enclose it.
+TEST(LoadShift, NarrowsAStepToTwoNeighboursAndTriesNoShiftTwice) {
+  for (const double step : {0.1, 1.0 / 3, 0.7, 0.75, std::nextafter(0.75, 1)}) {
+    std::vector<double> tried;
+    const LoadShift shift = find_load_shift(0, 1, 0, 1, 0, true, [&](double at) {
+      tried.push_back(at);
+      return LoadAtShift{at < step ? 0.0 : 2.0, 0, 0, at < step ? 0.0 : 2.0};
+    });
+    EXPECT_FALSE(shift.found);
+    EXPECT_EQ(shift.high, step);
+    EXPECT_EQ(shift.low, std::nextafter(step, 0));
+    std::sort(tried.begin(), tried.end());
+    EXPECT_EQ(std::adjacent_find(tried.begin(), tried.end()), tried.end()) << step;
+  }
+}
+
+// A straight line from the load 3 at λ = 0 with two nodes inside: λ = (load - 3)/2, found in one step.
+TEST(LoadShift, ANewtonStepSolvesAStraightLine) {
+  for (const bool by_excess : {false, true}) {
+    int passes = 0;
+    const LoadShift shift = find_load_shift(-4, 4, 0, 8, 1, by_excess, [&](double at) {
+      ++passes;
+      return LoadAtShift{3 + 2 * at, 2, 1.5, 0.5};  // fixed 1, bound 0.5
+    });
+    EXPECT_TRUE(shift.found);
+    EXPECT_EQ(shift.at, 2.5);
+    EXPECT_EQ(passes, 2);
+  }
+}
+
+// 1.00147e-13 is 451 ulps and a little.
+TEST(LoadShift, IsFoundIfTheLoadIsRightToOnePartInTenToTheThirteenth) {
+  constexpr double load = 1.00147, ulp = std::numeric_limits<double>::epsilon();
+  for (const int ulps : {-452, -451, 451, 452}) {
+    const LoadAtShift off{load + ulps * ulp, 0, 0, 0};
+    EXPECT_EQ(find_load_shift(0, 1, 0, load, 0, false, [&](double) { return off; }).found,
+              std::abs(ulps) == 451)
+        << ulps;
+  }
+}
+
 using namespace half_space_test;
 
 LevelShape long_shape(int nx, int ny, double aspect) { return {nx, ny, aspect, Boundary::periodic, 1}; }
@@ -83,6 +124,8 @@ TEST(LineLoads, OnlyOnLongCells) {
   EXPECT_FALSE(keeps_line_loads(7.9));
   EXPECT_TRUE(keeps_line_loads(8));
   EXPECT_TRUE(keeps_line_loads(1.0 / 8));
+  EXPECT_FALSE(keeps_line_loads(std::nextafter(8.0, 0)));
+  EXPECT_FALSE(keeps_line_loads(std::nextafter(1.0 / 8, 1)));
 }
 
 TEST(LineLoads, AreThoseOfBeforeWherePressuresCanMove) {

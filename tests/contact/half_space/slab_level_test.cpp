@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
-#include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
+#include "engine/contact/elasticity/slabs/slab_descent.hpp"
 #include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::slab_level_test {
@@ -22,7 +22,7 @@ Array<double> noise(std::size_t n, std::uint64_t seed) {
 
 SlabLevel level_of(int nx, int ny, double aspect, const Array<double>& heights) {
   Team& team = Team::alone();
-  return {team, {team.slab(nx, ny), aspect}, heights, 0.25, 2, std::numeric_limits<double>::infinity(), 1};
+  return {team, {nx, ny, aspect}, heights, 0.25, 2, std::numeric_limits<double>::infinity(), 1};
 }
 
 double product(const Array<double>& a, const Array<double>& b) {

@@ -291,8 +291,7 @@ TEST_F(CommandLine, APressLogOfATestingMachineIsFoundDrawnAndReplayed) {
   EXPECT_NE(without_area.error.find("give the area of the specimen"), std::string::npos)
       << without_area.error;
   const Outcome wrong_skip = call({"press-log", "utm.csv", "--area", "490 mm^2", "--skip", "3"});
-  EXPECT_NE(wrong_skip.error.find("the titles of its columns stand in line 6; give skip=5"),
-            std::string::npos)
+  EXPECT_NE(wrong_skip.error.find("its column titles are in line 6; give skip=5"), std::string::npos)
       << wrong_skip.error;
 }
 

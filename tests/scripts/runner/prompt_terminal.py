@@ -83,7 +83,7 @@ shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 
 t = Terminal()
-t.expect(r"Ctrl-D ends\.\n> $", "the greeting")
+t.expect(r"exit ends\.\n> $", "the greeting")
 t.say("local plate = lab.surface.sine{ cells=64, size='1 mm', amplitude='1 um' }", r"> $", "a local variable")
 
 # Completion: the class of a variable that lives, a whole word, what there is, keys with `=`, words in strings.
@@ -177,7 +177,7 @@ t.end("SIGTERM", 143)
 check(open(history).read() == before, "--no-history wrote the history")
 # Ctrl-C while a knob moves: the session is as it was, and another move works.
 t = Terminal()
-t.expect(r"Ctrl-D ends\.\n> $", "the greeting")
+t.expect(r"exit ends\.\n> $", "the greeting")
 t.say("turns = lab.knob{ name='turns', from=0, to=10, value=1 }", r"> $", "a knob")
 t.say("if turns > 9 then print 'moving' while true do end end", r"> $", "a line that may not end")
 t.say("lab.knob.set('turns', 10)", r"\nmoving\n", "a move that does not end")

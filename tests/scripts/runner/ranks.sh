@@ -87,7 +87,7 @@ LUA
 status=0
 ranks 2 "$program" run another.lua --threads 1 --out another > another.txt 2>&1 || status=$?
 [ $status != 0 ] || { cat another.txt; fail "ranks that do not do the same end well"; }
-says "does not do the same in every process" another.txt
+says "must do the same in every process" another.txt
 
 cat > long.lua <<'LUA'
 local lab = require "asperity"
@@ -143,6 +143,6 @@ status=0
 (cd / && ranks 2 "$folder/bare/asperity" run "$folder/maps.lua" --out "$folder/bare-run") > bare.txt 2>&1 || status=$?
 case $folder in
   "$(dirname "$program")"/*) ;;  # the part of the build is found there
-  *) [ $status = 2 ] || { cat bare.txt; fail "without the part: $status"; } && says "asperity-mpi.so, is missing" bare.txt ;;
+  *) [ $status = 2 ] || { cat bare.txt; fail "without the part: $status"; } && says "asperity-mpi.so, a file that is missing" bare.txt ;;
 esac
 echo "ranks: all is well"

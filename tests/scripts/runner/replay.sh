@@ -61,7 +61,7 @@ ends 2 "is not the script that ran" "$program" replay script --out script-again
 [ -e script-again ] && fail "an altered script was run"
 cp -r run line
 sed -i 3d line/journal.jsonl
-ends 2 "does not carry its number" "$program" replay line --out line-again
+ends 2 "has a wrong number" "$program" replay line --out line-again
 ends 2 "that can be read" "$program" replay nowhere --out nowhere-again
 
 # A script that the clock decides differs, and the place is named.
@@ -120,7 +120,7 @@ says '"status": "done"' begun/manifest.json
 cmp run/worn.npy begun/worn.npy
 of_version 0.1.0 run damaged
 rm damaged/worn.npy
-ends 2 "which may not make the same bytes again" "$program" run --resume damaged
+ends 2 "which may give other bytes" "$program" run --resume damaged
 ends 0 "nothing to resume" "$program" run --resume of-0.1.0
 echo "replay: all as it should be"
 

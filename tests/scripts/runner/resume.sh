@@ -102,8 +102,8 @@ head -n 1 whole/events.csv > torn/events.csv
 # Whole cases of the ensemble would be taken without a look at the presses inside them.
 [ -n "$(ls torn/store/small)" ] || fail "no case was kept"
 rm -rf torn/store/small
-first=$(ls torn/store/*.h5 | head -n 1)
-last=$(ls torn/store/*.h5 | tail -n 1)
+first=$(ls torn/store/*.result | head -n 1)
+last=$(ls torn/store/*.result | tail -n 1)
 head -c 1000 "whole/store/${first##*/}" > "$first.new" && mv "$first.new" "$first"
 cp "$last" "$last.new"
 printf 'x' | dd of="$last.new" bs=1 seek=$(($(wc -c < "$last") / 2)) conv=notrunc 2> /dev/null
@@ -133,7 +133,7 @@ end
 if (...) then error "here it is cut off" end
 LUA
 "$program" run timed.lua --out timed -- cut > /dev/null 2>&1 && fail "the error was passed over"
-ends 1 "was written anew" "$program" run --resume timed
+ends 1 "is written again" "$program" run --resume timed
 [ "$(wc -l < timed/times.csv)" = 4 ] || fail "rows of a journal written anew"
 [ "$(grep -c '"event":"row"' timed/journal.jsonl)" = 3 ] || fail "journal written anew"
 
@@ -149,14 +149,14 @@ printf 'a,b\n1,2\n' > read.csv
 ends 0 "nothing to resume" "$program" run --resume reads
 grep -q "read.csv" output && { cat output; fail "a file that is as it was is named"; }
 printf 'a,b\n3,4\n' > read.csv
-ends 0 '"read.csv" is not what it was when the run had read it' "$program" run --resume reads
+ends 0 '"read.csv" has changed since the run read it' "$program" run --resume reads
 ends 1 'read.csv' "$program" replay reads
 mv read.csv elsewhere.csv
-ends 0 '"read.csv", which the run had read, is not found from here' "$program" run --resume reads
+ends 0 '"read.csv", an input of the run, is not found here' "$program" run --resume reads
 mv elsewhere.csv read.csv
 "$program" run reads.lua --out reads_cut -- cut > /dev/null 2>&1 && fail "the error was passed over"
 printf 'a,b\n5,6\n' > read.csv
-ends 1 '"read.csv" is not what it was when the run that is taken up had read it' "$program" run --resume reads_cut
+ends 1 '"read.csv" has changed since the resumed run read it' "$program" run --resume reads_cut
 
 # Another script, arguments or seed.
 sed 's/event = 1, 8/event = 1, 9/' events.lua > edited.lua
@@ -182,7 +182,7 @@ cmp begun/before-1/events.csv whole/events.csv || fail "what was there is lost"
 # No more results than asked for.
 ends 0 "results in" "$program" run events.lua --out small --store-limit 700K --seed 3 -- first
 [ "$(du -sk small/store | cut -f 1)" -le 720 ] || fail "the store is larger than its limit"
-grep -q "no longer fit" output || { cat output; fail "a full store was not told of"; }
+grep -q "results of this run exceed" output || { cat output; fail "a full store was not told of"; }
 ends 0 "results in" "$program" run events.lua --out none --store-limit 0 --seed 3 -- first
 [ ! -e none/store ] || fail "results were kept though none were asked for"
 

@@ -46,7 +46,7 @@ sed 's/,"unhashed":{.*}//' whole/journal.jsonl > whole.journal
 "$program" run studies.lua --out alone --threads 1 2> /dev/null
 cmp whole/studies.csv alone/studies.csv || fail "one thread finds other numbers than two"
 
-results() { find "$1/store" -name '*.h5' 2> /dev/null | wc -l; }
+results() { find "$1/store" -name '*.result' 2> /dev/null | wc -l; }
 some_or_ended() { [ "$(results cut)" -ge $some ] || ! kill -0 $process; }
 for stop in "1 INT" "2 KILL" "3 INT"; do
   signal=${stop#* }

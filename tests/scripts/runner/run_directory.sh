@@ -84,7 +84,7 @@ for damage in ": >" "head -c 20 whole/FILE >" "tr '\\0-\\176' '\\1-\\177' < whol
     eval "$(printf '%s\n' "$damage" | sed "s|FILE|$file|") R3/$file"
   done
   ends 0 "every file is again as it was recorded" "$program" run --resume R3
-  [ "$(grep -c "the run is made again" output)" = 4 ] || { cat output; fail "damages are not named"; }
+  [ "$(grep -c "the run is repeated" output)" = 4 ] || { cat output; fail "damages are not named"; }
   for file in n.csv n.svg maps/a.h5 maps/a.xdmf; do cmp whole/$file R3/$file || fail "$file after: $damage"; done
   ends 0 "there is nothing to resume" "$program" run --resume R3
 done
@@ -100,7 +100,7 @@ done
 echo 'require "asperity".notebook "n":write{ t = os.time() + os.clock() }' > clock.lua
 "$program" run clock.lua --out clock 2> /dev/null
 : > clock/n.csv
-ends 1 'could not be made again as recorded' "$program" run --resume clock
+ends 1 'could not be restored as recorded' "$program" run --resume clock
 
 # What died before its first manifest begins again.
 mkdir R4
@@ -188,7 +188,7 @@ if unshare -p -f true 2> /dev/null; then
     eval "p$i=\$!"
   done
   for i in 1 2 3 4; do eval "ends_with 0 \$p$i"; done
-  cat ns?.err | grep "could not be kept" && fail "containers disturb each other"
+  cat ns?.err | grep "could not be stored" && fail "containers disturb each other"
   [ -z "$(find S11 -name '*.part*')" ] || fail "parts in the store"
 else
   echo "run_directory: no name spaces of processes here: several containers at one store are not tried"
@@ -248,7 +248,7 @@ touch go
 ends_with 0 $process
 done_run R14-nohup
 ends_with 1 $other
-says "was taken away while the run wrote it" journal.err
+says "was removed while the run wrote it" journal.err
 for run in R14-INT R14-TERM R14-HUP R14-journal; do
   ends 0 "results in" "$program" run --resume $run
   cmp R1/n.csv $run/n.csv

@@ -224,8 +224,8 @@ open(other, "wb").write(code.replace(identity, bytes([identity[0] ^ 1]) + identi
 PYTHON
 chmod +x other
 ./other run requeue.lua --store five --out other-run > output 2>&1
-says "6 of 6 cases of the ensemble at requeue.lua:2 are not in five; computed here; 6 are there of another build, $build" output
-ends 0 "another one than this" "$program" status five
+says "6 of 6 cases of the ensemble at requeue.lua:2 are not in five; computed here; 6 are stored by another build, $build" output
+ends 0 "another one; this build does not use its results" "$program" status five
 
 # One case a process, by number; it leaves its result in the store and nothing else.
 "$program" cases requeue.lua --list > list.txt

@@ -115,8 +115,8 @@ ends height "no ground here (in rank 1 of 2)"
 ends exit "this function cannot end the run"
 ends rank-0 "this one alone"
 ends rank-1 "is done by all ranks together, and rank 1 failed"
-ends other "rank 1 came to spreadContact:press"
-ends ensemble "came to an ensemble when rank 0 came to spreadContact:press"
+ends other "rank 1 reached spreadContact:press"
+ends ensemble "reached an ensemble when rank 0 reached spreadContact:press"
 ends memory "memory" --limit-memory 1G
 
 # A run taken up again does not repeat a press; fields that a script then writes are solved for again.

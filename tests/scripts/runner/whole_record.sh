@@ -59,10 +59,10 @@ sed -i 's/"status": "done"/"status": "running"/' cut/manifest.json
 head -n 3 r/journal.jsonl > cut/journal.jsonl
 echo 'return 30' > three.lua
 echo 'return 80' > only.lua
-ends 0 'three.lua" is not what it was when the run loaded it' "$program" replay r --out again
+ends 0 'three.lua" has changed since the run loaded it' "$program" replay r --out again
 ends 0 "the same again" "$program" replay r --out again2
-ends 0 'only.lua" is not what it was when the run loaded it' "$program" run --resume r
-ends 0 'three.lua" is not what it was when the run loaded it' "$program" run --resume cut
+ends 0 'only.lua" has changed since the run loaded it' "$program" run --resume r
+ends 0 'three.lua" has changed since the run loaded it' "$program" run --resume cut
 cmp r/n.csv cut/n.csv
 ends 0 "the same again" "$program" replay cut --out cut-again
 rm three.lua only.lua
@@ -110,12 +110,12 @@ end() {
 begin plain; end 0
 grep -q gone.txt plain/manifest.json && fail "a file that the script removed is listed"
 begin d; rm d/map.h5 d/n.csv d/kept.txt; end 1
-grep -q '`kept.txt`, `map.h5` and `n.csv` were taken away' err || { cat err; fail "no names"; }
+grep -q '`kept.txt`, `map.h5` and `n.csv` were removed' err || { cat err; fail "no names"; }
 ends 0 "results in" "$program" run --resume d
 cmp d/map.h5 plain/map.h5
 ends 0 "nothing to resume" "$program" run --resume d
 begin e; rm e/script.lua; end 1
-grep -q 'script.lua` was altered or taken away' err || { cat err; fail "no word of the script"; }
+grep -q 'script.lua` was altered or removed' err || { cat err; fail "no word of the script"; }
 ends 0 "results in" "$program" run --resume e
 begin f; echo '{"n":99}' >> f/journal.jsonl; end 1
 grep -q 'journal.jsonl` was altered' err || { cat err; fail "no word of the journal"; }
@@ -147,5 +147,5 @@ echo 'for k = 1, 1e5 do print(k) end' > many.lua
 grep -q "only 24 files" output || { cat output; fail "no word of few handles"; }
 cmp few/journal.jsonl n/journal.jsonl
 mkdir -p locked/.lock
-ends 2 "is a folder, where a run keeps" "$program" run --out locked n.lua
+ends 2 "is a folder, and the lock" "$program" run --out locked n.lua
 echo "passed"

@@ -1,27 +1,27 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Attraction out of proportion: does a press end when the attraction is far too strong, too short or too weak?
+-- Attraction far too strong, too short or too weak: every press must end.
 --
--- An attraction is found by going to the gap that it makes and back, and a snap of the surfaces is a step of
--- any size. Where its traction is beyond the modulus, or its range is far below the cells or far above the
--- tile, those steps may shrink without end or go round. Each press here is one of a sphere on a coarse grid;
--- what comes back is held to sums made in the script, and what does not must say why.
+-- The solver alternates between the attraction and its gap, and a snap is a step of any size. If the traction
+-- exceeds the modulus, or the range is far below the cells or far above the tile, the steps may shrink
+-- without end or cycle. Each press here is of a sphere on a coarse grid. The script checks every answer
+-- against its own sums; a refusal must name the reason.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 23, title = "Attraction out of proportion",
   edge = "work from 1e-30 to 1e30 J/m^2, range from 1e-30 to 1e30 m,"
-    .. " traction at touch up to 100 of the modulus, pull and load from 1e-30 to 1e30 N,"
+    .. " traction at touch up to 100 times the modulus, pull and load from 1e-30 to 1e30 N,"
     .. " approach from -1e30 to 1e30 m, humidity from 1e-300 to 1 - 2^-53, 1 to 31 cells a side",
-  elsewhere = "The descent into the attraction shrinks its steps without end, or goes round between two"
-    .. " contacts, and the run never returns; or what it stopped at is handed out as an answer.",
-  here = "Every press ends, in a contact whose forces balance or in an error that says why: an attraction"
-    .. " over a hundred times the modulus, bodies that separate, numbers that overflow, or how far the"
-    .. " attraction and the gap still differ after so many tangents.",
+  elsewhere = "The solver shrinks its steps without end or alternates between two contacts, and the run never"
+    .. " returns. Or the last iterate is returned as an answer.",
+  here = "Every press ends in a contact with balanced forces, or in an error with the reason. Reasons are"
+    .. " an attraction over a hundred times the modulus, separating bodies, overflow, or a remaining"
+    .. " difference between attraction and gap, with the number of tangents.",
 }
 local tolerance = 1e-4
 local unit = lab.material{ name = "unit", young = "1 Pa", poisson = 0 }
 local reasons = { "over a hundred times", "the bodies separate", "overflow", "the attraction and the gap agree",
-  "no nearer", "no height that a number holds", "outside the range of numbers" }
+  "is in full contact at", "too little for a finite height", "outside the range of numbers" }
 
 local function body(cells)
   return lab.surface.sphere{ cells = cells, size = { 1, 1 }, radius = 1, shape = "paraboloid", material = unit }
@@ -32,7 +32,8 @@ local function contact(effects, boundary, cells)
     accuracy = { tolerance = tolerance } }
 end
 
--- What a press came to: how far the sums are from the state's own forces, and from what its gaps pull with.
+-- Counts the outcome of a press. An answer is compared with its own forces and with the attraction at its
+-- gaps.
 local function judged(row, make, press, traction)
   row.asked = row.asked + 1
   local ok, st = pcall(function() return make():press(press) end)
@@ -71,7 +72,7 @@ local function sweep(name, each)
   book:write(row)
 end
 local function law_of(work, range, model)
-  if model == "dugdale" then -- ends over half the range to either side
+  if model == "dugdale" then -- falls linearly from 0.5 to 1.5 times the range
     return function(g) return work / range * math.min(1, math.max(0, 1.5 - g / range)) end
   end
   return function(g) return work / range * math.exp(-g / range) end
@@ -135,9 +136,11 @@ sweep("humidity", function(row, boundary)
     end
   end
 end)
-case:evidence(book, "Presses of a paraboloid of radius 1 on a tile of 1 x 1, E* = 1: how they ended, the dearest"
-    .. " answer, and by how much at most sums over an answer miss its forces and its law.",
-  { { "sweep", "%s" }, { "asked", "%d" }, { "answered", "%d" }, { "refused", "%d" }, { "unexplained", "%d" },
+case:evidence(book, "Presses of a paraboloid of radius 1 on a tile of 1 x 1, E* = 1. The last columns"
+    .. " are maxima over the answers: transforms, and the relative errors of sums over an answer against its"
+    .. " forces and its law.",
+  { { "sweep", "%s" }, { "asked", "%d", "presses" }, { "answered", "%d" }, { "refused", "%d" },
+    { "unexplained", "%d" },
     { "transforms", "%.0f" }, { "balance", "%.0e" }, { "law", "%.0e" } })
 case:expect(book, "unexplained", { near = 0, within = 0 })
 case:expect(book, "balance", { at_most = 1e-6 })
@@ -146,7 +149,7 @@ case:refused("1e30 J/m^2 within 1 nm", function()
   contact({ adhesion = { work = 1e30, range = 1e-9 } }, "periodic"):sweep{ approach = { -1e-6, 0, 1e-6 } }
 end, "over a hundred times the contact modulus")
 
--- A sweep goes along its branch: pulled off later than brought together, and once apart, apart.
+-- A sweep follows its branch: pull-off comes later than jump-in, and separated bodies stay separate.
 local loop = lab.notebook "loop"
 local there = { -0.3, -0.08, -0.065, 0.02, -0.065, -0.08, -0.3, -0.08, -0.065 }
 local c = lab.contact{ lower = lab.surface.from_function{ cells = 48, size = 0.9, material = unit,
@@ -154,13 +157,15 @@ local c = lab.contact{ lower = lab.surface.from_function{ cells = 48, size = 0.9
   boundary = "free", accuracy = { tolerance = 1e-4 },
   effects = { elasticity = "half_space", adhesion = { work = 0.01, range = 0.02 } } }
 for st in c:sweep{ approach = there } do
-  loop:write{ approach = st.approach, turns = #st.preload, contacts = st.contacts, load = st.load }
+  loop:write{ approach = st.approach, turns = #st.preload, contacts = st.nodes_in_contact, load = st.load }
 end
-case:evidence(loop, "A sweep of a paraboloid that adheres: together, apart and together again.",
-  { { "approach", "%.3f" }, { "turns", "%d", "turns of the preload" }, { "contacts", "%d" }, { "load", "%.4f" } })
+case:evidence(loop, "A sweep of an adhering paraboloid: together, apart and together again.",
+  { { "approach", "%.3f" }, { "turns", "%d", "turning points of the preload" }, { "contacts", "%d" },
+    { "load", "%.4f" } })
 local rows = loop:rows()
-case:holds("brought together, nothing touches at -0.065", rows[3].contacts == 0)
-case:holds("drawn apart, it holds at -0.065", rows[5].contacts > 0)
-case:holds("once apart it is apart, as if never together", rows[8].contacts == 0 and rows[9].contacts == 0
+case:holds("on approach, nothing touches at -0.065", rows[3].contacts == 0)
+case:holds("on separation, the bodies touch at -0.065", rows[5].contacts > 0)
+case:holds("after pull-off nothing touches, and the load at -0.065 is the load of the first approach",
+  rows[8].contacts == 0 and rows[9].contacts == 0
   and math.abs(rows[9].load / rows[3].load - 1) < 1e-3)
-case:finish{ worst = "one part in 1e4 of the law", verdict = "right answer, then a clear error" }
+case:finish{ worst = "1e-4 of the law", verdict = "right answer, then a clear error" }

@@ -1,18 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Measured data as it comes: holes, infinities, outliers, files cut short, wrong units, headers that lie
--- about size.
+-- Bad data: holes, infinities, outliers, truncated files, wrong units, headers with a false size.
 --
--- Files are written, damaged in one way at a time, and read back. Each must either give the heights that were
--- written or an error that names the file and what is wrong. A binary file is cut at every one of its bytes.
+-- Files are written, damaged in one way at a time, and read back. The reader must return the written heights,
+-- or an error that names the file and the fault. A binary file is cut at every byte.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 13, title = "Bad data", edge = "files cut at every byte; sizes in a header from 0 to 2^62;"
     .. " not-a-number, infinities and outliers up to 1e308; every wrong unit",
-  elsewhere = "A hole becomes 0 or -32768 and the deepest pit of the map; a header is believed and"
-    .. " memory for it asked; nanometres are read as metres; a cut file is read as far as it goes.",
-  here = "What a file does not say is asked for, what it says wrongly is an error that names the file,"
-    .. " and holes are filled only when the call says how. Memory asked for is bounded by the file.",
+  elsewhere = "A hole becomes 0 or -32768, the deepest pit of the map. The reader allocates the size in the"
+    .. " header, reads nanometres as metres, and reads a truncated file up to the cut.",
+  here = "A quantity missing from the file must be given in the call. A fault in the file is an error that"
+    .. " names the file. Holes are filled only if the call says how. The size of the file bounds the memory.",
 }
 
 local nx, ny = 9, 7
@@ -36,7 +35,7 @@ local function same(a, b)
   return true
 end
 
--- 1. Every length from nothing to the whole file.
+-- 1. Every length from 0 to the whole file.
 local given = { npy = { size = { "90 um", "70 um" }, unit = "m" }, x3p = {}, h5 = {}, gwy = {},
   txt = { size = { "90 um", "70 um" }, unit = "m" } }
 local cuts = lab.notebook "cuts"
@@ -55,17 +54,17 @@ for extension, options in lab.sorted(given) do
   cuts:write{ format = extension, bytes = #whole, cuts = #whole + 1, refused = refused, ["read whole"] = read,
     other = other, unnamed = unnamed }
 end
-case:evidence(cuts, "A map of 9 x 7 heights, cut at every byte. Of a text matrix no reader can know"
-  .. " that a row or the last digits of the last number are missing; what is read is always a whole"
-  .. " number of rows.", { { "format", "%s" }, { "bytes", "%d" }, { "cuts", "%d" }, { "refused", "%d" },
+case:evidence(cuts, "A map of 9 x 7 heights, cut at every byte. In a text matrix no reader can detect a"
+  .. " missing row or missing digits of the last number. The reader always returns whole rows.",
+  { { "format", "%s" }, { "bytes", "%d" }, { "cuts", "%d" }, { "refused", "%d" },
   { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
 case:expect(cuts, "unnamed", { at_most = 0 })
 for _, format in ipairs{ "npy", "x3p", "h5", "gwy" } do case:expect(cuts, "other",
   { where = { format = format }, at_most = 0 }) end
 case:expect(cuts, "read whole", { at_least = 1 })
 
--- 2. One byte changed, at every place and to several values: never a crash, never other heights from a
--- checked format.
+-- 2. One changed byte, at many places and with several values: never a crash, and never other heights from a
+-- format with checksums.
 local flips = lab.notebook "flips"
 for _, extension in ipairs{ "x3p", "h5", "npy" } do
   local whole = bytes_of("whole." .. extension)
@@ -81,14 +80,15 @@ for _, extension in ipairs{ "x3p", "h5", "npy" } do
   flips:write{ format = extension, changed = refused + read + other, refused = refused, ["read whole"] = read,
     other = other }
 end
-case:evidence(flips, "One byte changed, at every place of an NPY file and every seventh of the others,"
-  .. " in three ways. A changed height of an NPY file is a height; X3P and HDF5 files have checksums.",
+case:evidence(flips, "One changed byte, at every place of an NPY file and every seventh of the others, in"
+  .. " three ways. X3P and HDF5 files have checksums. An NPY file has none, so a changed height reads as"
+  .. " another map.",
   { { "format", "%s" }, { "changed", "%d", "files" }, { "refused", "%d" },
   { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
 for _, format in ipairs{ "x3p", "h5" } do case:expect(flips, "other",
   { where = { format = format }, at_most = 0 }) end
 
--- 3. Headers that lie.
+-- 3. False headers.
 local function npy(shape, count, order)
   local head = ("{'descr': '<f8', 'fortran_order': %s, 'shape': %s, }"):format(order or "False", shape)
   head = head .. (" "):rep((64 - (11 + #head) % 64) % 64) .. "\n"
@@ -120,7 +120,7 @@ local function with(options) for key, value in pairs(um) do options[key] = value
 for _, word in ipairs{ "nan", "NaN" } do
   local s = lab.surface.read(write("holes.txt", matrix(word)), um)
   local hole = s:height(2, 1)
-  case:holds("`" .. word .. "` in a text matrix is a point that was not measured",
+  case:holds("`" .. word .. "` in a text matrix is an unmeasured point",
     hole ~= hole and s:height(1, 1) == s:height(1, 1))
   case:refused("a contact of a map with `" .. word .. "`", function()
     lab.contact{ lower = s:with{ material = lab.material "Al-2011" }, upper = lab.rigid, boundary = "periodic",
@@ -133,25 +133,25 @@ for _, word in ipairs{ "inf", "-inf", "1e999" } do
 end
 local holed = lab.surface.read(write("holes.txt", matrix "nan"), with{ fill = "interpolate" })
 local around = (holed:height(1, 1) + holed:height(3, 1) + holed:height(2, 0) + holed:height(2, 2)) / 4
-case:holds("a hole filled by interpolation lies among its neighbours",
+case:holds("a hole filled by interpolation is within 1 um of the mean of its neighbours",
   math.abs(holed:height(2, 1) - around) < 1e-6)
 case:holds("a hole filled with a height has that height", lab.surface.read("holes.txt",
   with{ fill = "0.5 um" }):height(2, 1) == 0.5e-6)
-case:refused("a map of nothing but holes", function() lab.surface.read(write("void.txt",
+case:refused("a map of holes only", function() lab.surface.read(write("void.txt",
   "nan nan\nnan nan\n"), with{ fill = "interpolate" }) end, "void.txt")
 local outlier = lab.notebook "outlier"
 for _, height in ipairs{ 10, 1e6, 1e30, 1e100, 1e150, 1e200, 1e300 } do
   local ok, s = pcall(lab.surface.read, write("outlier.txt", matrix(("%g"):format(height))), um)
   local r = ok and s:roughness()
   local z = height * 1e-6
-  -- one of thirty, where the rest is nothing beside it
+  -- one of thirty, with the others negligible
   local Rq = ok and math.abs(r.Rq / (z * math.sqrt(29) / 30) - 1) or nil
   outlier:write{ height = z, answer = not ok and "refused" or "read", Rq = ok and height > 1e5 and Rq or nil,
     finite = not ok and 1 or (r.Rq < math.huge and r.Ra < math.huge and r.kurtosis < math.huge) and 1 or 0,
     kurtosis = ok and r.kurtosis or nil }
 end
-case:evidence(outlier, "One outlier among thirty heights of a micrometre: statistics stay finite,"
-  .. " kurtosis goes to 28.03.", { { "height", "%.0e", "outlier (m)" },
+case:evidence(outlier, "One outlier among thirty heights of a micrometre. The statistics stay finite, and"
+  .. " the kurtosis tends to 28.03.", { { "height", "%.0e", "outlier (m)" },
   { "answer", "%s" }, { "Rq", "%.0e", "error of Rq" }, { "kurtosis", "%.3f" } })
 case:expect(outlier, "finite", { at_least = 1 })
 
@@ -167,7 +167,7 @@ case:refused("rows of unequal length", function() lab.surface.read(write("ragged
 case:refused("a word among numbers", function() lab.surface.read(write("word.txt", "1 2 3\n1 two 3\n"),
   um) end, "word.txt")
 case:refused("an empty file", function() lab.surface.read(write("empty.txt", ""), um) end, "empty.txt")
-case:refused("a file that is not there", function() lab.surface.read("nowhere.txt", um) end, "nowhere.txt")
+case:refused("a missing file", function() lab.surface.read("nowhere.txt", um) end, "nowhere.txt")
 for _, height in ipairs{ 0 / 0, math.huge, -math.huge } do
   case:refused("from_function returning " .. tostring(height):gsub("^-nan", "nan"), function()
     lab.surface.from_function{ cells = 4, size = 1, height = function(x) return x == 0.5 and height or 0 end }

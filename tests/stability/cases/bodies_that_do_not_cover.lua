@@ -1,20 +1,20 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Two bodies of one size, one turned: what carries the load where nothing lies over the other?
+-- Two bodies of one size, one of them turned: only their overlap may carry load.
 --
--- A map of fixed size has a height at every node, and a solver that fills the corners a turned body has left
--- with the lowest height, or with zero, presses an invisible flat there. Nothing is there: bars that cross
--- carry as their common square does, the gap is missing off it, and no load reaches what nothing faces.
+-- A map of fixed size has a height at every node. A solver that fills the empty corners of a turned body with
+-- the lowest height or with zero presses an invisible flat there. Crossed bars must carry load as their
+-- common square does: outside the square the gap is missing and the pressure is zero.
 --! error: the bodies face each other on
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 25, title = "Bodies that do not cover each other",
   edge = "turns by 1 to 90 deg on a free boundary, overlaps from 25 to 99 % of the tile; loads up to far past"
-    .. " full contact of what is left",
-  elsewhere = "The turned map is filled up to its rectangle, and what fills it carries load: 43 % of the touching"
-    .. " nodes of two patches turned by 90 deg.",
-  here = "Off the overlap there is no pressure and no gap. Means go over the overlap, `pressure` stays load over"
-    .. " the tile, `overlap_fraction` says how much of it they share, and the first press warns.",
+    .. " full contact of the overlap",
+  elsewhere = "The turned map is filled up to its rectangle, and the filling carries load: 43 % of the"
+    .. " contact nodes of two patches turned by 90 deg.",
+  here = "Outside the overlap there is no pressure and no gap. Means are over the overlap, `pressure` is"
+    .. " load over the tile, `overlap_fraction` is the overlap over the tile, and the first press warns.",
 }
 
 local al = lab.material{ young = "70 GPa", poisson = 0.33, hardness = "1.1 GPa" }
@@ -22,7 +22,7 @@ local function dome(cells, size)
   return lab.surface.sphere{ cells = cells, size = size, radius = "1 m", shape = "paraboloid", material = al }
 end
 
--- 1. Bars of four by one, crossed: the square they share, pressed alone.
+-- 1. Crossed bars of four by one, against their common square pressed alone.
 local bars = lab.notebook "bars"
 for _, way in ipairs{ "box", "half_space", "capped", "hardening" } do
   local effects = { elasticity = way == "box" and "box" or "half_space" }
@@ -50,14 +50,14 @@ for _, way in ipairs{ "box", "half_space", "capped", "hardening" } do
       worst = worst, load = math.abs(a.load / b.load - 1), certificate = a.residual }
   end
 end
-case:evidence(bars, "Bars of 32 x 128 nodes crossed at 90 deg, against the 32 x 32 nodes they share.",
-  { { "way", "%s" }, { "overlap", "%.2f" }, { "off", "%g", "pressure off the overlap" },
+case:evidence(bars, "Bars of 32 x 128 nodes crossed at 90 deg, against their 32 x 32 common nodes.",
+  { { "way", "%s" }, { "overlap", "%.2f" }, { "off", "%g", "pressure outside the overlap" },
   { "worst", "%.0e", "worst pressure, over the peak" }, { "load", "%.0e" }, { "certificate", "%.0e" } })
 case:expect(bars, "off", { near = 0, within = 0 })
 case:expect(bars, "worst", { at_most = 1e-7 })
 case:expect(bars, "load", { at_most = 1e-9 })
 
--- 2. Any angle and any load: never more in contact than faces each other.
+-- 2. At any angle and any load, the contact area is at most the overlap.
 local turns = lab.notebook "turns"
 for _, angle in ipairs{ 1, 10, 45, 80 } do
   local rough = function(seed)
@@ -82,9 +82,9 @@ for _, angle in ipairs{ 1, 10, 45, 80 } do
       unlike = math.abs(1 - missing / 48 ^ 2 - st.overlap_fraction), certificate = st.residual }
   end
 end
-case:evidence(turns, "Rough bodies of 48 x 48 nodes, turned.",
+case:evidence(turns, "Turned rough bodies of 48 x 48 nodes.",
   { { "angle", "%g", "deg" }, { "pressure", "%.0e", "Pa" }, { "overlap", "%.4f" }, { "area", "%.4f" },
-  { "carried", "%g", "carried off the overlap" }, { "certificate", "%.0e" } })
+  { "carried", "%g", "pressure outside the overlap" }, { "certificate", "%.0e" } })
 case:expect(turns, "carried", { near = 0, within = 0 })
 case:expect(turns, "beyond", { near = 0, within = 0 })
 case:expect(turns, "unlike", { at_most = 1e-12 })

@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Rigid bodies and boxes that yield: does the load rest on load/hardness of the tile, to the last node?
+-- Rigid bodies and boxes that yield: the load must rest on load/hardness of the tile, to the last node.
 --
--- A rigid element carries nothing until it is touched and its whole hardness from then on, so the load is a
--- staircase of the depth: no depth carries what lies between two steps. The least loaded node makes up the
--- rest. Elements that first give way elastically are as bad when they are nearly rigid: their pressure passes
--- from nothing to the hardness between two neighbouring doubles.
+-- A rigid element carries nothing until it touches, and then its full hardness. The load is a step function
+-- of depth: no depth gives a load between two steps. The least loaded node carries the remainder. Nearly
+-- rigid elastic elements are as bad: their pressure passes from 0 to the hardness between two neighbouring
+-- doubles.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 24, title = "Bodies that only yield", edge = "stiffness from 1e-6 of hardness/height to infinite, hardness and"
-    .. " heights over 30 decades; loads from 1e-12 of the hardness to its last double; equal heights; again and again",
-  elsewhere = "Newton's method or bisection looks for a depth with the right load, which a staircase does not"
-    .. " have, and goes round for ever or ends on a step with another load.",
-  here = "The two neighbouring depths between which the load is passed are found by halving, and the pressures"
-    .. " at both are mixed: the load is right to rounding for any stiffness.",
+  number = 24, title = "Bodies that only yield", edge = "stiffness from 1e-6 of hardness/height to"
+    .. " infinite, hardness and heights over 30 decades; loads from 1e-12 of the hardness to its last"
+    .. " double; equal heights; repeated events",
+  elsewhere = "Newton's method or bisection searches for a depth with the right load. A step function has"
+    .. " no such depth, and the search cycles for ever or ends on a step with another load.",
+  here = "Bisection finds the two neighbouring depths that bracket the load, and the pressures at both are"
+    .. " mixed. The load is right to rounding for any stiffness.",
 }
 local cells = 32
 local nodes = cells * cells
@@ -33,23 +34,23 @@ for _, height in ipairs{ 1e-15, 1, 1e15 } do
         local sum = st:field "pressure".mean
         off = math.max(off, math.abs(sum / (share * hardness) - 1))
         residual = math.max(residual, st.residual)
-        if stiffness == math.huge and st.contacts ~= math.ceil(share * nodes * (1 - 1e-12)) then wrong = wrong + 1 end
+        if stiffness == math.huge and st.nodes_in_contact ~= math.ceil(share * nodes * (1 - 1e-12)) then wrong = wrong + 1 end
       end
       book:write{ height = height, hardness = hardness, stiffness = tostring(stiffness), load = off,
         certificate = residual, wrong = wrong }
     end
   end
 end
-case:evidence(book, "Eight loads each on 32 x 32 nodes: greatest error of the load and of the certificate; of rigid"
-  .. " bodies, loads that did not rest on load/hardness of the nodes, rounded up.",
+case:evidence(book, "Eight loads each on 32 x 32 nodes: largest error of the load and largest certificate."
+  .. " Wrong counts are loads on rigid bodies that do not rest on load/hardness of the nodes, rounded up.",
   { { "height", "%.0e", "rms height, m" }, { "hardness", "%.0e", "hardness, Pa" },
   { "stiffness", "%s", "stiffness, hardness/height" }, { "load", "%.0e", "error of the load" }, { "certificate", "%.0e" },
   { "wrong", "%d", "wrong counts" } })
 case:expect(book, "load", { at_most = 2e-14 }) -- measured 2e-15
-case:expect(book, "certificate", { at_most = 1e-9 }) -- measured 1.2e-10, a rounding of a million heights
+case:expect(book, "certificate", { at_most = 1e-9 }) -- measured 1.2e-10, rounding of a million heights
 case:expect(book, "wrong", { at_most = 0 })
 
--- The same event a hundred times takes nothing after the first.
+-- A hundred repeats of an event add no plastic volume.
 local again = lab.notebook "again"
 for _, model in ipairs{ "rigid", "box" } do
   for _, hardening in ipairs{ math.huge, 10 } do
@@ -61,28 +62,28 @@ for _, model in ipairs{ "rigid", "box" } do
     for _ = 1, 100 do
       c:release()
       local st = c:press{ pressure = 0.1 }
-      more, contacts = more + st.plastic_volume, st.contacts
+      more, contacts = more + st.plastic_volume, st.nodes_in_contact
     end
     again:write{ model = model, hardening = tostring(hardening), first = first, more = more, contacts = contacts }
   end
 end
-case:evidence(again, "One event and a hundred repeats: the volume they took.", { { "model", "%s" },
+case:evidence(again, "Plastic volume of one event and of a hundred repeats.", { { "model", "%s" },
   { "hardening", "%s", "hardening, Pa/m" }, { "first", "%.6f", "first event, m^3" },
-  { "more", "%.0e", "a hundred more" }, { "contacts", "%d", "nodes" } })
+  { "more", "%.0e", "a hundred repeats, m^3" }, { "contacts", "%d", "nodes" } })
 case:expect(again, "more", { at_most = 0 })
 
 local flat = lab.surface.flat{ cells = 4, size = 1 }
 local st = lab.contact{ lower = flat, upper = lab.rigid, effects = { elasticity = "rigid",
   plasticity = { hardness = 1 } } }:press{ pressure = 0.25 }
 local equal = lab.notebook "equal"
-equal:write{ contacts = st.contacts, peak = st.peak_pressure }
+equal:write{ contacts = st.nodes_in_contact, peak = st.peak_pressure }
 case:expect(equal, "contacts", { at_least = 16 })
 case:expect(equal, "peak", { near = 0.25, within = 1e-16 })
 local function pressed(options) return function()
   lab.contact{ lower = rough(1), upper = lab.rigid, effects = { elasticity = "rigid",
     plasticity = { hardness = 1 } } }:press(options)
 end end
-case:refused("the hardness itself", pressed{ pressure = 1 }, "cannot be carried", "`hardness`")
+case:refused("a pressure equal to the hardness", pressed{ pressure = 1 }, "cannot be carried", "`hardness`")
 case:refused("a pressure of 1e-281 of the hardness", pressed{ pressure = 1e-281 }, "too small to mean anything")
 case:refused("an approach of 1e200 m", pressed{ approach = 1e200 }, "range of a double")
 case:refused("rigid bodies without plasticity", function()

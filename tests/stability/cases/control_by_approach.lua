@@ -1,20 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Pressing to an approach instead of by a load: is the load that answers right, from the lightest touch to
--- full contact?
+-- A press to an approach must return the right load, from the lightest touch to full contact.
 --
--- A wave under f times the load of full contact has the approach h f (1 - ln f) (Westergaard). Prescribed,
--- that approach must give f back. Near first touch and near full contact the load is a steep or a flat
--- function of it; at full contact the planes can come no nearer, so that an approach of h or more has no
--- answer. On a free boundary every approach has one.
+-- A wave under f times the load of full contact has the approach h f (1 - ln f) (Westergaard). A press to
+-- this approach must return f. Near first touch and near full contact the load is a steep or a flat function
+-- of the approach. At full contact the planes can come no nearer, so an approach of h or more has no answer.
+-- On a free boundary every approach has an answer.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 19, title = "Pressing to an approach", edge = "approach from 1e-30 of the height to full"
     .. " contact and past it; indentation and flattening from 0 to 1",
-  elsewhere = "The search for the load has an absolute tolerance, or brackets that close at one end;"
-    .. " past full contact it runs until it is stopped.",
-  here = "The load is that of the approach over all decades; an approach that no load reaches is"
-    .. " refused with the one that can be.",
+  elsewhere = "The search for the load has an absolute tolerance, or brackets that close at one end. Past"
+    .. " full contact it never stops.",
+  here = "The load matches the approach over all decades. If no load reaches the approach, the error names"
+    .. " the approach of full contact.",
 }
 local h, n, unit = 0.01, 1024, lab.material{ young = 1, poisson = 0 }
 local function bench(tolerance)
@@ -30,17 +29,17 @@ for _, f in ipairs{ 1e-3, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 0.999, 1 - 1e-4
   local area = n * 2 / math.pi * math.asin(math.sqrt(f))
   if not ok then print(st) book:write{ f = f, left = 1 - f, solved = 0 } else
   book:write{ solved = 1, f = f, left = 1 - f, error = math.abs(st.pressure / (f * full) - 1),
-    area = math.abs(st.contacts - area), iterations = st.iterations, certificate = st.residual }
+    area = math.abs(st.nodes_in_contact - area), iterations = st.iterations, certificate = st.residual }
   end
 end
 case:expect(book, "solved", { at_least = 1 })
-case:evidence(book, "A wave on a line of 1024 nodes pressed to the approach of f: does f come back?",
+case:evidence(book, "A wave on a line of 1024 nodes, pressed to the approach of f and compared with f.",
   { { "f", "%.6g" }, { "error", "%.0e", "error of the pressure" },
   { "area", "%.1f", "area error (nodes)" }, { "iterations", "%d" }, { "certificate", "%.0e" } })
 case:expect(book, "error", { at_most = 2e-3 }) -- measured 2e-4, at 20 nodes in contact
 case:expect(book, "area", { at_most = 2 }) -- measured 1.3
 
--- There and back: a load, its approach, the load of that.
+-- There and back: a load, its approach, and the load of this approach.
 local rough = lab.surface.self_affine{ cells = 48, size = 1, hurst = 0.8, rms_height = 0.01,
   short_wave = 0.125,
   material = lab.material{ young = 1, poisson = 0, hardness = 0.1 } }
@@ -63,8 +62,8 @@ for _, scene in ipairs{ { "half-space, periodic", "periodic", "half_space" },
   end
   back:write(row)
 end
-case:evidence(back, "Loads from 1e-200 to 0.05 N: each pressed, then its approach, indentation or"
-  .. " flattening prescribed on fresh bodies. Worst error of the load.", {
+case:evidence(back, "Loads from 1e-200 to 0.05 N: each is pressed, then its approach, indentation or"
+  .. " flattening is prescribed on fresh bodies. The columns are the largest errors of the load.", {
   { "scene", "%s" }, { "loads", "%d" }, { "approach", "%.0e" }, { "indentation", "%.0e" },
   { "flatten", "%.0e" } })
 -- measured 8e-10
@@ -75,10 +74,11 @@ for name, approach in lab.sorted{ ["1"] = 1, ["1 + 1e-12"] = 1 + 1e-12, ["2"] = 
     "cannot be reached", "full contact")
 end
 case:refused("an approach of 5e-324 m", function() line:press{ approach = 2.0 ^ -1074 } end, "1e-280")
-case:refused("less than nothing", function() line:press{ approach = -1e-300 } end, "`approach`")
-case:refused("flattened by more than all", function() line:press{ flatten = 1 + 2 ^ -52 } end, "`flatten`")
-case:holds("an approach of 0 is no load", line:press{ approach = 0 }.load == 0
-  and line:press{ flatten = 0 }.contacts == 0)
+case:refused("a negative approach", function() line:press{ approach = -1e-300 } end, "`approach`")
+case:refused("a flattening above 1", function() line:press{ flatten = 1 + 2 ^ -52 } end, "`flatten`")
+case:holds("an approach of 0 has no load, and a flattening of 0 has no contact",
+  line:press{ approach = 0 }.load == 0
+  and line:press{ flatten = 0 }.nodes_in_contact == 0)
 local free = lab.contact{ lower = rough, upper = lab.rigid, boundary = "free",
   effects = { elasticity = "half_space" } }
 local punch = lab.notebook "punch"
@@ -87,17 +87,17 @@ for _, approach in ipairs{ 1, 10, 1e3, 1e6, 1e12 } do
   local st = free:press{ approach = approach }
   local slope = st.stiffness
   one = one or slope
-  punch:write{ approach = approach, nodes = st.contacts, stiffness = slope, error = math.abs(slope / one - 1),
+  punch:write{ approach = approach, nodes = st.nodes_in_contact, stiffness = slope, error = math.abs(slope / one - 1),
     certificate = st.residual }
 end
-case:evidence(punch, "A free boundary knows no full contact: past it the tile is a square punch, whose"
-  .. " stiffness does not change.", { { "approach", "%.0e", "approach (m)" },
+case:evidence(punch, "On a free boundary every approach has an answer: with all nodes in contact the tile"
+  .. " is a square punch of constant stiffness.", { { "approach", "%.0e", "approach (m)" },
   { "nodes", "%d" }, { "stiffness", "%.4f", "stiffness (Pa/m)" }, { "error", "%.0e", "change" },
   { "certificate", "%.0e" } })
 case:expect(punch, "nodes", { at_least = 48 * 48 })
 case:expect(punch, "error", { at_most = 1e-15 }) -- measured 0
--- Ground that is soft once it yields: a wave's few heights come into contact one after the other, and between
--- two of them next to no load lies between one approach and another.
+-- A surface that is soft after yield: the few distinct heights of a wave touch one after the other. Between
+-- two of these heights the load hardly depends on the approach.
 local soft = lab.notebook "soft"
 local metal = lab.material{ young = 1e11, poisson = 0 }
 for _, cells in ipairs{ 8, 16, 96 } do
@@ -112,9 +112,10 @@ for _, cells in ipairs{ 8, 16, 96 } do
     error = math.abs(st.indentation / 0.3 - 1), apart = math.abs(again.indentation / 0.3 - 1),
     certificate = st.residual }
 end
-case:evidence(soft, "A wave of soft ground pressed to 0.3 of its height, and then by the pressure that took.", {
+case:evidence(soft, "A wave that is soft after yield, pressed to 0.3 of its height, and then by the resulting"
+  .. " pressure.", {
   { "cells", "%d" }, { "transforms", "%.0f" }, { "load", "%.0f", "transforms by pressure" },
-  { "error", "%.0e" }, { "apart", "%.0e", "apart by pressure" }, { "certificate", "%.0e" } })
+  { "error", "%.0e" }, { "apart", "%.0e", "difference by pressure" }, { "certificate", "%.0e" } })
 case:expect(soft, "error", { at_most = 1e-15 })
 case:expect(soft, "transforms", { at_most = 150 })
 case:finish{ worst = "8e-10 of the load, there and back", verdict = "right answer, then a clear error" }

@@ -1,33 +1,34 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The published surface has waves up to γⁿ = 1.5^100 = 4e17 turns a sample length: where in its turn is such
--- a wave?
+-- The published surface has waves of up to γⁿ = 1.5^100 = 4e17 turns per sample length. Their phases need
+-- exact arithmetic.
 --
 -- z = L (G/L)^(D-2) √(ln γ/M) Σ_m Σ_n γ^((D-3)n) {cos φ - cos(2π γⁿ (x cos(πm/M) + y sin(πm/M))/L + φ)}. A
--- double has 53 bits: γⁿ x/L in doubles has no phase left from n = 84 on (γ = 1.5) and no value at all from n
--- = 1751. With γ = 3/2 and 64 nodes, γⁿ i/64 modulo 1 is a whole number 3ⁿ i modulo 2^(n+6), done below in
--- whole numbers of any length; with M = 2 the directions are the axes. That is the reference; "in doubles" is
--- the sum as it is written.
+-- double has 53 bits: γⁿ x/L in doubles has no phase left from n = 84 on (γ = 1.5) and no value from n = 1751
+-- on. With γ = 3/2 and 64 nodes, γⁿ i/64 modulo 1 is an integer 3ⁿ i modulo 2^(n+6), computed below in
+-- integers of any length. With M = 2 the directions are the axes. These phases are the reference; "in
+-- doubles" is the sum as written.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 6, title = "Exact phases", edge = "n_max from 0 to 2000, then to the limit n_max log2 γ ="
     .. " 2048 and past it; γ from 1 + 2^-52 to 1e300",
-  elsewhere = "Phases are formed in doubles. From n = 63 on they are wrong by a thousandth of a radian,"
-    .. " from n = 84 by half a turn, and 1.5^1751 is infinite: the published surface cannot be made again.",
-  here = "Turns a grid step are reduced modulo 1 in as many bits as n_max asks for, then kept as 64-bit"
-    .. " whole numbers whose overflow is the reduction. Past the limit n_max is refused by name.",
+  elsewhere = "Phases are computed in doubles. They are wrong by a thousandth of a radian from n = 63 on"
+    .. " and by half a turn from n = 84 on, and 1.5^1751 is infinite. The published surface cannot be"
+    .. " reproduced.",
+  here = "Turns per grid step are reduced modulo 1 with as many bits as n_max needs, then stored as 64-bit"
+    .. " integers, whose overflow is the reduction. Past the limit n_max is refused by name.",
 }
 
 local cells, M, L, G = 64, 2, 50, 5
 
--- Turns of wave n at node i, from 3ⁿ kept in limbs of 24 bits.
+-- Turns of wave n at node i, from 3ⁿ in limbs of 24 bits.
 local turns = {}
 local limbs = { 1 }
 for n = 0, 2000 do
   local bits = n + 6
   local count = (bits + 23) // 24
   for k = #limbs + 1, count do limbs[k] = 0 end
-  -- i times it modulo 2^bits, over 2^bits: its leading limbs are enough.
+  -- 3ⁿ i modulo 2^bits, over 2^bits: the leading limbs are enough.
   turns[n] = {}
   for i = 0, cells - 1 do
     local carry, top = 0, {}
@@ -51,10 +52,10 @@ for n = 0, 2000 do
   if carry > 0 then limbs[#limbs + 1] = carry end
 end
 
--- Phases that anyone can form again.
+-- Reproducible phases.
 local function phase(m, n) return 2 * math.pi * ((0.3 + 0.61 * m + 0.377 * n) % 1) end
 
--- Height along a line of nodes j = 5, up to every wanted n_max, by either way of forming the phase.
+-- Heights along the line j = 5 for every wanted n_max, with exact phases or with phases in doubles.
 local function heights(D, wanted, exact)
   local amplitude = L * (G / L) ^ (D - 2) * math.sqrt(math.log(1.5) / M)
   local found, sum = {}, {}
@@ -109,7 +110,7 @@ for _, D in ipairs{ 2.5, 2.9, 3 } do
   end
 end
 for _, D in ipairs{ 2.5, 2.9, 3 } do
-  case:evidence(book, ("D = %g: greatest error along a line of 64 nodes, relative to Rq."):format(D),
+  case:evidence(book, ("D = %g: largest error along a line of 64 nodes, relative to Rq."):format(D),
     { { "n_max", "%d" },
     { "exact phases", "%.0e" }, { "phases in doubles", "%.0e" } }, { D = D })
 end
@@ -120,7 +121,7 @@ case:chart(book, "Error of the heights against n_max, with exact phases and with
   title = "Error of the heights at D = 2.9",
   y_label = "greatest error over Rq", file = "error_against_n.svg" })
 
--- The published surface by golden phases: numbers computed once to 20 digits.
+-- The published surface with golden-ratio phases, against numbers computed once to 20 digits.
 local published = lab.notebook "published"
 for D, known in lab.sorted{ [2.5] = { -2.2579597274, 11.9812989022, 108.3493302162, -1.8465009186 },
   [2.2] = { -4.2184139916, 20.3032959226, 164.8778831984, -8.0472892570 } } do
@@ -131,15 +132,15 @@ for D, known in lab.sorted{ [2.5] = { -2.2579597274, 11.9812989022, 108.34933021
     amplitude = math.abs(r.amplitude / known[3] - 1), height = math.abs(s:height(75, 40) / known[4] - 1),
     origin = math.abs(s:height(0, 0)) / r.Rq }
 end
-case:evidence(published, "150 x 150 nodes, M = 10, n_max = 7, against numbers known to ten digits:"
-  .. " relative errors.", { { "D", "%g" },
+case:evidence(published, "150 x 150 nodes, M = 10, n_max = 7: relative errors against numbers of ten digits.",
+  { { "D", "%g" },
   { "mean", "%.0e" }, { "Rq", "%.0e" }, { "amplitude", "%.0e" }, { "height", "%.0e", "z(75, 40)" },
-  { "origin", "%.0e", "z(0, 0)/Rq, which is 0" } })
+  { "origin", "%.0e", "z(0, 0)/Rq, exactly 0" } })
 -- measured 3e-11
 for _, column in ipairs{ "mean", "Rq", "amplitude", "height", "origin" } do case:expect(published, column,
   { at_most = 3e-10 }) end
 
--- γ over its range. At γ = 1 + 2^-52 all waves of a ridge are one wave, and z = √(ln γ) times it.
+-- γ over its range. At γ = 1 + 2^-52 all waves of a ridge have one length, and z = √(ln γ) times their sum.
 local function published_surface(options)
   options.cells, options.D, options.M, options.phases = 64, options.D or 2.5, options.M or 2, phase
   return lab.surface.weierstrass_mandelbrot(options)
@@ -157,7 +158,7 @@ for i = 0, cells - 1 do
 end
 local gamma = lab.notebook "gamma"
 gamma:write{ gamma = "1 + 2^-52", n_max = 100, error = worst / math.sqrt(square) }
-case:evidence(gamma, "γ next to 1: against 101 times the same wave.",
+case:evidence(gamma, "γ next to 1, against the sum of 101 waves of one length.",
   { { "gamma", "%s" }, { "n_max", "%d" }, { "error", "%.0e" } })
 case:expect(gamma, "error", { at_most = 2e-12 }) -- measured 2e-13
 
@@ -166,7 +167,7 @@ for _, case_of in ipairs{ { 2, 2048 }, { 1.5, 3501 }, { 1 + 2 ^ -52, 4096 }, { 2
   local g, n_max = case_of[1], case_of[2]
   local s = published_surface{ gamma = g, n_max = n_max }
   local r = s:roughness()
-  case:holds(("γ = %.17g, n_max = %d, the last accepted: heights are finite"):format(g, n_max),
+  case:holds(("γ = %.17g, n_max = %d, the largest accepted: heights are finite"):format(g, n_max),
     r.Rq > 0 and r.Rq < math.huge)
   case:refused(("γ = %.17g, n_max = %d"):format(g, n_max + 1),
     function() published_surface{ gamma = g, n_max = n_max + 1 } end, "`n_max`")

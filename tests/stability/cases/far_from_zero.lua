@@ -1,24 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A map whose heights stand far from zero: nanometres of roughness on a stage at a metre. How many digits are
--- left?
+-- A map with heights far from zero, for example nanometres of roughness on a stage at a metre.
 --
--- Heights are doubles: at 1e9 times the roughness they keep seven digits of it, and no program can give back
--- more. What can be asked is that nothing else is lost: the contact of a map moved up by an offset that
--- leaves its heights exact (a power of two, heights in whole multiples of its rounding) is the same contact.
+-- Heights are doubles: at 1e9 times the roughness they have seven digits of it, and no program can recover
+-- more. Nothing else may be lost. An offset that leaves the heights exact (a power of two, heights in whole
+-- multiples of its rounding) must leave the contact unchanged.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 17, title = "Heights far from zero", edge = "an offset from 0 to 2^34 m, 4e11 times the"
     .. " height of the map",
-  elsewhere = "Sums of squares are taken before the mean: roughness of a map far from zero comes out as"
-    .. " nought, or negative under the root; Fourier sums carry the offset as noise in every wave.",
-  here = "Roughness and contact do not see the offset, as long as the heights themselves do not lose"
-    .. " digits by it.",
+  elsewhere = "Squares are summed before the mean is subtracted: the roughness of a map far from zero is"
+    .. " zero, or negative under the root. Fourier sums carry the offset as noise in every wave.",
+  here = "Roughness and contact do not depend on the offset, as long as the heights lose no digits.",
 }
 local n = 48
 local base = lab.surface.self_affine{ cells = n, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.125,
   seed = 5 }:heights()
--- Whole multiples of 2^-18 times 1/16: exact beside offsets up to 2^31 or so.
+-- Whole multiples of 2^-18: exact with offsets up to 2^34.
 for _, row in ipairs(base) do for i,
   z in ipairs(row) do row[i] = math.floor(z * 2 ^ 18 + 0.5) / 2 ^ 18 end end
 local unit = lab.material{ young = 1, poisson = 0, hardness = 0.08 }
@@ -34,7 +32,7 @@ local function contacts(s)
     local st = lab.contact{ lower = s, upper = lab.rigid, boundary = scene[1],
       effects = { elasticity = scene[2], plasticity = scene[3] },
       accuracy = { tolerance = 1e-9 } }:press{ pressure = 0.01 }
-    table.insert(found, { st.contacts, st.approach, st.energy, st.peak_pressure, st.residual, st.iterations })
+    table.insert(found, { st.nodes_in_contact, st.approach, st.energy, st.peak_pressure, st.residual, st.iterations })
   end
   return found
 end
@@ -55,7 +53,7 @@ for _, power in ipairs{ 0, 4, 8, 16, 24, 30, 34 } do
     slope = math.abs(r.rms_slope / r0.rms_slope - 1), nodes = nodes, contact = worst, iterations = iterations,
     certificate = residual }
 end
-case:evidence(book, "A map moved up: change of its roughness, and of approach, energy and peak pressure"
+case:evidence(book, "A map with an offset: change of its roughness, and of approach, energy and peak pressure"
   .. " of four contacts (half-space periodic, free and with a cap, boxes).",
   { { "offset", "%.0e", "offset over height" }, { "Rq", "%.0e" }, { "Ra", "%.0e" }, { "skewness", "%.0e" },
   { "slope", "%.0e" },

@@ -1,21 +1,22 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- D from 2 to 3: where do the heights go, and how much of them can the grid carry?
+-- D from 2 to 3: the heights, and the share of their variance beyond the grid.
 --
--- Wave n has amplitude γ^((D-3)n). At D = 2 the longest waves hold nearly all the variance; at D = 3 every
--- wave holds as much, most of them far past the grid. The share of the variance past Nyquist is a sum of two
--- geometric series, which the program must report; D outside 2 to 3 is no dimension of a surface.
+-- Wave n has amplitude γ^((D-3)n). At D = 2 the longest waves have nearly all the variance. At D = 3 all
+-- waves have the same variance, and most are far beyond the grid. The program must report the share of the
+-- variance beyond Nyquist, a quotient of two geometric series. A D outside 2 to 3 is no dimension of a
+-- surface.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 7, title = "Fractal dimension from 2 to 3", edge = "D from 2 to 3, to one ulp past either;"
+  number = 7, title = "Fractal dimension from 2 to 3", edge = "D from 2 to 3, to one ulp past either end;"
     .. " spans 1 and 3; Hurst exponents from 1e-6 to 1",
-  elsewhere = "As D comes to 3 the height lies in waves shorter than a cell, which alias: the surface"
-    .. " is noise of the grid, other on every grid, and nothing says so.",
-  here = "Heights change with D without a jump, up to both ends; `aliased_share` says how much of the"
-    .. " variance the grid cannot carry, and `band = \"resolved\"` leaves it out.",
+  elsewhere = "As D approaches 3, most of the height is in waves shorter than a cell, which alias. The"
+    .. " surface is grid noise, different on every grid, and there is no warning.",
+  here = "Heights change with D without a jump, up to both ends. `aliased_share` is the share of the variance"
+    .. " beyond the grid, and `band = \"resolved\"` leaves it out.",
 }
 
--- Share of the variance past Nyquist, wave by wave: more than half a turn a grid step.
+-- Share of the variance beyond Nyquist (more than half a turn per grid step), wave by wave.
 local function share(D, span, cells)
   local all, past = 0, 0
   for n = 100, 0, -1 do
@@ -40,7 +41,7 @@ for _, D in ipairs{ 2, 2.1, 2.3, 2.5, 2.7, 2.9, 2.99, 2.999, 3 } do
   end
   book:write(row)
 end
-case:evidence(book, "Share of the variance past Nyquist, 150 x 150 nodes, against the sum over waves.",
+case:evidence(book, "Share of the variance beyond Nyquist, 150 x 150 nodes, against the sum over waves.",
   { { "D", "%g" },
   { "share 1", "%.4f", "span 1" }, { "error 1", "%.0e", "difference" }, { "share 3", "%.4f", "span 3" },
   { "error 3", "%.0e", "difference" }, { "left 3", "%.0f", "left in the resolved band" },
@@ -52,7 +53,7 @@ for _, span in ipairs{ 1, 3 } do
   case:expect(book, "share " .. span, { increasing_in = "D" })
 end
 
--- No jump at the ends: one ulp inside them is the end to rounding.
+-- No jump at the ends: one ulp inside an end, the heights agree to rounding.
 local ends = lab.notebook "ends"
 for _, pair in ipairs{ { 2, 2 + 2 ^ -51 }, { 2.5, 2.5 + 2 ^ -51 }, { 3, 3 - 2 ^ -51 } } do
   local a = lab.surface.weierstrass_mandelbrot{ cells = 64, D = pair[1], seed = 2 }
@@ -63,11 +64,11 @@ for _, pair in ipairs{ { 2, 2 + 2 ^ -51 }, { 2.5, 2.5 + 2 ^ -51 }, { 3, 3 - 2 ^ 
   end
   ends:write{ D = pair[1], Rq = a:roughness().Rq, change = worst / a:roughness().Rq }
 end
-case:evidence(ends, "One ulp of D inwards: greatest change of a height over Rq.",
+case:evidence(ends, "Largest change of a height over Rq for one ulp of D inwards.",
   { { "D", "%g" }, { "Rq", "%.3f" }, { "change", "%.0e" } })
 case:expect(ends, "change", { at_most = 3e-13 }) -- measured 3e-14
 
--- Hurst exponents of Gaussian surfaces, D = 3 - H: the height asked for is met exactly, whatever H.
+-- Hurst exponents of Gaussian surfaces, D = 3 - H: the requested height and slope are exact for any H.
 local hurst = lab.notebook "hurst"
 for _, H in ipairs{ 1e-6, 0.01, 0.1, 0.5, 0.9, 0.99, 1 } do
   local s = lab.surface.self_affine{ cells = 96, size = 1, hurst = H, rms_height = 1, short_wave = 2 / 96 }
@@ -75,8 +76,9 @@ for _, H in ipairs{ 1e-6, 0.01, 0.1, 0.5, 0.9, 0.99, 1 } do
   hurst:write{ H = H, height = math.abs(s:roughness().Rq - 1),
     slope = math.abs(t:spectrum().rms_slope / 0.3 - 1) }
 end
-case:evidence(hurst, "Gaussian surfaces of Hurst exponent H = 3 - D, waves down to two cells: relative"
-  .. " error of the rms height and slope asked for.", { { "H", "%g" }, { "height", "%.0e" },
+case:evidence(hurst, "Gaussian surfaces of Hurst exponent H = 3 - D, waves down to two cells (height) and"
+  .. " six cells (slope): relative error of the requested rms height and slope.",
+  { { "H", "%g" }, { "height", "%.0e" },
   { "slope", "%.0e" } })
 case:expect(hurst, "height", { at_most = 3e-15 }) -- measured 3e-16
 case:expect(hurst, "slope", { at_most = 3e-15 }) -- measured 3e-16

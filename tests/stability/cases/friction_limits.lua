@@ -2,23 +2,23 @@
 -- Friction at its limits: a cap that binds everywhere, no load, a stage at 90 degrees, a specimen that never
 -- slips.
 --
--- τ = min(τ0 + αP, τmax). Uncapped, the force is τ0 A + αF whatever the pressures; capped everywhere it is
--- τmax A. For boxes on a paraboloid (k = R = 1) every value in between is known. On a tilt stage, T(N) = T0 +
--- αN slips at θ = asin(T0/(W√(1 + α²))) + atan α, which passes 90° as T0 passes W: from there on the specimen
--- never slips.
+-- τ = min(τ0 + αP, τmax). Without a cap the force is τ0 A + αF for any pressures; with a cap that binds
+-- everywhere it is τmax A. For boxes on a paraboloid (k = R = 1) every value between is known. On a tilt
+-- stage, T(N) = T0 + αN slips at θ = asin(T0/(W√(1 + α²))) + atan α. This angle passes 90° as T0 passes W:
+-- with a larger T0 the specimen never slips.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 15, title = "Friction at its limits", edge = "the cap from above every stress to below all;"
-    .. " strength from 0 to past the weight, to one part in 1e12 on either side; loads from 1e-270 N",
-  elsewhere = "The tangent of 90° is printed as a friction coefficient of 1.6e16, a specimen that never"
-    .. " slips as one that slipped at the last angle tried, and no load as nought over nought.",
-  here = "Capped sums are right at every cap; a specimen that never slips says so, and its coefficient"
-    .. " is infinite; without load there is no friction force.",
+  number = 15, title = "Friction at its limits", edge = "the cap from above every stress to below every"
+    .. " stress; strength from 0 to past the weight, to one part in 1e12 on either side; loads from 1e-270 N",
+  elsewhere = "The tangent of 90° is printed as a friction coefficient of 1.6e16. A specimen that never"
+    .. " slips is reported to slip at the last angle tried. No load gives zero over zero.",
+  here = "Capped sums are right at every cap. A specimen that never slips is reported as such, with an"
+    .. " infinite coefficient. Without load there is no friction force.",
 }
 
--- 1. The cap, boxes on a paraboloid: force per τmax in closed form, P falling evenly from its peak p0 over
--- the area A = 2πRδ.
+-- 1. The cap, with boxes on a paraboloid: the force at each τmax in closed form. P falls linearly with the
+-- area from its peak p0 to 0 over A = 2πRδ.
 local F, tau0, alpha = 1e-3, 1e-3, 0.2
 local unit = lab.material{ young = 1, poisson = 0 }
 local paraboloid = lab.surface.sphere{ cells = 1024, size = 0.5, radius = 1, shape = "paraboloid",
@@ -31,7 +31,7 @@ local area, p0 = 2 * math.pi * delta, delta
 local caps = lab.notebook "caps"
 for _, tau_max in ipairs{ 1, 0.005, 0.004, 0.003, 0.002, 0.0011, 1.0001e-3, 1e-3, 1e-4, 1e-12, 1e-300 } do
   local r = lab.friction{ tau0 = tau0, alpha = alpha, tau_max = tau_max }:on(st)
-  -- Stress over the area is uniform from τ0 (rim) to τ0 + α p0 (centre); above the cap it is τmax.
+  -- Stress is distributed uniformly from τ0 (rim) to τ0 + α p0 (centre); above the cap it is τmax.
   local top, wanted = tau0 + alpha * p0, nil
   if tau_max >= top then wanted = area * (tau0 + top) / 2
   elseif tau_max <= tau0 then wanted = area * tau_max
@@ -45,22 +45,22 @@ for _, tau_max in ipairs{ 1, 0.005, 0.004, 0.003, 0.002, 0.0011, 1.0001e-3, 1e-3
       and math.abs(r.force / (tau0 * st.area + alpha * F) - 1) or 0 }
 end
 case:evidence(caps, "Boxes on a paraboloid, 1024 x 1024 nodes, 1e-3 N, τ0 = 1e-3, α = 0.2: force"
-  .. " against the closed form, and, where the cap binds nowhere or everywhere, against the exact sums.",
+  .. " against the closed form. If the cap binds nowhere or everywhere, also against the exact sums.",
   { { "tau_max", "%.5g", "τmax" }, { "capped", "%.4f", "share capped" }, { "force", "%.6e" },
   { "error", "%.0e" },
-  { "whole", "%.0e", "from the exact sum" } })
+  { "whole", "%.0e", "error against the exact sum" } })
 case:expect(caps, "error", { at_most = 7e-4 }) -- measured 7e-5
 case:expect(caps, "whole", { at_most = 1e-15 }) -- measured 0
 
--- The same on a half-space, where pressure falls as in Hertz's contact (R = E* = 1): known values, capped and
--- not.
+-- The same on a half-space, with the pressures of Hertz's contact (R = E* = 1): known values with and without
+-- a cap.
 local hertz = lab.notebook "hertz"
 local ball = lab.surface.sphere{ cells = 257, size = 0.3, radius = 1, shape = "paraboloid", material = unit }
 local pressed = lab.contact{ lower = ball, upper = lab.rigid, boundary = "free",
   effects = { elasticity = "half_space" } }:press{ load = F }
 for tau_max, wanted in lab.sorted{ [0.018] = 4.337256e-4, [math.huge] = 4.593328e-4 } do
   local r = lab.friction{ tau0 = 0.01, alpha = 0.2, tau_max = tau_max }:on(pressed)
-  -- The stepped outline of contact is a little longer than the circle: by that much more area.
+  -- The stepped outline of the contact encloses a little more area than the circle.
   local excess = 0.01 * (pressed.area_fraction - pressed.corrected_area_fraction) * 0.3 ^ 2
   hertz:write{ cap = tau_max == math.huge and "none" or ("%g"):format(tau_max), force = r.force,
     capped = r.capped_fraction,
@@ -73,7 +73,7 @@ case:evidence(hertz, "Hertz's contact on 257 x 257 nodes, τ0 = 0.01, α = 0.2."
 case:expect(hertz, "error", { at_most = 5e-3 }) -- measured 8e-4
 case:expect(hertz, "whole", { at_most = 1e-15 }) -- measured 0
 
--- 2. The stage: a flat of boxes, so that A is the tile and T = T0 + αN exactly.
+-- 2. The stage, with a flat of boxes: A is the tile, and T = T0 + αN exactly.
 local flat = lab.surface.flat{ cells = 4, size = 1, material = unit }
 local function stage(T0, alpha, limit)
   local c = lab.contact{ lower = flat, upper = lab.rigid, effects = { elasticity = { model = "box",
@@ -105,12 +105,13 @@ tilt(0, 1e15)
 case:evidence(tilts, "A specimen of weight 1 N on a stage, T = T0 + αN: angle of slip against the"
   .. " closed form.", { { "T0", "%s" }, { "alpha", "%g", "α" },
   { "slipped", "%s" }, { "angle", "%.9f", "angle (°)" }, { "error", "%.0e", "error (rad)" },
-  { "mu", "%s", "μ, of the angle held" } })
+  { "mu", "%s", "μ at the angle held" } })
 case:expect(tilts, "right", { at_least = 1 })
-case:expect(tilts, "told", { at_least = 1, label = "what never slips has an infinite coefficient" })
+case:expect(tilts, "told", { at_least = 1,
+  label = "a specimen that never slips has an infinite coefficient" })
 case:expect(tilts, "error", { at_most = 4e-15 }) -- measured 4e-16
 
--- 3. No load, and less.
+-- 3. Light loads, no load, and negative loads.
 local law = lab.friction{ tau0 = tau0, alpha = alpha }
 local light = lab.notebook "light"
 for _, load in ipairs{ 1e-270, 1e-200, 1e-100, 1e-30, 1e-12 } do
@@ -119,8 +120,8 @@ for _, load in ipairs{ 1e-270, 1e-200, 1e-100, 1e-30, 1e-12 } do
   light:write{ load = load, mu = r.mu, error = math.abs(r.force / exact - 1),
     of_mu = math.abs(r.mu / (exact / load) - 1) }
 end
-case:evidence(light, "The lightest loads: μ = α + τ0 A/F grows as one over the load, as it must where"
-  .. " one node touches.", { { "load", "%.0e", "load (N)" },
+case:evidence(light, "The lightest loads: one node touches, so μ = α + τ0 A/F grows as 1/F.",
+  { { "load", "%.0e", "load (N)" },
   { "mu", "%.3e", "μ" }, { "error", "%.0e", "error of the force" }, { "of_mu", "%.0e", "error of μ" } })
 case:expect(light, "error", { at_most = 1e-15 }) -- measured 0
 case:expect(light, "of_mu", { at_most = 1e-15 }) -- measured 0
@@ -133,8 +134,8 @@ local function refused_stage(what, options, part)
     return lab.tilt_stage(options)
   end, part)
 end
-refused_stage("a mass of less than nothing", { mass = -1 }, "`mass`")
-refused_stage("no mass", { mass = 0 }, "`mass`")
+refused_stage("a negative mass", { mass = -1 }, "`mass`")
+refused_stage("a mass of 0", { mass = 0 }, "`mass`")
 refused_stage("a stage past 90 degrees", { limit = "90.0000001 deg" }, "`limit`")
 refused_stage("gravity upwards", { gravity = -9.81 }, "`gravity`")
 case:refused("a pulling load", function() boxes:press{ load = -1e-300 } end, "`load`")

@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Loads from the smallest double to the largest: is each solved, or refused by name?
+-- Loads from the smallest double to the largest: each is solved, or refused by name.
 --
--- Under the lightest loads one node carries all. On a free half-space it sinks by Love's closed form, on
--- boxes by load/(k cell): in proportion to the load, over as many decades as a double has. Under 1e-280 of
--- the modulus products underflow: refused. Under the heaviest everything touches; then pressures differ from
--- the mean by what full contact asks, which is nothing beside it.
+-- Under the lightest loads one node carries all. It sinks in proportion to the load over all decades of a
+-- double: on a free half-space by Love's closed form, on boxes by load/(k cell). Below 1e-280 of the modulus
+-- products underflow, and the load is refused. Under the heaviest loads every node touches. The pressures
+-- then differ from the mean by the pressures that flatten the surface, which are negligible.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 5, title = "Lightest and heaviest loads", edge = "load from the smallest double, 5e-324 N,"
     .. " to the largest, 1.8e308 N",
-  elsewhere = "A light load is under some absolute tolerance and touches nothing, or its approach is"
-    .. " lost beside the heights; the lightest underflow to nought over nought.",
-  here = "From 1e-280 of the modulus on, one node sinks in proportion to the load to the last digits;"
-    .. " below that the load is refused by name, and so is one past the range of a double.",
+  elsewhere = "A light load is below an absolute tolerance and touches nothing, or its approach is lost in"
+    .. " the rounding of the heights. The lightest loads underflow to zero over zero.",
+  here = "From 1e-280 of the modulus on, one node sinks in proportion to the load to the last digits. A"
+    .. " smaller load is refused by name, and so is a load past the range of a double.",
 }
 
 local n, cell, modulus = 32, 1e-6, 100e9
@@ -50,7 +50,7 @@ for _, scene in ipairs(scenes) do
       if load > 1e-140 then energy = math.max(energy,
         math.abs(st.energy / (0.5 * load * load * per_newton) - 1)) end
       residual = math.max(residual, st.residual)
-      if st.contacts ~= 1 or st.load == 0 then silent = silent + 1 end
+      if st.nodes_in_contact ~= 1 or st.load == 0 then silent = silent + 1 end
     elseif st:find("1e-280 of", 1, true) then
       refused = refused + 1
     else
@@ -61,8 +61,8 @@ for _, scene in ipairs(scenes) do
   book:write{ scene = scene.name, tried = tried, solved = solved, refused = refused, neither = silent,
     least = least / tile / modulus, worst = worst, energy = energy, certificate = residual }
 end
-case:evidence(book, "Loads from 5e-324 N to 1e-6 N on one node: the approach against the closed form"
-  .. " (the energy, where its square is in the range of a double).",
+case:evidence(book, "Loads from 5e-324 N to 1e-6 N on one node: approach and, above 1e-140 N,"
+  .. " energy against the closed form.",
   { { "scene", "%s" }, { "tried", "%d", "loads" }, { "refused", "%d" }, { "solved", "%d" },
   { "neither", "%d" }, { "least", "%.0e", "least solved, p/E*" }, { "worst", "%.0e", "approach error" },
   { "energy", "%.0e", "energy error" }, { "certificate", "%.0e" } })
@@ -70,17 +70,17 @@ case:expect(book, "neither", { at_most = 0 })
 case:expect(book, "worst", { at_most = 4e-15 }) -- measured 4e-16
 case:expect(book, "energy", { at_most = 7e-15 }) -- measured 7e-16
 
--- The heaviest. At full contact p = p̄ + what full contact asks, so approach and energy are those of full
--- contact.
+-- The heaviest loads. At full contact p = p̄ + the pressures that flatten the surface, so approach and energy
+-- are those of full contact.
 local wave = lab.surface.sine{ cells = n, size = 1, amplitude = 0.01,
   material = lab.material{ young = 1, poisson = 0 } }
 local line = lab.contact{ lower = wave, upper = lab.rigid, boundary = "periodic",
   effects = { elasticity = "half_space" } }
 local heavy = lab.notebook "heavy"
-local right = math.pi * 0.01 ^ 2 / 4 -- J, of the wave pressed flat: E* pi h^2 / 4 a tile of 1 x 1
+local right = math.pi * 0.01 ^ 2 / 4 -- J, energy of the flattened wave: E* pi h^2 / 4 on a tile of 1 x 1
 for _, load in ipairs{ 1, 1e3, 1e6, 1e9, 1e12, 1e15, 1e20, 1e100, 1e200 } do
   local st = line:press{ load = load }
-  heavy:write{ load = load, nodes = st.contacts, approach = math.abs(st.approach / 0.01 - 1),
+  heavy:write{ load = load, nodes = st.nodes_in_contact, approach = math.abs(st.approach / 0.01 - 1),
     energy = math.abs(st.energy / right - 1),
     certificate = st.residual }
 end
@@ -102,8 +102,8 @@ case:refused("half-space, the largest double", function() first:press{ load = 0x
   "inf Pa")
 case:refused("boxes, the largest double", function() boxes:press{ load = 0x1.fffffffffffffp1023 } end,
   "leave the range of a double")
-case:refused("less than nothing", function() first:press{ load = -2.0 ^ -1074 } end, "`load`")
-case:refused("not a number", function() first:press{ load = 0 / 0 } end, "`load`")
-case:holds("no load at all is no contact, and no error", first:press{ load = 0 }.contacts == 0)
+case:refused("a negative load", function() first:press{ load = -2.0 ^ -1074 } end, "`load`")
+case:refused("a load that is not a number", function() first:press{ load = 0 / 0 } end, "`load`")
+case:holds("a load of 0 gives no contact and no error", first:press{ load = 0 }.nodes_in_contact == 0)
 case:finish{ worst = "4e-16 of the approach; refused under 1e-280",
   verdict = "right answer, and a clear error at either end" }

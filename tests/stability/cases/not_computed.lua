@@ -1,17 +1,16 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What this version does not compute: is a scene that asks for it refused, or computed without?
+-- Effects that this version does not compute: is a scene that names one refused, or computed without it?
 --
--- A scene that names an effect must not be pressed as if it had not: what is not computed is refused by name.
+-- No scene is pressed without an effect that it names: an unsupported effect is refused by name.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 22, title = "What is not computed",
-  edge = "work of adhesion from 1e-30 to 1e30 J/m^2 on boxes and beside plasticity, every effect that has a"
-    .. " name, boxes in single precision, any boundary",
-  elsewhere = "A key that the program does not know, or knows and has not written yet, is passed over:"
-    .. " the run ends well and the effect was never there.",
-  here = "Every effect that is not computed is refused by name when the scene is made, before any"
-    .. " press; a misspelt one is answered with the nearest name.",
+  edge = "work of adhesion from 1e-30 to 1e30 J/m^2 on boxes and with plasticity, every named effect,"
+    .. " boxes in single precision, any boundary",
+  elsewhere = "An unknown or unsupported key is ignored: the run ends well, without the effect.",
+  here = "Every unsupported effect is refused by name when the scene is made, before any press."
+    .. " For a misspelt effect, the error names the nearest effect.",
 }
 local s = lab.surface.sphere{ cells = 16, size = 1, radius = 10, material = lab.material "Al-2011" }
 local function scene(effects, boundary, accuracy)
@@ -35,7 +34,7 @@ for decade = -30, 30, 5 do
 end
 local book = lab.notebook "adhesion"
 book:write{ asked = asked, refused = refused, share = refused / asked }
-case:evidence(book, "Scenes with adhesion: boxes, and half-spaces that yield, either boundary, either law.",
+case:evidence(book, "Scenes with adhesion: boxes and yielding half-spaces, both boundaries, both laws.",
   { { "asked", "%d", "scenes" }, { "refused", "%d" } })
 case:expect(book, "share", { near = 1, within = 0 })
 case:refused("adhesion of boxes", scene{ elasticity = "box", adhesion = { work = 0.05, range = 1e-9,
@@ -49,6 +48,6 @@ case:refused("`adhesoin`", scene{ elasticity = "half_space", adhesoin = {} }, "d
 case:refused("a half-space without a boundary", function()
   lab.contact{ lower = s, upper = lab.rigid, effects = { elasticity = "half_space" } }
 end, "`boundary`")
-case:refused("a tolerance that no double can meet", scene({ elasticity = "half_space" }, "periodic",
+case:refused("a tolerance below the precision of a double", scene({ elasticity = "half_space" }, "periodic",
   { tolerance = 9e-16 }), "`tolerance`")
 case:finish{ worst = "refused by name", verdict = "clear error" }

@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- 1 to 1024 cells a side, primes, single rows, cells a thousand times longer than wide: is there a grid that
--- is different?
+-- 1 to 1024 cells a side, primes, single rows, cells a thousand times longer than wide: does any grid behave
+-- differently?
 --
--- Checked by three closed forms. A wave pressed past full contact carries p = p̄ + (E*|q|/2) z, on any grid.
--- A wave half in contact touches over the share (2/π) asin √f (Westergaard). A single node on a free boundary
--- sinks by Love's formula for a rectangle a x b: (2/π)(p/E*)(a asinh(b/a) + b asinh(a/b)).
+-- Three closed forms. A wave pressed past full contact carries p = p̄ + (E*|q|/2) z on any grid. A wave half
+-- in contact touches over the share (2/π) asin √f (Westergaard). A single node on a free boundary sinks by
+-- Love's formula for a rectangle a x b: (2/π)(p/E*)(a asinh(b/a) + b asinh(a/b)).
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 12, title = "Odd grids", edge = "1 to 1024 cells a side, primes among them, n x 1, 1 x n;"
+  number = 12, title = "Odd grids", edge = "1 to 1024 cells a side, including primes, n x 1 and 1 x n;"
     .. " cells up to 1000 times longer than wide",
-  elsewhere = "The Nyquist wave of even grids is treated as one of a pair, odd grids are padded, primes"
-    .. " fall back to a slow or less exact transform, and nobody tried one row.",
-  here = "Pressures at full contact are right to rounding on every grid, in two iterations; areas to"
-    .. " one node a side.",
+  elsewhere = "The Nyquist wave of an even grid is treated as one of a pair. Odd grids are padded. Primes"
+    .. " fall back to a slow or less exact transform. Single rows are untested.",
+  here = "Pressures at full contact are right to rounding on every grid, in two iterations. Areas are"
+    .. " right to one node a side.",
 }
 
 local h, unit = 0.01, lab.material{ young = 1, poisson = 0 }
@@ -23,11 +23,11 @@ local function bench(options, boundary, tolerance)
     effects = { elasticity = "half_space" }, accuracy = { tolerance = tolerance or 1e-12 } }
 end
 
--- 1. Full contact: p - p̄ over the wave itself, at each node of one row and one column.
+-- 1. Full contact: p - p̄ against the wave, at each node of one row and one column.
 local full = lab.notebook "full"
 local function flattened(cells)
   local nx, ny = cells[1], cells[2]
-  local both = nx > 2 and ny > 2 -- along y too, where the grid has a wave there
+  local both = nx > 2 and ny > 2 -- a wave along y needs three rows
   local q = both and math.sqrt(2) or 1
   local peak = q * math.pi * h -- E*|q|/2 h
   local st = bench({ cells = cells, size = { 1, both and 1 or ny / nx }, directions = both and 2 or 1,
@@ -41,7 +41,7 @@ local function flattened(cells)
   for j = 0, ny - 1 do compare(nx // 3, j) end
   return { error = worst / peak, ["per node"] = worst / peak / nx, iterations = st.iterations,
     certificate = st.residual,
-    open = nx * ny - st.contacts }
+    open = nx * ny - st.nodes_in_contact }
 end
 for name, second in lab.sorted{ ["n x 1, n from 2 to 300"] = function() return 1 end,
   ["n x n, n from 2 to 96"] = function(n) return n end,
@@ -63,23 +63,23 @@ for _, cells in ipairs(sides) do
   row.cells = ("%d x %d"):format(cells[1], cells[2])
   full:write(row)
 end
-case:evidence(full, "Full contact under 45 times the load of full contact: greatest error of a pressure"
-  .. " over the greatest pressure of the wave. The rounding of the heights is pressed flat too, the"
-  .. " more so the shorter the cells.",
+case:evidence(full, "Full contact at 45 times the load of full contact: largest error of a pressure, relative to"
+  .. " the largest pressure of the wave. The rounding errors of the heights are pressed flat too. Their"
+  .. " pressures increase as cells become shorter.",
   { { "cells", "%s" }, { "error", "%.0e" }, { "open", "%d", "open nodes" }, { "iterations", "%d" },
     { "certificate", "%.0e" } })
 case:expect(full, "per node", { at_most = 3e-14 }) -- measured 3e-15
 case:expect(full, "iterations", { at_most = 2 })
 case:expect(full, "open", { at_most = 0 })
 
--- 2. Half contact on lines both ways and on sheets: area by Westergaard, to a node a side.
+-- 2. Half contact on lines along x and y and on sheets: the width by Westergaard, to a node a side.
 local half = lab.notebook "half"
 for _, nx in ipairs{ 5, 8, 17, 64, 97, 128, 251, 509, 1021, 1024 } do
   local row = { nx = nx, iterations = 0, certificate = 0 }
   local wanted = nx * 2 / math.pi * math.asin(math.sqrt(0.3))
   for name, cells in lab.sorted{ ["n x 1"] = { nx, 1 }, ["n x 7"] = { nx, 7 }, ["n x 12"] = { nx, 12 } } do
     local st = bench{ cells = cells, size = { 1, cells[2] / nx } }:press{ pressure = 0.3 * math.pi * h }
-    row[name] = math.abs(st.contacts / cells[2] - wanted)
+    row[name] = math.abs(st.nodes_in_contact / cells[2] - wanted)
     row.iterations, row.certificate = math.max(row.iterations, st.iterations),
       math.max(row.certificate, st.residual)
   end
@@ -90,10 +90,10 @@ for _, nx in ipairs{ 5, 8, 17, 64, 97, 128, 251, 509, 1021, 1024 } do
     material = unit }, upper = lab.rigid,
     boundary = "periodic", effects = { elasticity = "half_space" },
     accuracy = { tolerance = 1e-12 } }:press{ pressure = 0.3 * math.pi * h }
-  row["1 x n"] = math.abs(st.contacts - wanted)
+  row["1 x n"] = math.abs(st.nodes_in_contact - wanted)
   half:write(row)
 end
-case:evidence(half, "A wave under 0.3 of the load of full contact: nodes that the width of contact is off.",
+case:evidence(half, "A wave at 0.3 of the load of full contact: error of the contact width, in nodes.",
   { { "nx", "%d", "n" }, { "n x 1", "%.1f" },
   { "1 x n", "%.1f" }, { "n x 7", "%.1f" }, { "n x 12", "%.1f" }, { "iterations", "%d" },
   { "certificate", "%.0e" } })
@@ -123,21 +123,22 @@ for _, aspect in ipairs{ 1, 1.5, 10, 100, 1000 } do
     accuracy = { tolerance = 1e-12 } }:press{ pressure = 100 * aspect }
   long:write{ aspect = aspect, love = math.abs(st.approach / sunk - 1),
     along = math.abs((wave.peak_pressure - 1) / (math.pi * h) - 1),
-    across = math.abs((steep.peak_pressure - 100 * aspect) / (math.pi * h * aspect) - 1), nodes = st.contacts,
+    across = math.abs((steep.peak_pressure - 100 * aspect) / (math.pi * h * aspect) - 1), nodes = st.nodes_in_contact,
     iterations = math.max(st.iterations, wave.iterations, steep.iterations),
     certificate = math.max(st.residual, wave.residual, steep.residual) }
 end
-case:evidence(long, "Cells longer than wide: one node on a free boundary against Love's rectangle, and"
-  .. " waves along and across in full contact.", {
+case:evidence(long, "Cells longer than wide: the approach of one node on a free boundary against Love's rectangle, and"
+  .. " the peaks of waves along and across the cells at full contact.", {
   { "aspect", "%g" }, { "love", "%.0e", "approach error, one node" },
   { "along", "%.0e", "peak error, along" }, { "across", "%.0e", "peak error, across" },
   { "iterations", "%d" }, { "certificate", "%.0e" } })
 case:expect(long, "love", { at_most = 8e-13 }) -- measured 8e-14
-case:expect(long, "along", { at_most = 4e-12 }) -- measured 3e-13: rows are transformed in pairs, and across them rounding is stiff
+-- measured 3e-13: rows are transformed in pairs, and the stiffness across rows amplifies the rounding
+case:expect(long, "along", { at_most = 4e-12 })
 case:expect(long, "across", { at_most = 4e-12 }) -- measured 4e-13
 case:expect(long, "nodes", { near = 1, within = 0 })
 
--- 4. Noise from node to node on long cells: lines along the short side are contacts by themselves, all but.
+-- 4. White noise on long cells: lines along the short side are nearly independent contacts.
 local noise = lab.notebook "noise"
 for _, boundary in ipairs{ "periodic", "free" } do
   for _, aspect in ipairs{ 1e-3, 0.01, 1 / 30, 1, 30, 100, 1000 } do
@@ -154,14 +155,14 @@ for _, boundary in ipairs{ "periodic", "free" } do
       transforms = ok and st.cost.transforms or 0, certificate = ok and st.residual or 1 }
   end
 end
-case:evidence(noise, "White noise on 96 x 96 cells, longer than wide or wider than long, to a tolerance of 1e-6."
-  .. " Where a contact on long cells does not converge, the error says how long they are.",
+case:evidence(noise, "White noise on 96 x 96 cells, longer than wide or wider than long, tolerance 1e-6. If a contact"
+  .. " on long cells does not converge, the error names the aspect of the cells.",
   { { "boundary", "%s" }, { "aspect", "%.3g" }, { "solved", "%d" }, { "transforms", "%.0f" },
     { "certificate", "%.0e" } })
 case:expect(noise, "solved", { at_least = 1 })
 case:expect(noise, "transforms", { at_most = 400 }) -- measured 263, at 1000:1 on a free boundary
 
--- 5. The same under hardening: solved within 400 transforms, or refused with the shape of the cells.
+-- 5. The same noise with hardening: solved within 400 transforms, or refused with the aspect of the cells.
 local soft = lab.notebook "soft"
 for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
   for _, aspect in ipairs{ 0.01, 0.1, 10, 30, 100, 300, 1000 } do
@@ -179,8 +180,9 @@ for _, hardening in ipairs{ 2e14, 2e15, 2e16 } do
       transforms = ok and st.cost.transforms or 0, certificate = ok and st.residual or 1 }
   end
 end
-case:evidence(soft, "White noise on 96 x 96 long cells under hardening, by the hardening in Pa/m; E*/cell is 1e16 Pa/m"
-  .. " along the short side. A press takes at most 400 transforms, or is refused: at a fiftieth on some of the long cells.",
+case:evidence(soft, "White noise on 96 x 96 long cells with hardening, in Pa/m. E*/cell is 1e16 Pa/m along the short side."
+  .. " A press takes at most 400 transforms or is refused. Refusals occur at a fiftieth of E*/cell, on some of"
+  .. " the long cells.",
   { { "hardening", "%.0e" }, { "aspect", "%.3g" }, { "solved", "%d" }, { "transforms", "%.0f" },
     { "certificate", "%.0e" } })
 case:expect(soft, "transforms", { at_most = 400 })
@@ -188,11 +190,11 @@ for _, hardening in ipairs{ 2e15, 2e16 } do
   case:expect(soft, "solved", { where = { hardening = hardening }, at_least = 1 })
 end
 
-case:holds("a grid of one node carries the load with no approach", (function()
+case:holds("a grid of one node carries the load without approach", (function()
   local st = lab.contact{ lower = lab.surface.flat{ cells = 1, size = 1, material = unit }, upper = lab.rigid,
     boundary = "periodic",
     effects = { elasticity = "half_space" } }:press{ pressure = 2 }
-  return st.contacts == 1 and st.peak_pressure == 2 and st.approach == 0
+  return st.nodes_in_contact == 1 and st.peak_pressure == 2 and st.approach == 0
 end)())
 for _, cells in ipairs{ 0, -1, 1.5, 65537, 2.0 ^ 53 } do
   case:refused(("cells = %.17g"):format(cells), function() lab.surface.flat{ cells = cells, size = 1 } end,

@@ -1,20 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- The same event again without turning: does the second take anything? And does a smaller load before a
--- larger matter?
+-- The same event again without a turn: does the second event yield anything? Does a smaller load before a
+-- larger load matter?
 --
--- What yielded fits the other body: pressed again by the same load, no more yields, and the bodies know
--- it as long as they lie as they are. Without hardening a smaller load before a larger one leaves no trace
--- either. Under a load that is greater by its last digit they know nothing: all that they give then is the
--- error of both solves.
+-- Yielded ground fits the other body. Under the same load nothing more yields, and the contact uses this fact
+-- as long as nobody moves the bodies. Without hardening, a smaller load before a larger load leaves no trace
+-- either. A load greater by its last digit is solved anew: its plastic volume is the error of both solves.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 11, title = "The same event again", edge = "tolerance from 1e-4 to 1e-12; ten repeats; the"
     .. " first load from 1 % to 99.9 % of the second",
-  elsewhere = "Every repeat takes a little more, as the error of the solver: a specimen left lying"
-    .. " wears away.",
-  here = "A repeat takes nothing; under a load greater by its last digit, ground that yielded gives less"
-    .. " than ten times the tolerance of what it gave, and a smaller load before a larger leaves no trace.",
+  elsewhere = "The solver's error makes every repeat yield a little more: a specimen wears without being"
+    .. " moved.",
+  here = "A repeat yields nothing. A load greater by its last digit yields less than ten times the"
+    .. " tolerance, relative to the first event. A smaller load before a larger one leaves no trace.",
 }
 local function specimen(seed)
   return lab.surface.self_affine{ cells = 64, size = "250 um", hurst = 0.8, ra = "2 um", short_wave = "24 um",
@@ -45,16 +44,16 @@ for _, scene in ipairs(scenes) do
       more = more, over = more / tolerance, iterations = first.iterations, certificate = first.residual }
   end
 end
-case:evidence(book, "Two rough bodies, 64 x 64 nodes, 150 MPa eleven times: the most that a repeat took"
-  .. " over what the first took, and what one more digit of the load takes.", { { "scene", "%s" },
-  { "tolerance", "%.0e" }, { "first", "%.2e", "first took (m^3)" },
+case:evidence(book, "Two rough bodies, 64 x 64 nodes, 150 MPa eleven times: the largest plastic volume of a"
+  .. " repeat over the first plastic volume, and the plastic volume of a load greater by its last digit.",
+  { { "scene", "%s" }, { "tolerance", "%.0e" }, { "first", "%.2e", "first event (m^3)" },
   { "again", "%g", "a repeat, over the first" }, { "more", "%.0e", "one more digit, over the first" },
   { "iterations", "%d" },
   { "certificate", "%.0e" } })
-case:expect(book, "again", { at_most = 0, label = "a repeat takes nothing" })
+case:expect(book, "again", { at_most = 0, label = "a repeat yields nothing" })
 -- measured 1
-case:expect(book, "over", { at_most = 10, label = "one more digit of the load takes less than ten times the"
-  .. " tolerance of the first" })
+case:expect(book, "over", { at_most = 10, label = "a load greater by its last digit yields less than ten"
+  .. " times the tolerance" })
 
 local path = lab.notebook "path"
 for _, scene in ipairs(scenes) do
@@ -78,11 +77,11 @@ for _, scene in ipairs(scenes) do
       heights = worst, certificate = after.residual }
   end
 end
-case:evidence(path, "A smaller load first, tolerance 1e-10: change of the volume taken, and of the"
-  .. " lower heights over the greatest depth that yields.",
+case:evidence(path, "A smaller load first, tolerance 1e-10: change of the plastic volume, and of the lower heights"
+  .. " over the largest plastic depth.",
   { { "scene", "%s" }, { "share", "%g", "first load over second" }, { "volume", "%.0e" },
     { "heights", "%.0e" }, { "certificate", "%.0e" } })
 case:expect(path, "volume", { at_most = 1e-10, label = "the tolerance" }) -- measured 1e-11
 case:expect(path, "heights", { at_most = 2e-10 }) -- measured 2e-11
-case:finish{ worst = "a repeat takes nothing; one more digit of the load, about the tolerance",
+case:finish{ worst = "a repeat yields nothing; a load greater by its last digit, about the tolerance",
   verdict = "right answer" }

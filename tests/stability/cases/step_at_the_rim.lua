@@ -1,19 +1,19 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A measured map does not end where it began: what does a periodic half-space make of the step at its rim?
+-- The opposite rims of a measured map differ: how does a periodic half-space treat the step?
 --
--- Periodic means that the tile goes on with itself. A tilted map then has a step as high as the whole tilt at
--- the rim, and its upper edge carries the load, row after row of tiles. The answer to the question asked is
--- right, but the question may not be what was meant: the program says so, and names the free boundary.
+-- A periodic tile repeats itself. A tilted map has a step at the rim, as high as the whole tilt, and the
+-- upper edge carries the load in every tile. The solution is right, but the user may have meant another
+-- problem: the program warns and names the free boundary.
 --! error: does not continue across the rim
 --! error: boundary="free"
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 8, title = "A step at the rim", edge = "a tilt of a rough map from 0 to 100 times its height",
-  elsewhere = "The Fourier transform takes every map as periodic, the rim carries the load, and nothing"
-    .. " says so.",
-  here = "The first press warns, in the journal of the run too, and offers `boundary = \"free\"`, which"
-    .. " knows no step. A surface generated as periodic gives no warning.",
+  elsewhere = "The Fourier transform treats every map as periodic. The rim carries the load, without a"
+    .. " warning.",
+  here = "The first press warns, also in the journal of the run, and suggests `boundary = \"free\"`,"
+    .. " which has no step. A surface generated as periodic gives no warning.",
 }
 
 local n, unit = 64, lab.material{ young = 1, poisson = 0 }
@@ -53,9 +53,9 @@ case:evidence(book, "Share of the load on the last four of 64 columns, the upper
   { "iterations", "%d" },
   { "certificate", "%.0e" } })
 case:expect(book, "certificate", { at_most = 1e-6 })
-case:holds("a generated periodic surface is known to continue; tilted by its own height it is known not to",
+case:holds("`periodic` is true for a generated periodic surface, and false after a tilt by its own height",
   rough.periodic and not tilted(1).periodic)
--- The same step in the middle of the tile is the same periodic contact.
+-- A step in the middle of the tile gives the same periodic contact.
 local step = tilted(1)
 local function pressed(surface)
   return lab.contact{ lower = surface, upper = lab.rigid, boundary = "periodic",
@@ -64,15 +64,15 @@ local function pressed(surface)
 end
 local there, here = pressed(step), pressed(step:shifted{ x = 0.5 })
 local moved = lab.notebook "moved"
-moved:write{ nodes = there.contacts, ["nodes moved"] = here.contacts,
+moved:write{ nodes = there.nodes_in_contact, ["nodes moved"] = here.nodes_in_contact,
   approach = math.abs(here.approach / there.approach - 1),
   energy = math.abs(here.energy / there.energy - 1), certificate = here.residual }
-case:evidence(moved, "A step of the rough map's own height, at the rim and shifted to the middle of the"
+case:evidence(moved, "A step as high as the rough map, at the rim and shifted to the middle of the"
   .. " tile.", { { "nodes", "%d" },
   { "nodes moved", "%d", "nodes, shifted" }, { "approach", "%.0e", "change of approach" },
   { "energy", "%.0e", "change of energy" },
   { "certificate", "%.0e" } })
 case:expect(moved, "approach", { at_most = 1e-14 }) -- measured 0
 case:expect(moved, "energy", { at_most = 1e-14 }) -- measured 1e-16, at a tolerance of 1e-12
-case:expect(moved, "nodes moved", { near = there.contacts, within = 0 })
+case:expect(moved, "nodes moved", { near = there.nodes_in_contact, within = 0 })
 case:finish{ worst = "warned", verdict = "right answer, with a warning" }

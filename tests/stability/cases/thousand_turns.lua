@@ -1,25 +1,23 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- A thousand events with turns between them: are the surfaces still those of the specimens, or those of the
--- turning?
+-- A thousand events with turns between them: do the turns themselves change the surfaces?
 --
--- A map turned by any angle but a quarter falls between nodes. Who resamples it in place takes a mean of
--- neighbours at every turn, flattens the surface without any load, and finds D and Ra fall with the number of
--- events: the very finding that is looked for. Here surfaces stay in their own frame; the way one lies on the
--- other is kept as an angle and whole cells, and only what yields is carried over.
+-- A map turned by any angle but a quarter falls between nodes. A program that resamples the map at every turn
+-- averages neighbours and flattens the surface without load. D and Ra then fall with the number of events,
+-- which is the effect under study. Here surfaces stay in their own frame. Their relative position is an angle
+-- and whole cells, and only the yielded shape is transferred.
 
 local lab = require "asperity"
 local laboratory = require "asperity.laboratory"
 local case = require "asperity.hard_case"{
   number = 10, title = "A thousand turns", edge = "1 to 1000 turns without load; a full turn in 1 to"
     .. " 1000 steps; 1 to 1000 events",
-  elsewhere = "Surfaces are resampled at every turn. Each time is a mean of neighbours: a thousand"
-    .. " turns without any load leave nothing of D - 1, and the wear that is reported is that of the"
-    .. " interpolation.",
-  here = "Turns change no bit of a surface; a full turn in any number of steps is the identity; what is"
-    .. " lost from the heights over a thousand events is what the events took.",
+  elsewhere = "Surfaces are resampled at every turn, and each resampling averages neighbours. A thousand"
+    .. " turns without load remove all of D - 1, and the reported wear is caused by interpolation.",
+  here = "Turns change no bit of a surface. A full turn in any number of steps is the identity. Over a"
+    .. " thousand events, the height lost equals the plastic volume of the events.",
 }
 
--- 1. Turns without load, against a store that interpolates.
+-- 1. Turns without load, compared with interpolation at every turn.
 local rough = lab.surface.self_affine{ cells = 96, size = "100 um", hurst = 0.8, ra = "1 um",
   short_wave = "6.25 um", material = lab.material "Al-2011" }
 local function excess(s)
@@ -44,7 +42,7 @@ for turn = 1, 1000 do
       ["Rq resampled"] = resampled:roughness().Rq / roughness }
   end
 end
-case:evidence(book, "What is left of D - 1 and of Rq after so many turns without load, 96 x 96 nodes.",
+case:evidence(book, "D - 1 and Rq after turns without load, over the virgin values, 96 x 96 nodes.",
   { { "turns", "%d" },
   { "here", "%.3f", "D - 1 here" }, { "resampled at every turn", "%.3f", "D - 1 resampled" },
   { "Rq here", "%.3f" }, { "Rq resampled", "%.3f" } })
@@ -54,11 +52,11 @@ case:expect(book, "resampled at every turn", { where = { turns = 8 }, at_least =
   label = "interpolation keeps D - 1" })
 case:chart(book, "D - 1 left against the number of turns without load",
   { x = "turns", y = { "here", "resampled at every turn" }, log_x = true,
-  title = "D - 1 left after turns without load", y_label = "D - 1 over that of the virgin surface",
+  title = "D - 1 left after turns without load", y_label = "D - 1 over the virgin value",
   file = "kept.svg" })
-case:holds("1000 turns without load leave both surfaces as they were, bit for bit", unchanged)
+case:holds("1000 turns without load leave both surfaces unchanged, bit for bit", unchanged)
 
--- 2. A full turn in so many steps, on a free boundary, then a press: the same as without.
+-- 2. A full turn in several steps on a free boundary, then a press: the same as without turns.
 local function free_bench()
   return lab.contact{ lower = rough:resampled{ cells = 24 }, upper = rough:mirrored():resampled{ cells = 24 },
     boundary = "free",
@@ -77,10 +75,10 @@ case:holds("a full turn in " .. table.concat(same, ", ") .. " steps is the ident
 local back = free_bench()
 for k = 1, 1000 do back:rotate(math.sin(k)) end
 for k = 1000, 1, -1 do back:rotate(-math.sin(k)) end
-case:holds("1000 turns by odd angles, then all of them back: the next press is the same, bit for bit",
+case:holds("after 1000 turns by odd angles and the same turns back, the next press is the same, bit for bit",
   back:press{ pressure = "40 MPa" }.digest == first.digest)
 
--- 3. A thousand events: what the heights have lost is what the events took.
+-- 3. A thousand events: the height lost equals the plastic volume of the events.
 local events = lab.notebook "events"
 local function go(name, c, turn, last, pressure, stops)
   local lower, upper = c:lower(), c:upper()
@@ -115,12 +113,12 @@ go("placed afresh", pair(32, "periodic"), function(c, N) c:place{ seed = N } end
   { [1] = true, [2] = true, [4] = true, [8] = true, [30] = true, [100] = true, [300] = true, [1000] = true })
 go("turned by 137.5 degrees", pair(24, "free"), function(c) c:rotate "137.5 deg" end, 300, "152.78 MPa",
   { [1] = true, [2] = true, [8] = true, [30] = true, [100] = true, [300] = true })
-case:evidence(events, "Events at 152.78 MPa: Ra left, the mean height taken over Ra at the start, and"
-  .. " how far the heights lost are from the volume taken.",
+case:evidence(events, "Events at 152.78 MPa: Ra over the initial Ra, plastic volume per area over the initial Ra, and"
+  .. " the relative difference between the height lost and the plastic volume.",
   { { "bench", "%s" }, { "N", "%d" }, { "Ra", "%.3f", "Ra left" }, { "taken", "%.3f", "taken over Ra" },
     { "balance", "%.0e", "volume error" },
     { "certificate", "%.0e", "worst certificate" } })
 case:expect(events, "balance", { at_most = 2e-14 }) -- measured 2e-15
 case:expect(events, "negative", { at_most = 0 })
-case:expect(events, "certificate", { at_most = 1e-8 }) -- the tolerance asked for
-case:finish{ worst = "no bit by turns; 2e-15 of the volume over 1000 events", verdict = "right answer" }
+case:expect(events, "certificate", { at_most = 1e-8 }) -- the requested tolerance
+case:finish{ worst = "turns change no bit; 2e-15 of the volume over 1000 events", verdict = "right answer" }

@@ -1,19 +1,17 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- Bodies as unlike as can be: a hard one on a soft one, Poisson's ratios at both ends. Do they press as their
--- E* says?
+-- Bodies of very different stiffness, and Poisson's ratios at both limits: do they press as E* predicts?
 --
--- 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2. At full contact a wave's pressure is p̄ + πE*h/λ cos 2πx/λ, so E* can
--- be read off the pressure. Which body is called lower makes no difference, and neither do heights given to
--- the one or the other.
+-- 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2. At full contact the pressure of a wave is p̄ + πE*h/λ cos 2πx/λ, which
+-- gives E*. The result does not depend on which body is the lower one or carries the heights.
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 20, title = "Unlike bodies", edge = "the ratio of moduli from 1e-30 to 1e30; Poisson's"
+  number = 20, title = "Unlike bodies", edge = "ratio of moduli from 1e-30 to 1e30; Poisson's"
     .. " ratios from one ulp above -1 to 0.5; rigid bodies",
-  elsewhere = "A rigid body is a very large modulus, and the other's share of the approach is lost"
-    .. " beside it, or 0 times infinity.",
-  here = "E* is right to rounding for any two bodies; exchanged they press the same; a rigid one takes"
-    .. " no part and needs no modulus.",
+  elsewhere = "A rigid body gets a very large modulus. The approach of the other body is then lost in"
+    .. " rounding, or becomes 0 times infinity.",
+  here = "E* is right to rounding for any two bodies. Exchanged bodies give the same press. A rigid body"
+    .. " does not deform and needs no modulus.",
 }
 local h = 0.01
 local function wave(material) return lab.surface.sine{ cells = 32, size = 1, amplitude = h,
@@ -34,7 +32,7 @@ for _, ratio in ipairs{ 1e-30, 1e-15, 1e-8, 1e-3, 1, 1e3, 1e8, 1e15, 1e30 } do
     exchanged = other == found and "same" or "other",
     same = other == found and 1 or 0, iterations = st.iterations, certificate = st.residual }
 end
-case:evidence(book, "E1 = 1, ν1 = 0.3 against E2, ν2 = 0.2: E* read off the pressures of full contact,"
+case:evidence(book, "E1 = 1, ν1 = 0.3 against E2, ν2 = 0.2: E* from the pressures of full contact,"
   .. " 32 x 32 nodes.", { { "ratio", "%.0e", "E2/E1" },
   { "modulus", "%.6e", "E*" }, { "error", "%.0e" }, { "exchanged", "%s" }, { "iterations", "%d" },
   { "certificate", "%.0e" } })
@@ -53,7 +51,7 @@ case:evidence(poisson, "One elastic body on a rigid flat: E* = E/(1 - ν²).",
   { "error", "%.0e" }, { "certificate", "%.0e" } })
 case:expect(poisson, "error", { at_most = 6e-14 }) -- measured 6e-15
 
--- Two rough bodies, exchanged: the lower's face turned over is the upper's, so pressures are mirrored.
+-- Two rough bodies, exchanged. A lower face turned over is an upper face, so pressures are mirrored.
 local function rough(seed, E)
   return lab.surface.self_affine{ cells = 33, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.2,
     seed = seed,
@@ -73,13 +71,13 @@ for _, E in ipairs{ 1e-6, 1, 1e6 } do
     local P, Q, worst = one:field "pressure", two:field "pressure", 0
     for j = 0, 32 do for i = 0, 32 do worst = math.max(worst,
       math.abs(P:value(i, j) - Q:value(32 - i, j)) / P.max) end end
-    pairs_:write{ E = E, plastic = plasticity and "yes" or "no", nodes = one.contacts, other = two.contacts,
-      worst = worst, same = one.contacts == two.contacts and 1 or 0,
+    pairs_:write{ E = E, plastic = plasticity and "yes" or "no", nodes = one.nodes_in_contact, other = two.nodes_in_contact,
+      worst = worst, same = one.nodes_in_contact == two.nodes_in_contact and 1 or 0,
       certificate = math.max(one.residual, two.residual) }
   end
 end
-case:evidence(pairs_, "Two rough bodies of 33 x 33 nodes, exchanged: greatest difference of a pressure"
-  .. " over the peak, where the one is mirrored.", { { "E", "%.0e", "E2/E1" },
+case:evidence(pairs_, "Two rough bodies of 33 x 33 nodes, exchanged and mirrored: largest difference of a"
+  .. " pressure over the peak.", { { "E", "%.0e", "E2/E1" },
   { "plastic", "%s", "with a cap" }, { "nodes", "%d" }, { "other", "%d", "exchanged" },
   { "worst", "%.0e", "difference" }, { "certificate", "%.0e" } })
 case:expect(pairs_, "worst", { at_most = 3e-14 }) -- measured 3e-15

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/elastic_bodies.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "tests/stability/cross_checks/dense_contact.hpp"
 #include "tests/stability/properties/scene.hpp"

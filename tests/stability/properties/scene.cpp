@@ -9,7 +9,6 @@
 
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/arithmetic/random.hpp"

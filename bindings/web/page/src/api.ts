@@ -13,6 +13,13 @@ export interface Mark {
   hint?: string;
 }
 
+export interface Check {
+  marks: Mark[];
+  checked_to?: number;
+  knobs?: unknown;
+  charts?: ChartEvent[];
+}
+
 export interface Candidate {
   text: string;
   kind: string;
@@ -27,19 +34,17 @@ export interface LessonEntry {
   minutes?: number;
 }
 
-export interface Lesson {
-  name: string;
-  title: string;
+export interface Lesson extends LessonEntry {
   text: string;
   script: string;
-  question?: string;
   predict?: string;
 }
 
 export interface About {
   version: string;
-  limits?: { memory_bytes?: number; seconds?: number; output_bytes?: number; runs?: number };
+  limits: { memory_bytes: number; seconds: number; output_bytes: number; runs: number };
   classroom?: boolean;
+  documents?: boolean;
   teacher?: boolean;
   help?: boolean;
 }
@@ -59,35 +64,54 @@ export interface RoomPerson {
   predictions: { lesson: string; name: string; value: number }[];
 }
 
-export interface ViewField {
+/** A map without its numbers. */
+export interface FieldFacts {
   name: string;
   unit: string;
   nx: number;
   ny: number;
-  size_x: number;
+  size_x: number; // m
   size_y: number;
-  from_nx: number;
+  from_nx: number; // nodes of the grid
   from_ny: number;
   not_measured?: number; // number
   reduction: string;
-  data: string;
 }
 
-export interface View {
+export interface View<Field = FieldFacts & { data: string }> {
   title?: string;
-  event?: string | number;
-  fields: ViewField[];
+  fields: Field[];
 }
 
 export type Cell = number | string | boolean | null;
+
+/** A chart as the script writes it: columns, and rows that it takes. */
+export interface Charted {
+  x: string;
+  y: string[];
+  per: string;
+  log_x: boolean;
+  log_y: boolean;
+  title: string;
+  x_label: string;
+  y_label: string;
+  where: Record<string, Cell[]>;
+  points: boolean;
+  spread: boolean;
+}
+
+/** The chart of a notebook, or of a study of work and precision. */
+export type ChartEvent = { type: 'chart' } & ({ notebook: string; chart: Charted } | { study: string });
 
 export type RunEvent = { n: number } & (
   | { type: 'waiting'; before: number }
   | { type: 'started' }
   | { type: 'output'; stream: 'out' | 'err'; text: string }
-  | { type: 'progress'; task: string; fraction?: number; eta_s?: number; text?: string }
+  | { type: 'progress'; task: string; fraction?: number; eta_s?: number }
   | { type: 'row'; notebook: string; row: Record<string, Cell>; units?: Record<string, string>; columns?: string[] }
-  | { type: 'file'; name: string; bytes: number; kind?: string }
+  | ChartEvent
+  | { type: 'study'; name: string }
+  | { type: 'file'; name: string; bytes: number }
   | { type: 'view'; name: string; title?: string }
   | { type: 'views_left_out'; count: number }
   | { type: 'expectation'; text: string; held: boolean }
@@ -100,6 +124,8 @@ export type RunEvent = { n: number } & (
       reason?: string;
     }
 );
+
+export type EventOf<Type extends RunEvent['type']> = Extract<RunEvent, { type: Type }>;
 
 export type Failure = 'gone' | 'token' | 'limit' | 'refused';
 
@@ -135,8 +161,7 @@ export class Api {
   about = (): Promise<About> => this.json('GET', '/api/about');
   lessons = (): Promise<LessonEntry[]> => this.json('GET', '/api/lessons');
   lesson = (name: string): Promise<Lesson> => this.json('GET', `/api/lessons/${encodeURIComponent(name)}`);
-  check = (script: string, signal?: AbortSignal): Promise<{ marks: Mark[]; checked_to?: number; knobs?: unknown }> =>
-    this.json('POST', '/api/check', { script }, signal);
+  check = (script: string, signal?: AbortSignal): Promise<Check> => this.json('POST', '/api/check', { script }, signal);
   complete = (
     text: string,
     position: number,
@@ -165,7 +190,7 @@ export class Api {
     take: (facts: LiveFacts, numbers: Float32Array[]) => void,
     signal: AbortSignal,
   ): Promise<void> {
-    const answer = await this.request('POST', `/api/live/${encodeURIComponent(id)}`, { knobs, view }, signal);
+    const answer = await this.request('POST', `/api/live/${encodeURIComponent(id)}`, { knobs, view }, { signal });
     const text = new TextDecoder();
     await framesOf(answer.body!, (texts) =>
       take(
@@ -177,11 +202,8 @@ export class Api {
 
   /** Also while the page unloads. */
   endLive(id: string): void {
-    void fetch(`/api/live/${encodeURIComponent(id)}`, {
-      method: 'DELETE',
-      keepalive: true,
-      headers: { Authorization: `Bearer ${this.token}` },
-    }).catch(() => undefined);
+    const path = `/api/live/${encodeURIComponent(id)}`;
+    this.request('DELETE', path, undefined, { keepalive: true }).catch(() => undefined);
   }
 
   async file(id: string, name: string): Promise<Blob> {
@@ -211,22 +233,15 @@ export class Api {
     };
     while (!finished) {
       try {
-        const answer = await this.request(
-          'GET',
-          `/api/runs/${encodeURIComponent(id)}/events?after=${seen}`,
-          undefined,
-          signal,
-        );
+        const path = `/api/runs/${encodeURIComponent(id)}/events?after=${seen}`;
+        const answer = await this.request('GET', path, undefined, { signal });
         if (broken) gone(null);
         broken = false;
-        const reader = answer
-          .body!.pipeThrough(new TextDecoderStream() as ReadableWritablePair<string, Uint8Array>)
-          .getReader();
+        const reader = answer.body!.getReader();
+        const text = new TextDecoder();
         let rest = '';
-        for (;;) {
-          const { value, done } = await reader.read();
-          if (done) break;
-          const parts = (rest + value).split('\n');
+        for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+          const parts = (rest + text.decode(piece.value, { stream: true })).split('\n');
           rest = parts.pop()!;
           parts.forEach(line);
         }
@@ -244,39 +259,32 @@ export class Api {
   }
 
   private async json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
-    const answer = await this.request(method, path, body, signal);
+    const answer = await this.request(method, path, body, { signal });
     const text = await answer.text();
     return (text ? JSON.parse(text) : null) as T;
   }
 
-  private async request(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<Response> {
+  private async request(method: string, path: string, body?: unknown, more: RequestInit = {}): Promise<Response> {
+    const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
+    if (body !== undefined) headers['Content-Type'] = 'application/json';
     let answer: Response;
     try {
-      answer = await fetch(path, {
-        method,
-        signal,
-        cache: 'no-store',
-        headers: {
-          Authorization: `Bearer ${this.token}`,
-          ...(body === undefined ? {} : { 'Content-Type': 'application/json' }),
-        },
-        body: body === undefined ? undefined : JSON.stringify(body),
-      });
+      answer = await fetch(path, { method, cache: 'no-store', headers, body: JSON.stringify(body), ...more });
     } catch (error) {
-      if (signal?.aborted) throw error;
+      if (more.signal?.aborted) throw error;
       throw new ApiError('gone', serverGone);
     }
     if (answer.ok) return answer;
-    const { sentence, hint } = await reason(answer);
-    if (answer.status === 401 || answer.status === 403) throw new ApiError('token', tokenWrong, sentence);
-    if (answer.status === 429 || answer.status === 503) {
+    const told = (await answer.json().catch(() => null)) as { error?: { message?: string; hint?: string } } | null;
+    const { message = '', hint = '' } = told?.error ?? {};
+    if (answer.status === 401 || answer.status === 403) throw new ApiError('token', tokenWrong, message);
+    if (answer.status === 429 || answer.status === 503)
       throw new ApiError(
         'limit',
-        sentence || 'the server runs as many scripts as it may',
+        message || 'the server runs as many scripts as it may',
         hint || 'wait until one has ended, or stop one',
       );
-    }
-    throw new ApiError('refused', sentence || `the server answered with ${answer.status}`, hint);
+    throw new ApiError('refused', message || `the server answered with ${answer.status}`, hint);
   }
 }
 
@@ -286,19 +294,6 @@ export const serverGoneHint =
 const tokenWrong = 'The server does not know this page’s token.';
 export const tokenHint =
   'Open the whole address that asperity serve printed, with what stands after the #. A server that was started again has a new one.';
-
-async function reason(answer: Response): Promise<{ sentence: string; hint: string }> {
-  try {
-    const body = (await answer.json()) as Record<string, unknown>;
-    const inner = (typeof body.error === 'object' && body.error ? body.error : body) as Record<string, unknown>;
-    const sentence = [inner.message, inner.error, inner.sentence].find((s) => typeof s === 'string') as
-      | string
-      | undefined;
-    return { sentence: sentence ?? '', hint: typeof inner.hint === 'string' ? inner.hint : '' };
-  } catch {
-    return { sentence: '', hint: '' };
-  }
-}
 
 function pause(milliseconds: number, signal: AbortSignal): Promise<void> {
   return new Promise((resolve) => {

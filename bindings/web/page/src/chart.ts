@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of notebook columns as SVG, drawn by Observable Plot. Every row is a point; a line connects the
-// means of rows with equal x, as in the engine's charts. Colours are attributes: saved runs need no style
-// sheet.
+// Charts of notebook columns as SVG, by Observable Plot. Every row is a point; a line connects the means of
+// rows with equal x. Colours are attributes: saved runs need no style sheet.
 
 import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
-import { linesOf, namesAlong, type ChartChoice, type Line, type Point } from './chart_choice';
+import { linesOf, namesAlong, type ChartChoice, type Line, type Mean, type Point } from './chart_choice';
 import { svg } from './dom';
-import type { Ink } from './ink';
-import { crowded, marksFor, radii, share, type Marks, type Place } from './marks';
+import type { Ink } from './colour';
 import type { Notebook } from './run';
 import { axisFor, axisOfNames, type Axis } from './ticks';
-import { label, numberText, scaleFor, type Scale } from './units';
+import { greatestOf, label, numberText, scaleFor, shareOf, type Scale } from './units';
 
 const fontSize = 15; // px
 const lineHeight = 24; // px
@@ -27,43 +25,36 @@ export interface Drawn {
 export function drawChart(notebook: Notebook, asked: ChartChoice, width: number, height: number, ink: Ink): Drawn {
   const names = namesAlong(notebook, asked);
   const named = names.length > 0;
-  const choice = named ? { ...asked, logX: false } : asked;
-  const { lines, left } = linesOf(notebook, choice);
-  const all = lines.flatMap((l) => l.points);
+  const choice = named ? { ...asked, log_x: false } : asked;
+  const { lines: given, left } = linesOf(notebook, choice);
+  const all = given.flatMap((l) => l.points);
   const name = `${choice.y.join(', ')} against ${choice.x}`;
   if (all.length === 0) {
     const why = left ? 'No row has both numbers above zero, as these axes need' : 'No row has both numbers yet';
     return { element: sentence(`${why}.`, `${name}: ${why}`, width, height, ink), summary: why, left };
   }
-  const scaleX = scaleFor(notebook.units[choice.x], greatest(all.map((p) => p.x)));
-  const scaleY = scaleFor(notebook.units[choice.y[0]], greatest(all.map((p) => p.y)));
+  const scaleX = scaleFor(notebook.units[choice.x], greatestOf(all.map((p) => p.x)));
+  const scaleY = scaleFor(notebook.units[choice.y[0]], greatestOf(all.map((p) => p.y)));
+  const lines = given.map((l) => inUnits(l, scaleX.factor, scaleY.factor));
   const legend = legendRows(lines.length > 1 ? lines : [], width - 90);
   const turned = named && !fitAside(names, width - 130);
   const tall = turned ? Math.min(height / 3, Math.max(...names.map((n) => widthOf(shortened(n))))) : 0;
   const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 + Math.max(0, tall - fontSize) };
-  const ends = choice.spread ? lines.flatMap((l) => l.means.flatMap((m) => barOf(m, choice.logY))) : [];
-  const y = axisFor(
-    [...all.map((p) => p.y), ...ends].map((v) => v / scaleY.factor),
-    choice.logY,
-    apartBy(() => 1.6 * fontSize, height - margin.top - margin.bottom),
-  );
+  const upright = height - margin.top - margin.bottom;
+  const bars = lines.map((l) => (choice.spread ? l.means.map((m) => barOf(m, choice.log_y)) : []));
+  const up = [...lines.flatMap((l) => l.points.map((p) => p.y)), ...bars.flat().flatMap((bar) => [bar.y1, bar.y2])];
+  const y = axisFor(up, choice.log_y, apartBy(() => 1.6 * fontSize, upright));
   margin.left = Math.max(58, 46 + Math.max(...y.labels.map(widthOf)));
   const inside = width - margin.left - margin.right;
+  const apart = apartBy((text) => (turned ? 1.2 * fontSize : widthOf(text) + 16), inside);
+  const written = turned ? names.map((n) => shortened(n, tall)) : names;
   const x = named
-    ? axisOfNames(
-        names.map((n) => (turned ? shortened(n, tall) : n)),
-        turned ? apartBy(() => 1.2 * fontSize, inside) : () => true,
-      )
-    : axisFor(
-        all.map((p) => p.x / scaleX.factor),
-        choice.logX,
-        apartBy((text) => widthOf(text) + 16, inside),
-      );
+    ? axisOfNames(written, turned ? apart : () => true)
+    : axisFor(lines.flatMap((l) => l.points.map((p) => p.x)), choice.log_x, apart);
 
-  const scaled = (p: Point): Point => ({ x: p.x / scaleX.factor, y: p.y / scaleY.factor });
-  const place = (p: Point): Place => ({
-    x: inside * shareOf(p.x / scaleX.factor, x, choice.logX),
-    y: (height - margin.top - margin.bottom) * shareOf(p.y / scaleY.factor, y, choice.logY),
+  const place = (p: Point): Point => ({
+    x: inside * shareOf(p.x, x.domain, x.log),
+    y: upright * shareOf(p.y, y.domain, y.log),
   });
   const places = lines.map((l) => l.points.map(place));
   const kinds = lines.map((l, k): Marks =>
@@ -72,21 +63,72 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   const drawn = lines.flatMap((l, k): Markish[] => {
     const stroke = ink.series[k % ink.series.length];
     const kind = kinds[k] === 'large' && kinds.some((m) => m !== 'large') ? 'small' : kinds[k];
-    const bars = l.means.filter((m) => choice.spread && m.deviation > 0);
+    const title = (p: Point): string => pointText(l, p, choice, scaleX, scaleY, names);
     return [
-      ruleX(bars, {
-        x: (m) => m.x / scaleX.factor,
-        y1: (m) => barOf(m, choice.logY)[0] / scaleY.factor,
-        y2: (m) => barOf(m, choice.logY)[1] / scaleY.factor,
-        stroke,
-        strokeWidth: 1.5,
-      }),
-      ...(named ? [] : [line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
-      ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY, names)),
+      ruleX(bars[k].filter((bar) => bar.y2 > bar.y1), { x: 'x', y1: 'y1', y2: 'y2', stroke, strokeWidth: 1.5 }),
+      ...(named ? [] : [line(l.means, { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
+      ...dotsOf(l.points, places[k], kind, k, ink, title),
     ];
   });
   const words = { fontSize, fill: ink.text };
-  const element = plot({
+  const long = height - Math.abs(margin.bottom - margin.top) - 8;
+  const xWords = fittedLabel(choice.x_label || choice.x, scaleX, inside);
+  const yWords = fittedLabel(choice.y_label || choice.y.join(', '), scaleY, long);
+  const element = plotted({ width, height, margin, x: { ...x, turned }, y, ink }, [], [
+    text([xWords], { ...words, frameAnchor: 'bottom', dy: margin.bottom - 8 }),
+    text([yWords], { ...words, frameAnchor: 'left', textAnchor: 'middle', rotate: -90, dx: 16 - margin.left }),
+    ...drawn,
+    ...legendMarks(legend, margin.top, ink),
+  ]);
+  const summary =
+    `${label(choice.y.join(', '), scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
+    (lines.length > 1 ? `, ${count(lines.length, 'line')}${choice.per ? `, one per ${choice.per}` : ''}` : '') +
+    (x.ticks.length < names.length ? `, ${x.ticks.length} of ${names.length} names written` : '') +
+    (kinds.includes('none') && choice.points !== false ? ', too close together to be marked one by one' : '');
+  return { element: asPicture(element, summary, ink), summary, left };
+}
+
+function inUnits(l: Line, x: number, y: number): Line {
+  const scaled = (p: Point): Point => ({ x: p.x / x, y: p.y / y });
+  const means = l.means.map((m) => ({ ...scaled(m), deviation: m.deviation / y }));
+  return { ...l, points: l.points.map(scaled), means };
+}
+
+export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
+  const axis = axisFor(values, false, apartBy((text) => widthOf(text) + 16, width - 70));
+  const [low, high] = axis.domain;
+  const steps = Math.max(4, Math.min(12, Math.ceil(2 * Math.sqrt(values.length))));
+  const edge = (k: number): number => low + ((high - low) * k) / steps;
+  const bins = Array.from({ length: steps }, (_, k) => ({ from: edge(k), to: edge(k + 1), count: 0 }));
+  for (const v of values) ++bins[Math.min(steps - 1, Math.floor(shareOf(v, axis.domain, false) * steps))].count;
+  const most = Math.max(...bins.map((b) => b.count));
+  const counts = axisFor([0, most], false, apartBy(() => 1.6 * fontSize, height - 70));
+  const filled = bins.filter((b) => b.count > 0);
+  const bars = rectY(filled, { x1: 'from', x2: 'to', y: 'count', fill: ink.series[0], inset: 1 });
+  const margin = { left: 44, right: 24, top: 10, bottom: 52 };
+  const element = plotted({ width, height, margin, x: axis, y: counts, ink }, [bars], [
+    text([name], { fontSize, fill: ink.text, frameAnchor: 'bottom', dy: 46 }),
+  ]);
+  const sorted = [...values].sort((a, b) => a - b);
+  const summary =
+    `${name}: ${count(values.length, 'prediction')}, from ${numberText(sorted[0])} to ${numberText(sorted.at(-1)!)}, ` +
+    `half of them up to ${numberText(sorted[Math.floor((sorted.length - 1) / 2)])}`;
+  return { element: asPicture(element, summary, ink), summary, left: 0 };
+}
+
+interface Frame {
+  width: number;
+  height: number;
+  margin: { left: number; right: number; top: number; bottom: number };
+  x: Axis & { turned?: boolean }; // labels turned
+  y: Axis;
+  ink: Ink;
+}
+
+/** Axes and grid, with marks behind and in front of the lower axis. */
+function plotted({ width, height, margin, x, y, ink }: Frame, behind: Markish[], front: Markish[]): SVGSVGElement {
+  const words = { fontSize, fill: ink.muted, label: null };
+  return plot({
     className: 'columns',
     width,
     height,
@@ -94,118 +136,37 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
     marginRight: margin.right,
     marginTop: margin.top,
     marginBottom: margin.bottom,
-    x: { type: choice.logX ? 'log' : 'linear', domain: x.domain },
-    y: { type: choice.logY ? 'log' : 'linear', domain: y.domain },
+    x: { type: x.log ? 'log' : 'linear', domain: x.domain },
+    y: { type: y.log ? 'log' : 'linear', domain: y.domain },
     marks: [
       gridY(y.ticks, { stroke: ink.grid, strokeOpacity: 1 }),
-      axisY(y.ticks, { ...words, fill: ink.muted, tickSize: 0, tickPadding: 8, text: labelOf(y), label: null }),
-      axisX(x.ticks, {
-        ...words,
-        fill: ink.muted,
-        stroke: ink.muted,
-        text: labelOf(x),
-        label: null,
-        ...(turned ? { tickRotate: -90 } : {}),
-      }),
+      axisY(y.ticks, { ...words, tickSize: 0, tickPadding: 8, text: labelOf(y) }),
+      ...behind,
+      axisX(x.ticks, { ...words, stroke: ink.muted, text: labelOf(x), ...(x.turned ? { tickRotate: -90 } : {}) }),
       ruleY([y.domain[0]], { stroke: ink.muted }),
-      text([fittedLabel(choice.xLabel || choice.x, scaleX, inside)], {
-        ...words,
-        frameAnchor: 'bottom',
-        dy: margin.bottom - 8,
-      }),
-      text([fittedLabel(choice.yLabel || choice.y.join(', '), scaleY, height - Math.abs(margin.bottom - margin.top) - 8)], {
-        ...words,
-        frameAnchor: 'left',
-        textAnchor: 'middle',
-        rotate: -90,
-        dx: 16 - margin.left,
-      }),
-      ...drawn,
-      ...legendMarks(legend, margin.top, ink),
+      ...front,
     ],
   }) as SVGSVGElement;
-  const summary =
-    `${yLabel(choice, scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
-    (lines.length > 1 ? `, ${count(lines.length, 'line')}${choice.per ? `, one per ${choice.per}` : ''}` : '') +
-    (x.ticks.length < names.length ? `, ${x.ticks.length} of ${names.length} names written` : '') +
-    (kinds.includes('none') && choice.points !== false ? ', too close together to be marked one by one' : '');
-  return { element: asPicture(element, summary, ink), summary, left };
-}
-
-export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
-  const axis = axisFor(
-    values,
-    false,
-    apartBy((text) => widthOf(text) + 16, width - 70),
-  );
-  const [low, high] = axis.domain;
-  const steps = Math.max(4, Math.min(12, Math.ceil(2 * Math.sqrt(values.length))));
-  const bins = Array.from({ length: steps }, (_, k) => ({
-    from: low + ((high - low) * k) / steps,
-    to: low + ((high - low) * (k + 1)) / steps,
-    count: 0,
-  }));
-  for (const v of values) ++bins[Math.min(steps - 1, Math.floor(((v - low) / (high - low)) * steps))].count;
-  const most = Math.max(...bins.map((b) => b.count));
-  const counts = axisFor([0, most], false, apartBy(() => 1.6 * fontSize, height - 70));
-  const words = { fontSize, fill: ink.text };
-  const element = plot({
-    className: 'columns',
-    width,
-    height,
-    marginLeft: 44,
-    marginRight: 24,
-    marginTop: 10,
-    marginBottom: 52,
-    x: { domain: axis.domain },
-    y: { domain: counts.domain },
-    marks: [
-      gridY(counts.ticks, { stroke: ink.grid, strokeOpacity: 1 }),
-      axisY(counts.ticks, { ...words, fill: ink.muted, tickSize: 0, tickPadding: 8, text: labelOf(counts), label: null }),
-      rectY(
-        bins.filter((b) => b.count > 0),
-        { x1: 'from', x2: 'to', y: 'count', fill: ink.series[0], inset: 1 },
-      ),
-      axisX(axis.ticks, { ...words, fill: ink.muted, stroke: ink.muted, text: labelOf(axis), label: null }),
-      ruleY([0], { stroke: ink.muted }),
-      text([name], { ...words, frameAnchor: 'bottom', dy: 46 }),
-    ],
-  }) as SVGSVGElement;
-  const sorted = [...values].sort((a, b) => a - b);
-  const summary =
-    `${name}: ${count(values.length, 'prediction')}, from ${numberText(sorted[0])} to ${numberText(sorted[sorted.length - 1])}, ` +
-    `half of them up to ${numberText(sorted[Math.floor((sorted.length - 1) / 2)])}`;
-  return { element: asPicture(element, summary, ink), summary, left: 0 };
 }
 
 function dotsOf(
-  l: Line,
-  places: Place[],
+  points: Point[],
+  places: Point[],
   kind: Marks,
   index: number,
   ink: Ink,
-  scaled: (p: Point) => Point,
-  words: (p: Point) => string,
+  title: (p: Point) => string,
 ): Markish[] {
   if (kind === 'none') return [];
   const close = crowded(places, 2 * radii[kind]);
   const fill = ink.series[index % ink.series.length];
-  // The line must remain visible in a dense cloud.
-  const cloud = share(close) > 0.5;
-  const single = kind === 'large' ? l.points.filter((_, k) => !close[k]) : [];
-  const rest = kind === 'large' ? l.points.filter((_, k) => close[k]) : l.points;
-  return [single, rest].map((points, outlined) =>
-    dot(points, {
-      x: (p: Point) => scaled(p).x,
-      y: (p: Point) => scaled(p).y,
-      r: radii[kind],
-      symbol: symbols[index % symbols.length],
-      fill,
-      fillOpacity: cloud ? 0.5 : 1,
-      stroke: outlined === 0 ? ink.paper : 'none',
-      title: words,
-    }),
-  );
+  const look = { x: 'x', y: 'y', r: radii[kind], symbol: symbols[index % symbols.length], fill, title };
+  const fillOpacity = share(close) > 0.5 ? 0.5 : 1; // the line must remain visible in a dense cloud
+  const outlined = (k: number): boolean => kind === 'large' && !close[k];
+  return [
+    dot(points.filter((_, k) => outlined(k)), { ...look, fillOpacity, stroke: ink.paper }),
+    dot(points.filter((_, k) => !outlined(k)), { ...look, fillOpacity, stroke: 'none' }),
+  ];
 }
 
 function sentence(words: string, name: string, width: number, height: number, ink: Ink): SVGElement {
@@ -233,14 +194,9 @@ function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
   return root;
 }
 
-function barOf(mean: { y: number; deviation: number }, log: boolean): [number, number] {
-  const low = mean.y - mean.deviation;
-  return [log && low <= 0 ? mean.y : low, mean.y + mean.deviation];
-}
-
-function shareOf(value: number, axis: Axis, log: boolean): number {
-  const [low, high] = axis.domain;
-  return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+/** One standard deviation up and down. */
+function barOf({ x, y, deviation }: Mean, log: boolean): { x: number; y1: number; y2: number } {
+  return { x, y1: log && y <= deviation ? y : y - deviation, y2: y + deviation };
 }
 
 function apartBy(size: (text: string) => number, length: number) {
@@ -279,16 +235,10 @@ function labelOf(axis: Axis): (tick: number) => string {
   return (tick) => axis.labels[axis.ticks.indexOf(tick)];
 }
 
-function yLabel(choice: ChartChoice, scale: Scale): string {
-  return label(choice.y.join(', '), scale);
-}
-
 function pointText(l: Line, p: Point, choice: ChartChoice, x: Scale, y: Scale, names: string[]): string {
-  const number = (value: number, scale: Scale): string =>
-    numberText(value / scale.factor) + (scale.unit && ' ' + scale.unit);
+  const number = (value: number, { unit }: Scale): string => numberText(value) + (unit && ` ${unit}`);
   const part = choice.per ? `${l.name}\n` : '';
-  const along = names[p.x] ?? number(p.x, x);
-  return `${part}${choice.x} = ${along}\n${l.column} = ${number(p.y, y)}`;
+  return `${part}${choice.x} = ${names[p.x] ?? number(p.x, x)}\n${l.column} = ${number(p.y, y)}`;
 }
 
 interface Entry {
@@ -318,24 +268,46 @@ function legendMarks(rows: Entry[][], top: number, ink: Ink): Markish[] {
   return rows.flatMap((entries, row) =>
     entries.flatMap(({ text: words, at, index }) => {
       const place = { frameAnchor: 'top-left' as const, dx: at + 6, dy: 14 + row * lineHeight - top };
+      const look = { symbol: symbols[index % symbols.length], fill: ink.series[index % ink.series.length] };
+      const beside = { textAnchor: 'start' as const, lineAnchor: 'middle' as const, fontSize, fill: ink.text };
       return [
-        dot([0], {
-          ...place,
-          r: 5,
-          symbol: symbols[index % symbols.length],
-          fill: ink.series[index % ink.series.length],
-          stroke: 'none',
-        }),
-        text([words], { ...place, dx: at + 18, textAnchor: 'start', lineAnchor: 'middle', fontSize, fill: ink.text }),
+        dot([0], { ...place, ...look, r: 5, stroke: 'none' }),
+        text([words], { ...place, ...beside, dx: at + 18 }),
       ];
     }),
   );
 }
 
-function greatest(values: number[]): number {
-  return values.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
-}
-
 function count(n: number, what: string): string {
   return `${n} ${what}${n === 1 ? '' : 's'}`;
+}
+
+/** Single points have a paper-coloured outline; crowded points have none, because outlines would hide
+    neighbours and the line. Many crowded points are smaller, or omitted if the line passes through all. */
+type Marks = 'large' | 'small' | 'none';
+
+const radii = { large: 4, small: 2, none: 0 };
+
+/** `onLine`: the line passes through all points. */
+function marksFor(places: Point[], onLine: boolean): Marks {
+  if (share(crowded(places, 2 * radii.large)) <= 0.2) return 'large';
+  return onLine && places.length > 100 && share(crowded(places, 2 * radii.small)) > 0.5 ? 'none' : 'small';
+}
+
+/** Whether another place is nearer than `size`; identical places count as one. */
+function crowded(places: Point[], size: number): boolean[] {
+  const tenths = places.map((p) => ({ x: Math.round(10 * p.x), y: Math.round(10 * p.y), close: false }));
+  const known = new Map(tenths.map((p) => [`${p.x} ${p.y}`, p]));
+  const sorted = [...known.values()].sort((p, q) => p.x - q.x);
+  sorted.forEach((p, k) => {
+    for (let j = k + 1; j < sorted.length && sorted[j].x - p.x < 10 * size; ++j) {
+      const q = sorted[j];
+      if (!(p.close && q.close) && Math.hypot(p.x - q.x, p.y - q.y) < 10 * size) p.close = q.close = true;
+    }
+  });
+  return tenths.map((p) => known.get(`${p.x} ${p.y}`)!.close);
+}
+
+function share(of: boolean[]): number {
+  return of.filter(Boolean).length / of.length;
 }

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The choice of a chart, and its lines: for each y column and each value of a grouping column.
+// The charts of a run: the script's own, from check or run; otherwise the first varying columns of a
+// notebook. Lines: for each y column and each value of a grouping column.
 
-import type { Cell } from './api';
-import { namesIn, numericColumns, type Notebook } from './run';
-import { numberText } from './units';
+import type { Cell, Charted, ChartEvent } from './api';
+import { columnsAlong, namesIn, numericColumns, type Notebook, type Run } from './run';
+import { extentOf, grouped, numberText, sameToRounding, scaleFor } from './units';
 
-export interface ChartChoice {
-  x: string; // numbers or names
-  y: string[]; // of one unit
-  per: string; // grouping column, or empty
-  logX: boolean;
-  logY: boolean;
-  xLabel?: string; // instead of the column names
-  yLabel?: string;
-  where?: Record<string, Cell[]>; // only rows with these values
-  points?: boolean; // false: lines only
-  spread?: boolean; // bars: standard deviation of rows with equal x
-}
+/** The script's chart, or one chosen by hand. */
+export type ChartChoice = Pick<Charted, 'x' | 'y' | 'per' | 'log_x' | 'log_y'> & Partial<Charted>;
 
 export interface Point {
   x: number;
@@ -47,30 +38,26 @@ function rowsOf(notebook: Notebook, choice: ChartChoice): Notebook['rows'] {
 
 /** The lines, and the number of rows without a point. For names, x is the index of the name, from 0. */
 export function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
-  const groups = new Map<string, { column: string; points: Point[] }>();
-  let left = 0;
   const names = namesAlong(notebook, choice);
+  const along = (given: Cell | undefined): Cell | undefined =>
+    names.length === 0 ? given : typeof given === 'string' && names.includes(given) ? names.indexOf(given) : null;
+  let left = 0;
+  const all: { name: string; column: string; point: Point }[] = [];
   for (const row of rowsOf(notebook, choice)) {
-    const given = row[choice.x];
-    const place = typeof given === 'string' ? names.indexOf(given) : -1;
-    const x = names.length === 0 ? given : place < 0 ? null : place;
-    let drawn = false;
+    const x = along(row[choice.x]);
+    const before = all.length;
     for (const column of choice.y) {
       const y = row[column];
-      if (!shown(x, choice.logX && names.length === 0) || !shown(y, choice.logY)) continue;
-      drawn = true;
-      const key = nameOf(row, column, choice, notebook);
-      const group = groups.get(key);
-      if (group) group.points.push({ x, y });
-      else groups.set(key, { column, points: [{ x, y }] });
+      if (!shown(x, choice.log_x && names.length === 0) || !shown(y, choice.log_y)) continue;
+      all.push({ name: nameOf(row, column, choice, notebook), column, point: { x, y } });
     }
-    if (!drawn) ++left;
+    if (all.length === before) ++left;
   }
-  const order = (column: string): number => choice.y.indexOf(column);
-  const lines = [...groups]
-    .map(([name, { column, points }]) => ({ name, column, points, means: meansOf(points) }))
-    .sort((a, b) => order(a.column) - order(b.column));
-  return { lines, left };
+  const order = ({ column }: Line): number => choice.y.indexOf(column);
+  const lines = [...grouped(all, (p) => p.name)]
+    .map(([name, group]) => ({ name, column: group[0].column, points: group.map((p) => p.point) }))
+    .map((line) => ({ ...line, means: meansOf(line.points) }));
+  return { lines: lines.sort((a, b) => order(a) - order(b)), left };
 }
 
 function shown(value: Cell | undefined, log: boolean): value is number {
@@ -88,17 +75,116 @@ function nameOf(row: Record<string, Cell>, column: string, choice: ChartChoice, 
 }
 
 function meansOf(points: Point[]): Mean[] {
-  const groups = new Map<number, number[]>();
-  for (const p of points) {
-    const group = groups.get(p.x);
-    if (group) group.push(p.y);
-    else groups.set(p.x, [p.y]);
-  }
+  const groups = grouped(points, (p) => p.x);
   return [...groups]
-    .map(([x, ys]) => {
-      const y = ys.reduce((sum, v) => sum + v, 0) / ys.length;
-      const squares = ys.reduce((sum, v) => sum + (v - y) ** 2, 0);
-      return { x, y, deviation: ys.length > 1 ? Math.sqrt(squares / (ys.length - 1)) : 0 };
+    .map(([x, alike]) => {
+      const y = alike.reduce((sum, p) => sum + p.y, 0) / alike.length;
+      const squares = alike.reduce((sum, p) => sum + (p.y - y) ** 2, 0);
+      return { x, y, deviation: alike.length > 1 ? Math.sqrt(squares / (alike.length - 1)) : 0 };
     })
     .sort((a, b) => a.x - b.x);
+}
+
+export interface RunChart {
+  name: string; // the same in every run
+  title: string;
+  notebook: Notebook;
+  choice: ChartChoice;
+  asked: boolean; // by the script
+}
+
+const foretold = new Map<string, ChartEvent[]>(); // from checks, by script
+const mostKnown = 20; // scripts
+
+export function foretell(script: string, charts: ChartEvent[]): void {
+  foretold.delete(script);
+  foretold.set(script, charts);
+  if (foretold.size > mostKnown) foretold.delete(foretold.keys().next().value!);
+}
+
+/** The script's own first. */
+export function chartsOf(run: Run): RunChart[] {
+  const found: RunChart[] = [];
+  const over = run.status === 'done' && run.charted.size > 0;
+  for (const event of [...(over ? [] : (foretold.get(run.script) ?? [])), ...run.charted.values()]) {
+    const notebook = run.notebooks.get('study' in event ? event.study : event.notebook);
+    const charted = 'study' in event ? { ...ofStudy, title: `${event.study}: error against time` } : event.chart;
+    const choice = notebook && fitted(charted, notebook);
+    if (!choice) continue;
+    const title = charted.title || `${choice.y.join(', ')} against ${choice.x}`;
+    const name = `${notebook.name}: ${title}`;
+    if (!found.some((c) => c.name === name)) found.push({ name, title, notebook, choice, asked: true });
+  }
+  for (const notebook of run.notebooks.values()) {
+    if (numericColumns(notebook).length === 0 || columnsAlong(notebook).length < 2) continue;
+    if (found.some((c) => c.notebook === notebook)) continue;
+    found.push({ name: notebook.name, title: notebook.name, notebook, choice: firstChoice(run, notebook), asked: false });
+  }
+  return found;
+}
+
+const ofStudy: ChartChoice = { x: 'seconds', y: ['error'], per: 'way', log_x: true, log_y: true };
+
+/** Columns of the same unit. */
+export function columnsLike(notebook: Notebook, column: string): string[] {
+  const dimension = (c: string): string => scaleFor(notebook.units[c], 0).unit;
+  return numericColumns(notebook).filter((c) => dimension(c) === dimension(column));
+}
+
+function firstChoice(run: Run, notebook: Notebook): ChartChoice {
+  const columns = numericColumns(notebook);
+  const keys = keysIn(run.script);
+  const written = (c: string): number => (keys.includes(c) ? keys.indexOf(c) : keys.length);
+  const varied = columns.filter((c) => varies(notebook, c)).sort((a, b) => written(a) - written(b));
+  const per = partedBy(notebook);
+  if (columns.length < 2) {
+    const x = columnsAlong(notebook).find((c) => c !== columns[0])!;
+    return { x, y: [columns[0]], per: per === x ? '' : per, log_x: false, log_y: false };
+  }
+  const x = varied[0] ?? columns[0];
+  const y = varied[1] ?? columns.find((c) => c !== x)!;
+  return { x, y: [y], per, log_x: false, log_y: false };
+}
+
+/** The first column of texts with two to eight values; else empty. */
+function partedBy(notebook: Notebook): string {
+  const numeric = numericColumns(notebook);
+  const few = (count: number): boolean => count > 1 && count <= 8;
+  return notebook.columns.find((c) => !numeric.includes(c) && few(distinct(notebook, c))) ?? '';
+}
+
+/** Table keys of a script in order, without units: `N`, `["Ra [m]"]`. Rows lack this order. */
+function keysIn(script: string): string[] {
+  const text = /"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|\[(?<level>=*)\[[^]*?\]\k<level>\]/;
+  const key = /(?:\[(?<quote>["'])(?<text>[^"'\n]*?)(?: *\[[^"'\n]*\])?\k<quote>\]|(?<word>[A-Za-z_]\w*))\s*=(?!=)/;
+  const part = new RegExp(`--\\[(=*)\\[[^]*?\\]\\1\\]|--[^\\n]*|${key.source}|${text.source}|[([{}\\])]`, 'g');
+  const open: string[] = [];
+  const keys = new Set<string>();
+  for (const { 0: found, groups } of script.matchAll(part)) {
+    if ('([{'.includes(found)) open.push(found);
+    else if (')]}'.includes(found)) open.pop();
+    else if (groups?.text) keys.add(groups.text);
+    else if (groups?.word && open.at(-1) === '{') keys.add(groups.word);
+  }
+  return [...keys];
+}
+
+/** With the notebook's columns only; undefined without both axes. */
+export function fitted(choice: ChartChoice, notebook: Notebook): ChartChoice | undefined {
+  const columns = numericColumns(notebook);
+  const known = choice.y.filter((c) => columns.includes(c));
+  if (known.length === 0 || !columnsAlong(notebook).includes(choice.x)) return undefined;
+  const alike = columnsLike(notebook, known[0]);
+  const per = notebook.columns.includes(choice.per) ? choice.per : '';
+  return { ...choice, y: known.filter((c) => alike.includes(c)), per };
+}
+
+/** Beyond rounding. */
+function varies(notebook: Notebook, column: string): boolean {
+  const [low, high] = extentOf(notebook.rows.map((row) => row[column]));
+  return high > low && !sameToRounding(low, high);
+}
+
+function distinct(notebook: Notebook, column: string): number {
+  return new Set(notebook.rows.map((r) => r[column]).filter((v) => v !== undefined && v !== null)).size;
 }

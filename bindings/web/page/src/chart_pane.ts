@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The script's own charts, and charts of any columns of one unit against any other. A choice stays with the
-// chart's name from run to run. The drawing library is loaded with the first chart.
+// The script's own charts, and charts of any columns of one unit. A choice stays with the chart's name from
+// run to run. The drawing library is loaded with the first chart.
 
-import type { ChartChoice } from './chart_choice';
+import { chartsOf, columnsLike, fitted, type ChartChoice, type RunChart } from './chart_choice';
+import { inkNow, lightInk } from './colour';
 import { Choice, h, saveAs } from './dom';
-import { chartsOf, columnsLike, type RunChart } from './first_chart';
-import { inkNow, lightInk } from './ink';
 import { columnsAlong, numericColumns, type Run } from './run';
 
 type Drawing = typeof import('./chart');
 
-const several = '\n'; // y: all present columns
+const several = '\n'; // y: all columns
 
 export class ChartPane {
   private run: Run | undefined;
@@ -25,42 +24,34 @@ export class ChartPane {
   private readonly y = new Choice('y', (y) => y !== several && this.set({ y: [y] }));
   private readonly more = new Choice('and', (y) => y && this.set({ y: [...this.shown()!.choice.y, y] }));
   private readonly per = new Choice('One line per', (per) => this.set({ per }));
-  private readonly logX = h('input', { type: 'checkbox', onchange: () => this.set({ logX: this.logX.checked }) });
-  private readonly logY = h('input', { type: 'checkbox', onchange: () => this.set({ logY: this.logY.checked }) });
-  private readonly empty = h('p', { className: 'empty' });
-  private readonly frame = h('div', { className: 'chart' });
-  private readonly note = h('p', { className: 'caption' });
+  private readonly logX = h('input', { type: 'checkbox', onchange: () => this.set({ log_x: this.logX.checked }) });
+  private readonly logY = h('input', { type: 'checkbox', onchange: () => this.set({ log_y: this.logY.checked }) });
+  private readonly empty = h('p.empty');
+  private readonly frame = h('div.chart');
+  private readonly note = h('p.caption');
   private readonly body: HTMLElement;
 
   constructor(
     readonly element: HTMLElement,
     private readonly failed: (error: unknown) => void,
   ) {
-    const save = h('button', { type: 'button', onclick: () => this.save() }, 'Save SVG');
-    this.body = h(
-      'div',
-      { className: 'charts' },
-      h(
-        'div',
-        { className: 'choices' },
+    const save = h('button', { onclick: () => this.save() }, 'Save SVG');
+    this.body = h('div.charts',
+      h('div.choices',
         this.which.element,
-        h(
-          'details',
-          { className: 'axes' },
-          h('summary', {}, 'Axes'),
-          h(
-            'div',
-            { className: 'choices' },
+        h('details.axes',
+          h('summary', 'Axes'),
+          h('div.choices',
             this.x.element,
             this.y.element,
             this.more.element,
             this.per.element,
-            h('span', { className: 'pair' }, h('label', {}, this.logX, ' log x'), h('label', {}, this.logY, ' log y')),
+            h('span.pair', h('label', this.logX, ' log x'), h('label', this.logY, ' log y')),
           ),
         ),
       ),
       this.frame,
-      h('div', { className: 'below' }, this.note, save),
+      h('div.below', this.note, save),
     );
     element.append(this.empty, this.body);
     new ResizeObserver(() => this.draw()).observe(this.frame);
@@ -83,10 +74,7 @@ export class ChartPane {
   chartsFor(run: Run): RunChart[] {
     return chartsOf(run).map((chart) => {
       const known = this.choices.get(chart.name);
-      const columns = numericColumns(chart.notebook);
-      if (!known || !columnsAlong(chart.notebook).includes(known.x) || !known.y.every((y) => columns.includes(y))) return chart;
-      const per = chart.notebook.columns.includes(known.per) ? known.per : '';
-      return { ...chart, choice: { ...known, per } };
+      return { ...chart, choice: (known && fitted(known, chart.notebook)) ?? chart.choice };
     });
   }
 
@@ -101,7 +89,7 @@ export class ChartPane {
 
   private set(change: Partial<ChartChoice>): void {
     const present = this.shown();
-    const words = { ...(change.x ? { xLabel: '' } : {}), ...(change.y ? { yLabel: '' } : {}) };
+    const words = { ...(change.x && { x_label: '' }), ...(change.y && { y_label: '' }) };
     if (present) this.choices.set(present.name, { ...present.choice, ...words, ...change });
     this.draw();
   }
@@ -111,57 +99,38 @@ export class ChartPane {
     if (!shown || this.element.offsetParent === null) return;
     const { notebook, choice } = shown;
     const charts = this.charts();
-    const options = (columns: string[]): { value: string; text: string }[] =>
-      columns.map((c) => ({ value: c, text: c }));
     const columns = numericColumns(notebook);
     this.which.element.hidden = charts.length < 2;
-    this.which.choose(
-      charts.map((c) => ({ value: c.name, text: c.title })),
-      shown.name,
-    );
-    this.x.choose(options(columnsAlong(notebook)), choice.x);
+    this.which.choose(charts.map((c) => ({ value: c.name, text: c.title })), shown.name);
+    this.x.choose(columnsAlong(notebook), choice.x);
     const together = choice.y.length > 1 ? [{ value: several, text: choice.y.join(', ') }] : [];
-    this.y.choose([...together, ...options(columns)], choice.y.length > 1 ? several : choice.y[0]);
-    const more = columnsLike(notebook, choice.y[0]).filter((c) => c !== choice.x && !choice.y.includes(c));
+    this.y.choose([...together, ...columns], choice.y.length > 1 ? several : choice.y[0]);
+    const other = (c: string): boolean => c !== choice.x && !choice.y.includes(c);
+    const more = columnsLike(notebook, choice.y[0]).filter(other);
     this.more.element.hidden = more.length === 0;
-    this.more.choose([{ value: '', text: '(no other)' }, ...options(more)], '');
-    this.per.choose(
-      [
-        { value: '', text: '(one line)' },
-        ...options(notebook.columns.filter((c) => c !== choice.x && !choice.y.includes(c))),
-      ],
-      choice.per,
-    );
-    this.logX.disabled = !columns.includes(choice.x); // names have no logarithm
-    this.logX.checked = choice.logX && !this.logX.disabled;
-    this.logY.checked = choice.logY;
+    this.more.choose([{ value: '', text: '(no other)' }, ...more], '');
+    this.per.choose([{ value: '', text: '(one line)' }, ...notebook.columns.filter(other)], choice.per);
+    this.logX.disabled = !columns.includes(choice.x); // not for names
+    this.logX.checked = choice.log_x && !this.logX.disabled;
+    this.logY.checked = choice.log_y;
     if (!this.drawing) {
       this.library().then(() => this.draw(), this.failed);
       return;
     }
-    const drawn = this.drawing.drawChart(
-      notebook,
-      choice,
-      Math.max(280, this.frame.clientWidth),
-      Math.max(220, this.frame.clientHeight),
-      inkNow(),
-    );
-    this.frame.replaceChildren(drawn.element);
-    this.note.textContent =
-      `${drawn.summary}.` +
-      (drawn.left
-        ? ` ${drawn.left} ${drawn.left === 1 ? 'row is' : 'rows are'} left out: no number${choice.logX || choice.logY ? ', or none above zero for a logarithmic axis' : ' in both columns'}.`
-        : '');
+    const [width, height] = [Math.max(280, this.frame.clientWidth), Math.max(220, this.frame.clientHeight)];
+    const { element, summary, left } = this.drawing.drawChart(notebook, choice, width, height, inkNow());
+    this.frame.replaceChildren(element);
+    const why = choice.log_x || choice.log_y ? ', or none above zero for a logarithmic axis' : ' in both columns';
+    const rows = left ? ` ${left} ${left === 1 ? 'row is' : 'rows are'} left out: no number${why}.` : '';
+    this.note.textContent = `${summary}.${rows}`;
   }
 
   private save(): void {
     const shown = this.shown();
     if (!shown || !this.drawing) return;
     const { notebook, choice } = shown;
-    const drawn = this.drawing.drawChart(notebook, choice, 900, 560, lightInk).element;
-    saveAs(
-      `${notebook.name} ${choice.y.join(' ')} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_'),
-      new Blob([new XMLSerializer().serializeToString(drawn)], { type: 'image/svg+xml' }),
-    );
+    const { element } = this.drawing.drawChart(notebook, choice, 900, 560, lightInk);
+    const name = `${notebook.name} ${choice.y.join(' ')} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_');
+    saveAs(name, new Blob([new XMLSerializer().serializeToString(element)], { type: 'image/svg+xml' }));
   }
 }

@@ -1,17 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of values from 256 palette colours. Cells without contact have no pressure and no yield: grey, not
-// the lowest colour. Missing values are darker grey.
+// Colours of paper, lines and maps. A map has 256 colours of its palette. Cells without contact are grey, not
+// the lowest colour; missing values are darker grey.
 
 import { scaleLinear } from 'd3-scale';
 import { svg } from './dom';
-import { bytesOf, paletteOf } from './palettes';
-import { numberText, scaleFor } from './units';
+import { extentOf, numberText, scaleFor } from './units';
 
-const tables = new Map<string, Uint8Array>();
+/** For light and dark paper; chart lines in Okabe and Ito's colours for all kinds of colour vision, adjusted
+    for contrast. */
+export interface Ink {
+  text: string;
+  muted: string;
+  grid: string;
+  paper: string;
+  series: string[];
+}
 
-export function tableOf(field: string): Uint8Array {
-  const known = tables.get(field);
-  if (known) return known;
+export const lightInk: Ink = {
+  text: '#1c2126',
+  muted: '#4d5963',
+  grid: '#dfe3e6',
+  paper: '#ffffff',
+  series: ['#0b5fa5', '#b04a00', '#00765a', '#9a4480', '#6b5b00', '#3a3f47', '#3d86b8', '#c2611f'],
+};
+const darkInk: Ink = {
+  text: '#e6eaed',
+  muted: '#aeb9c2',
+  grid: '#343c44',
+  paper: '#14181c',
+  series: ['#6fb7ee', '#f0964b', '#4fc9a4', '#e194c4', '#e0cd4e', '#c6ccd2', '#9fd3f2', '#ffbf8f'],
+};
+
+export function inkNow(): Ink {
+  return matchMedia('(prefers-color-scheme: dark)').matches ? darkInk : lightInk;
+}
+
+interface Palette {
+  colours: number[]; // 0xRRGGBB, equal steps, ascending
+  none?: number; // lowest value, if special
+}
+
+/** Map colours, as in engine/plot/palette.cpp. Viridis and cividis are perceptually uniform. Heat, inferno
+    from orange to black, has a contrast of at least 3:1 with its grey. */
+const palettes: Record<string, Palette> = {
+  viridis: {
+    colours: [
+      0x440154, 0x48186a, 0x472d7b, 0x424086, 0x3b528b, 0x33638d, 0x2c728e, 0x26828e, 0x21918c, 0x1fa088, 0x28ae80,
+      0x3fbc73, 0x5ec962, 0x84d44b, 0xaddc30, 0xd8e219, 0xfde725,
+    ],
+  },
+  cividis: {
+    colours: [0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173, 0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46],
+  },
+  heat: {
+    colours: [0xdf5337, 0xcb4149, 0xb1325a, 0x932667, 0x751d6c, 0x57106e, 0x380962, 0x190c3e, 0x000004],
+    none: 0xe6eaed,
+  },
+  contact: { colours: [0xe6e6e6, 0x08306b] },
+};
+
+const ofField: Record<string, string> = { gap: 'cividis', pressure: 'heat', plastic: 'heat', contact: 'contact' };
+
+function paletteOf(field: string): Palette {
+  return palettes[ofField[field] ?? 'viridis'];
+}
+
+function bytesOf(colour: number): [number, number, number] {
+  return [colour >> 16, (colour >> 8) & 255, colour & 255];
+}
+
+function tableOf(field: string): Uint8Array {
   const { colours } = paletteOf(field);
   const table = new Uint8Array(768);
   for (let k = 0; k < 256; ++k) {
@@ -20,7 +78,6 @@ export function tableOf(field: string): Uint8Array {
     const [from, to] = [bytesOf(colours[below]), bytesOf(colours[below + 1])];
     for (let c = 0; c < 3; ++c) table[3 * k + c] = Math.round(from[c] + (place - below) * (to[c] - from[c]));
   }
-  tables.set(field, table);
   return table;
 }
 
@@ -31,15 +88,10 @@ export interface Range {
 
 /** Pressures, gaps and fractions start at zero. */
 export function rangeOf(field: string, values: Float32Array): Range {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const v of values) {
-    if (!Number.isFinite(v)) continue;
-    if (v < low) low = v;
-    if (v > high) high = v;
-  }
-  if (low > high) return { low: 0, high: 1 };
-  if (field === 'contact') return { low: 0, high: 1 };
+  const extent = extentOf(values);
+  const high = extent[1];
+  let low = extent[0];
+  if (low > high || field === 'contact') return { low: 0, high: 1 };
   if (field !== 'height' && low > 0) low = 0;
   return low === high ? { low: low - (Math.abs(low) || 1) / 2, high: high + (Math.abs(high) || 1) / 2 } : { low, high };
 }
@@ -55,16 +107,9 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
       out.fill(128, 3 * k, 3 * k + 3);
       continue;
     }
-    if (none && v <= 0) {
-      out[3 * k] = none[0];
-      out[3 * k + 1] = none[1];
-      out[3 * k + 2] = none[2];
-      continue;
-    }
-    const at = 3 * Math.min(255, Math.max(0, Math.round((v - range.low) * factor)));
-    out[3 * k] = table[at];
-    out[3 * k + 1] = table[at + 1];
-    out[3 * k + 2] = table[at + 2];
+    const from = none && v <= 0 ? none : table;
+    const at = none && v <= 0 ? 0 : 3 * Math.min(255, Math.max(0, Math.round((v - range.low) * factor)));
+    for (let c = 0; c < 3; ++c) out[3 * k + c] = from[at + c];
   }
   return out;
 }
@@ -74,11 +119,21 @@ function noneOf(field: string): [number, number, number] | undefined {
   return none === undefined ? undefined : bytesOf(none);
 }
 
+/** From above, y upwards, one pixel a node. `colours`: three bytes a node. */
+export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny: number }, colours: Uint8Array): void {
+  canvas.width = nx;
+  canvas.height = ny;
+  const pixels = new ImageData(nx, ny);
+  const data = pixels.data.fill(255);
+  for (let j = 0; j < ny; ++j)
+    for (let i = 0; i < nx; ++i)
+      for (let c = 0; c < 3; ++c) data[4 * ((ny - 1 - j) * nx + i) + c] = colours[3 * (j * nx + i) + c];
+  canvas.getContext('2d')!.putImageData(pixels, 0, 0);
+}
+
 /** `height` in px. */
 export function legend(field: string, unit: string, range: Range, height: number, ink: string): SVGElement {
-  const table = tableOf(field);
   const scale = scaleFor(unit, Math.max(Math.abs(range.low), Math.abs(range.high)));
-  const name = field === 'contact' ? 'contact' : field;
   const root = svg('svg', {
     width: 100,
     height,
@@ -87,49 +142,27 @@ export function legend(field: string, unit: string, range: Range, height: number
     'font-family': 'system-ui, sans-serif',
     'font-size': 15,
     fill: ink,
-    'aria-label': `Colours: ${name} from ${numberText(range.low / scale.factor)} to ${numberText(range.high / scale.factor)} ${scale.unit}`,
+    'aria-label': `Colours: ${field} from ${numberText(range.low / scale.factor)} to ${numberText(range.high / scale.factor)} ${scale.unit}`,
   });
-  root.append(
-    svg('text', { x: 4, y: 16 }, name),
-    svg('text', { x: 4, y: 34, 'font-size': 14 }, scale.unit ? `[${scale.unit}]` : field === 'contact' ? 'share' : ''),
-  );
+  const measure = scale.unit ? `[${scale.unit}]` : field === 'contact' ? 'share' : '';
+  root.append(svg('text', { x: 4, y: 16 }, field), svg('text', { x: 4, y: 34, 'font-size': 14 }, measure));
   const top = 46;
   const none = noneOf(field);
   const bottom = height - (none ? 40 : 10);
-  if (none) {
+  const frame = { x: 4, width: 20, stroke: ink, 'stroke-opacity': 0.5 };
+  if (none)
     root.append(
-      svg('rect', {
-        x: 4,
-        y: height - 28,
-        width: 20,
-        height: 18,
-        fill: `rgb(${none.join(',')})`,
-        stroke: ink,
-        'stroke-opacity': 0.5,
-      }),
+      svg('rect', { ...frame, y: height - 28, height: 18, fill: `rgb(${none.join(',')})` }),
       svg('text', { x: 33, y: height - 14 }, 'none'),
     );
-  }
-  const steps = 64;
-  for (let k = 0; k < steps; ++k) {
-    const at = 3 * Math.round((255 * k) / (steps - 1));
-    const y = bottom - ((k + 1) * (bottom - top)) / steps;
-    root.append(
-      svg('rect', {
-        x: 4,
-        y,
-        width: 20,
-        height: (bottom - top) / steps + 0.6,
-        fill: `rgb(${table[at]},${table[at + 1]},${table[at + 2]})`,
-      }),
-    );
-  }
+  const canvas = document.createElement('canvas');
+  drawFlat(canvas, { nx: 1, ny: 256 }, tableOf(field));
+  const bar = { x: 4, width: 20, y: top, height: bottom - top };
   root.append(
-    svg('rect', { x: 4, y: top, width: 20, height: bottom - top, fill: 'none', stroke: ink, 'stroke-opacity': 0.5 }),
+    svg('image', { ...bar, href: canvas.toDataURL(), preserveAspectRatio: 'none' }),
+    svg('rect', { ...frame, ...bar, fill: 'none' }),
   );
-  const place = scaleLinear()
-    .domain([range.low / scale.factor, range.high / scale.factor])
-    .range([bottom, top]);
+  const place = scaleLinear([range.low / scale.factor, range.high / scale.factor], [bottom, top]);
   for (const tick of place.ticks(Math.max(2, Math.floor(height / 55)))) {
     const y = place(tick);
     root.append(

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Views as self-contained drawings with legend, labels and caption, in light colours for paper. Each shows
-// the pane's first field: pressure of a press, heights of a surface.
+// Views as self-contained drawings with legend, labels and caption, in light colours for paper: pressure of a
+// press, heights of a surface.
 
-import { coloursOf, legend, rangeOf } from './colour';
+import { coloursOf, drawFlat, legend, lightInk, rangeOf } from './colour';
 import { svg } from './dom';
-import { lightInk } from './ink';
 import {
   anchorText,
-  barFor,
   captionOf,
   describe,
   exaggerations,
   fittingExaggeration,
-  heightsOf,
   reliefFields,
-  spanOf,
   type Attitude,
   type Field,
 } from './pictures';
@@ -46,21 +42,13 @@ export async function drawingsOf(
     if (!field) continue;
     await new Promise((r) => setTimeout(r)); // keep the page responsive
     const found = reliefFields(fields).find((f) => f.name === 'height') ?? reliefFields(fields)[0];
-    const relief = scene && found && found.nx === field.nx && found.ny === field.ny ? found : undefined;
-    if (relief && !steps.has(relief.name))
-      steps.set(
-        relief.name,
-        fittingExaggeration(spanOf(relief.values), Math.max(relief.sizeX, relief.sizeY)),
-      );
+    const relief = scene && found?.nx === field.nx && found.ny === field.ny ? found : undefined;
+    if (relief && !steps.has(relief.name)) steps.set(relief.name, fittingExaggeration(relief));
     const exaggeration = exaggerations[relief ? steps.get(relief.name)! : 0];
     const range = rangeOf(field.name, field.values);
     const colours = coloursOf(field.name, field.values, range);
     if (scene) {
-      const { nx, ny, sizeX, sizeY } = field;
-      scene.show(
-        { nx, ny, sizeX, sizeY, colours, heights: relief ? heightsOf(relief) : null, exaggeration },
-        relief ? barFor(spanOf(relief.values)) : 0,
-      );
+      scene.show(field, relief, colours, exaggeration);
       scene.turnTo(relief ? attitude : above);
       scene.render();
     } else {
@@ -104,22 +92,4 @@ async function sceneOn(canvas: HTMLCanvasElement): Promise<ReliefScene | undefin
   } catch {
     return undefined;
   }
-}
-
-/** From above, y upwards, one pixel a node. */
-export function drawFlat(canvas: HTMLCanvasElement, field: Field, colours: Uint8Array): void {
-  canvas.width = field.nx;
-  canvas.height = field.ny;
-  const pixels = new ImageData(field.nx, field.ny);
-  const { data } = pixels;
-  for (let j = 0, from = 0; j < field.ny; ++j) {
-    let to = 4 * (field.ny - 1 - j) * field.nx;
-    for (let i = 0; i < field.nx; ++i, from += 3, to += 4) {
-      data[to] = colours[from];
-      data[to + 1] = colours[from + 1];
-      data[to + 2] = colours[from + 2];
-      data[to + 3] = 255;
-    }
-  }
-  canvas.getContext('2d')!.putImageData(pixels, 0, 0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The editor: CodeMirror for Lua, completion from the server, and error marks of the dry run and the last
-// run. In a shadow root, CodeMirror adopts style sheets instead of adding <style> elements, which the content
-// policy forbids. Colours are CSS custom properties.
+// run. In a shadow root, CodeMirror adopts style sheets instead of <style> elements, which the content policy
+// forbids. Colours are CSS custom properties.
 
 import {
   autocompletion,
@@ -33,12 +33,9 @@ import {
   highlightActiveLineGutter,
   keymap,
   lineNumbers,
-  ViewPlugin,
-  type DecorationSet,
-  type ViewUpdate,
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
-import type { Api, Mark } from './api';
+import type { Api, Check, Mark } from './api';
 import { h } from './dom';
 
 const kinds: Record<string, string> = {
@@ -105,7 +102,7 @@ const colours = HighlightStyle.define([
   { tag: [tags.standard(tags.variableName), tags.function(tags.variableName)], color: 'var(--code-builtin)' },
 ]);
 
-// Classes, because the content policy forbids style attributes.
+// Classes: the content policy forbids style attributes.
 const deepest = 16;
 const hangingLines = Array.from({ length: deepest + 1 }, (_, depth) => Decoration.line({ class: `hang-${depth}` }));
 const hangingLook = EditorView.theme(
@@ -118,33 +115,20 @@ const hangingLook = EditorView.theme(
 );
 
 /** Wrapped lines keep their indent. */
-const hanging = ViewPlugin.fromClass(
-  class {
-    decorations: DecorationSet;
-    constructor(view: EditorView) {
-      this.decorations = this.build(view);
+const hanging = EditorView.decorations.of((view) => {
+  const builder = new RangeSetBuilder<Decoration>();
+  for (const { from, to } of view.visibleRanges) {
+    for (let at = from; at <= to; ) {
+      const line = view.state.doc.lineAt(at);
+      const indent = Math.min(deepest, /^ */.exec(line.text)![0].length + 2);
+      builder.add(line.from, line.from, hangingLines[indent]);
+      at = line.to + 1;
     }
-    update(update: ViewUpdate): void {
-      if (update.docChanged || update.viewportChanged) this.decorations = this.build(update.view);
-    }
-    private build(view: EditorView): DecorationSet {
-      const builder = new RangeSetBuilder<Decoration>();
-      for (const { from, to } of view.visibleRanges) {
-        for (let at = from; at <= to; ) {
-          const line = view.state.doc.lineAt(at);
-          const indent = Math.min(deepest, /^ */.exec(line.text)![0].length + 2);
-          builder.add(line.from, line.from, hangingLines[indent]);
-          at = line.to + 1;
-        }
-      }
-      return builder.finish();
-    }
-  },
-  { decorations: (plugin) => plugin.decorations },
-);
+  }
+  return builder.finish();
+});
 
-/** When typing over a selection, Chromium would add style attributes, which the content policy refuses.
-    */
+/** When typing over a selection, Chromium would add style attributes, which the content policy refuses. */
 const typingOver = EditorView.domEventHandlers({
   beforeinput(event, view) {
     const { data } = event;
@@ -162,7 +146,7 @@ const typingOver = EditorView.domEventHandlers({
 export interface EditorEvents {
   changed: (text: string) => void;
   checked: (marks: Mark[]) => void;
-  knobs: (script: string, knobs: unknown) => void; // without errors
+  found: (script: string, answer: Check) => void;
   failed: (error: unknown) => void;
 }
 
@@ -173,7 +157,7 @@ export class Editor {
   private timer = 0;
   private checking: AbortController | undefined;
   private quiet = false;
-  private within = -1; // position of the editor's own scrolling
+  private within = -1; // of the editor's own scrolling
 
   constructor(
     host: HTMLElement,
@@ -254,11 +238,11 @@ export class Editor {
     const doc = this.view.state.doc;
     if (!this.api.hasToken) return;
     try {
-      const answer = doc.length ? await this.api.check(doc.toString(), mine.signal) : { marks: [], knobs: {} };
+      const answer: Check = doc.length ? await this.api.check(doc.toString(), mine.signal) : { marks: [], knobs: {} };
       if (mine.signal.aborted || !this.view.state.doc.eq(doc)) return;
       this.marks = answer.marks;
       this.draw();
-      if (!answer.marks.some((m) => m.severity === 'error')) this.on.knobs(doc.toString(), answer.knobs);
+      this.on.found(doc.toString(), answer);
     } catch (error) {
       if (!mine.signal.aborted) this.on.failed(error);
     }
@@ -293,7 +277,7 @@ export class Editor {
         highlightSelectionMatches(),
         EditorView.lineWrapping,
         EditorView.scrollHandler.of((_, { head }) => {
-          // CodeMirror also scrolls the page: scroll back before the next paint.
+          // CodeMirror also scrolls the page: undo before the next paint.
           const { scrollX, scrollY } = window;
           if (head === this.within) queueMicrotask(() => scrollTo(scrollX, scrollY));
           this.within = -1;
@@ -336,8 +320,7 @@ export class Editor {
   }
 
   private async complete(context: CompletionContext): Promise<CompletionResult | null> {
-    // Automatically only in a word or after a dot or colon: a list after a brace or comma would capture the
-    // next Enter.
+    // Only in a word or after a dot or colon: a list after a brace or comma would capture Enter.
     if (!context.explicit && !context.matchBefore(/[\w][.:]?$|[)\]"'}][.:]$/)) return null;
     const waiting = new AbortController();
     context.addEventListener('abort', () => waiting.abort());
@@ -352,7 +335,7 @@ export class Editor {
             label: c.text,
             type: kinds[c.kind] ?? 'variable',
             detail: c.detail,
-            info: c.help ? () => h('div', {}, c.help!) : undefined,
+            info: c.help ? () => h('div', c.help!) : undefined,
           }),
         ),
       };

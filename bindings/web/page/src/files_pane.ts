@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a run, fetched on request; pictures are shown with the pane.
+// The files of a run, fetched on request; pictures with the pane.
 
 import type { Api } from './api';
 import { h, saveAs } from './dom';
@@ -19,9 +19,9 @@ export function pictureClass(name: string): string {
 
 /** Full page, until Escape or Close. */
 function enlarged(name: string, address: string): void {
-  const dialog = h('dialog', { className: 'enlarged', 'aria-label': name, onclose: () => dialog.remove() });
-  const close = h('button', { type: 'button', className: 'primary', onclick: () => dialog.close() }, 'Close');
-  dialog.append(h('img', { src: address, alt: `The picture ${name} of the run` }), h('p', {}, close, name));
+  const dialog = h('dialog.enlarged', { 'aria-label': name, onclose: () => dialog.remove() });
+  const close = h('button.primary', { onclick: () => dialog.close() }, 'Close');
+  dialog.append(h('img', { src: address, alt: `The picture ${name} of the run` }), h('p', close, name));
   document.body.append(dialog);
   dialog.showModal();
 }
@@ -30,9 +30,9 @@ export class FilesPane {
   private run: Run | undefined;
   private drawn = '';
   private readonly addresses = new Map<string, string>();
-  private readonly empty = h('p', { className: 'empty' });
-  private readonly list = h('ul', { className: 'files' });
-  private readonly previews = h('div', { className: 'previews' });
+  private readonly empty = h('p.empty');
+  private readonly list = h('ul.files');
+  private readonly previews = h('div.previews');
 
   constructor(
     readonly element: HTMLElement,
@@ -59,25 +59,11 @@ export class FilesPane {
     const now = files.map((f) => `${f.name} ${f.bytes}`).join('\n');
     if (now === this.drawn) return;
     this.drawn = now;
-    this.list.replaceChildren(
-      ...files.map((f) =>
-        h(
-          'li',
-          {},
-          h(
-            'button',
-            {
-              type: 'button',
-              className: 'file',
-              'aria-label': `Save ${f.name}, ${bytes(f.bytes)}`,
-              onclick: () => void this.save(f.name),
-            },
-            f.name,
-          ),
-          h('span', { className: 'bytes' }, bytes(f.bytes)),
-        ),
-      ),
-    );
+    const items = files.map(({ name, bytes: size }) => {
+      const save = { 'aria-label': `Save ${name}, ${bytes(size)}`, onclick: () => void this.save(name) };
+      return h('li', h('button.file', save, name), h('span.bytes', bytes(size)));
+    });
+    this.list.replaceChildren(...items);
     for (const f of files) if (pictureType(f.name)) void this.preview(f.name, f.bytes);
   }
 
@@ -99,17 +85,10 @@ export class FilesPane {
       if (run !== this.run) return;
       const address = URL.createObjectURL(blob);
       this.addresses.set(key, address);
-      const image = h('img', {
-        src: address,
-        alt: `The picture ${name} of the run`,
-        className: pictureClass(name),
-      });
-      const enlarge = h(
-        'button',
-        { type: 'button', 'aria-label': `Enlarge ${name}`, onclick: () => enlarged(name, address) },
-        image,
-      );
-      const figure = h('figure', {}, enlarge, h('figcaption', {}, name));
+      const alt = `The picture ${name} of the run`;
+      const image = h('img', { src: address, alt, className: pictureClass(name) });
+      const act = { 'aria-label': `Enlarge ${name}`, onclick: () => enlarged(name, address) };
+      const figure = h('figure', h('button', act, image), h('figcaption', name));
       figure.dataset.name = name;
       const old = [...this.previews.children].find((e) => (e as HTMLElement).dataset.name === name);
       if (old) old.replaceWith(figure);

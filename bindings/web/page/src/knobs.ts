@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders for a script's knobs, known from a check or a run's manifest. Moving a knob updates the live script
-// (live.ts); at rest, a recorded run with the new values replaces a current run.
+// Sliders for a script's knobs, from a check or a run's manifest. A move updates the live script (live.ts);
+// at rest, a recorded run with the new values replaces a current run.
 
 import type { Api } from './api';
-import { h } from './dom';
+import { h, slider } from './dom';
 import type { Followed } from './live';
 import type { Run } from './run';
-import { numberText, withUnit } from './units';
+import { numberText, shareOf, withUnit } from './units';
 
 export interface Knob {
   name: string;
@@ -31,12 +31,20 @@ export function knobsIn(manifest: unknown): Knob[] {
   );
 }
 
+/** False for a run that was stopped before its start: it has no record. */
+export async function readKnobs(run: Run, api: Api): Promise<boolean> {
+  try {
+    const manifest = async () => JSON.parse(await (await api.file(run.id, 'manifest.json')).text()) as unknown;
+    if (run.knobs.length === 0) run.knobs = knobsIn(await manifest());
+    return true;
+  } catch {
+    return false;
+  }
+}
+
 /** The end positions give the exact bounds. */
 export function placeOf(knob: Knob, value: number): number {
-  const share = knob.log
-    ? Math.log(value / knob.from) / Math.log(knob.to / knob.from)
-    : (value - knob.from) / (knob.to - knob.from);
-  return Math.round(steps * Math.min(1, Math.max(0, share)));
+  return Math.round(steps * Math.min(1, Math.max(0, shareOf(value, [knob.from, knob.to], knob.log))));
 }
 
 export function valueAt(knob: Knob, place: number): number {
@@ -55,7 +63,7 @@ export function knobText(knob: Knob, value = knob.value): string {
 }
 
 export class KnobsPane {
-  readonly element = h('div', { className: 'knobs', role: 'group', 'aria-label': 'Knobs of the script', hidden: true });
+  readonly element = h('div.knobs', { role: 'group', 'aria-label': 'Knobs of the script', hidden: true });
   private of: Followed | undefined; // owner of the shown knobs
   private asked: Run | undefined; // manifest requested
   private current: Run | undefined;
@@ -110,17 +118,12 @@ export class KnobsPane {
   }
 
   private async fetch(run: Run): Promise<void> {
-    try {
-      const manifest = JSON.parse(await (await this.api.file(run.id, 'manifest.json')).text()) as unknown;
-      const found = knobsIn(manifest);
-      run.knobs = found.map((k) => ({ ...k }));
-      if (this.asked !== run || this.timer || this.starting || this.waiting) return;
-      // After an early error, the user can go back.
-      if (found.length > 0 || run.script !== this.of?.script)
-        this.fill({ script: run.script, name: run.name, key: this.actions.keyOf(run) }, found);
-    } catch {
-      // A run stopped before its start has no record.
-    }
+    if (!(await readKnobs(run, this.api)) || this.asked !== run) return;
+    if (this.timer || this.starting || this.waiting) return;
+    // After an early error, the user can go back.
+    if (run.knobs.length === 0 && run.script === this.of?.script) return;
+    const of = { script: run.script, name: run.name, key: this.actions.keyOf(run) };
+    this.fill(of, run.knobs.map((k) => ({ ...k })));
   }
 
   private clear(): void {
@@ -150,35 +153,19 @@ export class KnobsPane {
   }
 
   private slider(knob: Knob): HTMLElement {
-    const text = (): string => knobText(knob);
-    const value = h('output', { className: 'factor' });
     const touched = (): void => {
       if (this.of) this.actions.touched(this.of);
     };
-    const input = h('input', {
-      type: 'range',
-      min: '0',
-      max: String(steps),
-      step: '1',
-      'aria-label': knob.name,
-      onpointerenter: touched,
-      onfocus: touched,
-      oninput: (event: Event) => {
-        knob.value = valueAt(knob, Number(input.value));
-        say();
-        this.moved(event.timeStamp);
-      },
-    });
-    const say = (): void => {
-      value.textContent = text();
-      input.setAttribute('aria-valuetext', text());
+    const moved = (place: number, event: Event): void => {
+      knob.value = valueAt(knob, place);
+      made.tell(place, knobText(knob));
+      this.moved(event.timeStamp);
     };
-    this.tell.push(() => {
-      input.value = String(placeOf(knob, knob.value));
-      say();
-    });
-    this.tell[this.tell.length - 1]();
-    return h('label', { className: 'choice' }, h('span', {}, knob.name), input, value);
+    const made = slider(knob.name, steps, moved, { onpointerenter: touched, onfocus: touched });
+    const tell = (): void => made.tell(placeOf(knob, knob.value), knobText(knob));
+    this.tell.push(tell);
+    tell();
+    return made.element;
   }
 
   private values(): Record<string, string> {
@@ -223,11 +210,5 @@ export class KnobsPane {
 
 /** Equal except for the value. */
 function sameKnob(one: Knob, other: Knob): boolean {
-  return (
-    one.name === other.name &&
-    one.from === other.from &&
-    one.to === other.to &&
-    one.log === other.log &&
-    one.unit === other.unit
-  );
+  return JSON.stringify({ ...one, value: 0 }) === JSON.stringify({ ...other, value: 0 });
 }

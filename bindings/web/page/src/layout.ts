@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tabs, dividers and keyboard navigation.
 
+import { ApiError, serverGoneHint, tokenHint } from './api';
+import { byId, h } from './dom';
 import { keep, kept } from './storage';
 
 export class Tabs {
@@ -18,12 +19,11 @@ export class Tabs {
         this.select(this.name(tab));
       });
       tab.addEventListener('keydown', (event) => {
-        const to = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: this.tabs.length - 1 }[event.key];
+        const to = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: -1 }[event.key];
         if (to === undefined) return;
         event.preventDefault();
-        this.byHand = true;
-        const next = this.tabs[(to + this.tabs.length) % this.tabs.length];
-        this.select(this.name(next));
+        const next = this.tabs.at(to % this.tabs.length)!;
+        next.click();
         next.focus();
       });
     });
@@ -39,11 +39,10 @@ export class Tabs {
     this.changed(name);
   }
 
-  /** Not if the user chose a tab or has the focus in a panel; then false. */
-  offer(name: string): boolean {
-    if (this.byHand || document.activeElement?.closest('[role=tabpanel]')) return false;
-    if (this.selected !== name) this.select(name);
-    return true;
+  /** Not if the user chose a tab or has the focus in a panel. */
+  offer(name: string): void {
+    const stays = this.byHand || document.activeElement?.closest('[role=tabpanel]');
+    if (!stays && this.selected !== name) this.select(name);
   }
 
   forgetChoice(): void {
@@ -51,11 +50,11 @@ export class Tabs {
   }
 
   get selected(): string {
-    return this.name(this.tabs.find((t) => t.getAttribute('aria-selected') === 'true')!);
+    return this.name(this.shown);
   }
 
   focus(): void {
-    this.tabs.find((t) => t.getAttribute('aria-selected') === 'true')!.focus();
+    this.shown.focus();
   }
 
   /** The number of items behind a tab; 0 is hidden. */
@@ -63,6 +62,10 @@ export class Tabs {
     const badge = this.tabs.find((t) => this.name(t) === name)!.querySelector('.count')!;
     const text = count ? String(count) : '';
     if (badge.textContent !== text) badge.textContent = text;
+  }
+
+  private get shown(): HTMLButtonElement {
+    return this.tabs.find((t) => t.getAttribute('aria-selected') === 'true')!;
   }
 
   private name(tab: HTMLElement): string {
@@ -90,17 +93,12 @@ export function divider(
   element.setAttribute('aria-valuemin', String(least));
   element.setAttribute('aria-valuemax', String(most));
   set(value);
-  element.addEventListener('pointerdown', (event) => {
-    element.setPointerCapture(event.pointerId);
-    const move = (e: PointerEvent): void => {
-      const box = frame.getBoundingClientRect();
-      const share = ((e.clientX - box.left) / box.width) * 100;
-      set(fromRight ? 100 - share : share);
-    };
-    element.addEventListener('pointermove', move);
-    element.addEventListener('lostpointercapture', () => element.removeEventListener('pointermove', move), {
-      once: true,
-    });
+  element.addEventListener('pointerdown', (event) => element.setPointerCapture(event.pointerId));
+  element.addEventListener('pointermove', (event) => {
+    if (!element.hasPointerCapture(event.pointerId)) return;
+    const box = frame.getBoundingClientRect();
+    const share = ((event.clientX - box.left) / box.width) * 100;
+    set(fromRight ? 100 - share : share);
   });
   element.addEventListener('keydown', (event) => {
     const by = { ArrowLeft: -2, ArrowRight: 2 }[event.key];
@@ -109,6 +107,8 @@ export function divider(
     set(value + (fromRight ? -by : by));
   });
 }
+
+const reachable = 'script, dialog, [aria-live], [role=alert]';
 
 /** Fills the window with an element; only the banner stays reachable. */
 export class Filling {
@@ -128,33 +128,83 @@ export class Filling {
     this.element.classList.toggle('filling', on);
     this.button.setAttribute('aria-pressed', String(on));
     for (let e: HTMLElement | null = this.element; e && e !== document.body; e = e.parentElement) {
-      for (const other of e.parentElement?.children ?? []) {
-        if (other !== e && other instanceof HTMLElement && !other.matches('script, dialog, [aria-live], [role=alert]')) other.inert = on;
-      }
+      for (const other of e.parentElement!.children)
+        if (other !== e && !other.matches(reachable)) (other as HTMLElement).inert = on;
     }
     this.changed(on);
   }
 }
 
-/** F6: next visible pane; Shift-F6: previous. */
+/** F6: next visible pane; Shift-F6: previous. From outside all panes: the nearest in document order. */
 export function goRound(panes: { element: HTMLElement; enter: () => void }[]): void {
   document.addEventListener('keydown', (event) => {
     if (event.key !== 'F6') return;
     event.preventDefault();
     const open = panes.filter((p) => !p.element.hidden);
-    const at = open.findIndex((p) => p.element.contains(document.activeElement));
-    const step = event.shiftKey ? -1 : 1;
-    if (at >= 0) {
-      open[(at + step + open.length) % open.length].enter();
+    const focused = document.activeElement ?? document.body;
+    const follows = (p: { element: HTMLElement }): number =>
+      focused.compareDocumentPosition(p.element) & Node.DOCUMENT_POSITION_FOLLOWING;
+    const reached = open.filter((p) => !follows(p)).length;
+    const inside = open[reached - 1]?.element.contains(focused);
+    const next = event.shiftKey ? reached - (inside ? 2 : 1) : reached % open.length;
+    open.at(next)!.enter();
+  });
+}
+
+const askedAgain = 3000; // ms
+
+/** The live region for screen readers, and the banner, which retries while the server is unreachable. */
+export class Messages {
+  private readonly live = byId('live');
+  private readonly banner = byId('banner');
+  private timer = 0;
+
+  constructor(private readonly ask: () => void) {}
+
+  get watching(): boolean {
+    return this.timer !== 0;
+  }
+
+  say = (text: string): void => {
+    // Screen readers skip unchanged text.
+    this.live.textContent = this.live.textContent === text ? `${text} ` : text;
+  };
+
+  tell(title: string, hint: string, retry?: () => void): void {
+    const again = retry ? h('button', { onclick: retry }, 'Try again') : '';
+    const close = h('button', { onclick: () => this.clear() }, 'Close');
+    this.banner.replaceChildren(h('p', h('strong', title), ` ${hint}`), again, close);
+    this.banner.hidden = false;
+  }
+
+  clear(): void {
+    this.banner.hidden = true;
+  }
+
+  answered(): void {
+    clearInterval(this.timer);
+    this.timer = 0;
+  }
+
+  failed = (error: unknown): void => {
+    if (!(error instanceof ApiError)) {
+      console.error(error);
+      this.tell('This page has made a mistake.', String(error));
       return;
     }
-    // Outside all panes: the nearest in document order.
-    const follows = (p: { element: HTMLElement }): boolean =>
-      ((document.activeElement ?? document.body).compareDocumentPosition(p.element) &
-        Node.DOCUMENT_POSITION_FOLLOWING) !==
-      0;
-    const after = open.filter(follows);
-    const before = open.filter((p) => !follows(p));
-    (event.shiftKey ? (before.at(-1) ?? open.at(-1)!) : (after[0] ?? open[0])).enter();
-  });
+    const title = sentence(error.message).replace(/([^.!?])$/, '$1.');
+    if (error.failure === 'gone') {
+      this.tell(title, serverGoneHint, this.ask);
+      this.answered();
+      this.timer = window.setInterval(this.ask, askedAgain);
+    } else if (error.failure === 'token') {
+      this.tell(title, tokenHint);
+    } else {
+      this.tell(title, sentence(error.hint));
+    }
+  };
+}
+
+function sentence(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of lessons, and the open lesson: question, predictions, then text. The browser stores edited
-// scripts and predictions by name. Back returns to the list.
+// scripts and predictions by name.
 
 import type { Api, Lesson, LessonEntry } from './api';
 import { h } from './dom';
 import { calledOut, markdown } from './markdown';
-import { PredictionBox, type ScriptAtHand } from './prediction_box';
-import type { Guess } from './predictions';
+import { PredictionBox, type Guess, type ScriptAtHand } from './prediction_box';
 import { keptScript } from './storage';
 
 export interface Opened {
@@ -49,72 +48,45 @@ export class LessonsPane {
       this.failed(error);
     }
     this.prediction = undefined;
-    const entries = this.entries ?? [];
-    const list = h(
-      'ol',
-      { className: 'lessons' },
-      ...entries.map((e) =>
-        h(
-          'li',
-          {},
-          h(
-            'button',
-            { type: 'button', onclick: () => this.go(e.name) },
-            h('strong', {}, e.title),
-            e.question ? h('span', {}, e.question) : null,
-            h(
-              'small',
-              {},
-              [e.minutes ? `${e.minutes} min` : '', keptScript(`lesson.${e.name}`) === null ? '' : 'edited here']
-                .filter(Boolean)
-                .join(' · '),
-            ),
-          ),
-        ),
-      ),
-    );
+    const items = (this.entries ?? []).map((e) => {
+      const facts = [e.minutes ? `${e.minutes} min` : '', keptScript(`lesson.${e.name}`) === null ? '' : 'edited here'];
+      const question = e.question ? h('span', e.question) : null;
+      const small = h('small', facts.filter(Boolean).join(' · '));
+      return h('li', h('button', { onclick: () => this.go(e.name) }, h('strong', e.title), question, small));
+    });
     this.element.replaceChildren(
       h('h2', { tabIndex: -1 }, 'Lessons'),
-      h(
-        'button',
-        { type: 'button', className: 'own', onclick: this.own },
-        h('strong', {}, 'Your own script'),
-        h('span', {}, 'Nothing but the editor: kept in this browser.'),
+      h('button.own', { onclick: this.own },
+        h('strong', 'Your own script'),
+        h('span', 'Nothing but the editor: kept in this browser.'),
       ),
-      entries.length
-        ? list
-        : h(
-            'p',
-            { className: 'empty' },
-            this.entries ? 'This installation has no lessons.' : 'The lessons could not be read.',
-          ),
+      items.length
+        ? h('ol.lessons', ...items)
+        : h('p.empty', this.entries ? 'This installation has no lessons.' : 'The lessons could not be read.'),
     );
     if (focus) this.element.querySelector('h2')!.focus();
   }
 
-  async show(name: string, focus: boolean): Promise<boolean> {
+  async show(name: string, focus: boolean): Promise<void> {
     try {
       const lesson = this.lessons.get(name) ?? (await this.api.lesson(name));
       this.lessons.set(name, lesson);
-      const entry = this.entries?.find((e) => e.name === name);
-      const question = lesson.question ?? entry?.question;
+      const question = lesson.question ?? this.entries?.find((e) => e.name === name)?.question;
       const key = `lesson.${name}`;
       this.open({ key, title: lesson.title, script: keptScript(key) ?? lesson.script, original: lesson.script });
       this.prediction = new PredictionBox(name, lesson.script, this.script, this.predicted);
       this.element.replaceChildren(
-        h('button', { type: 'button', className: 'back', onclick: () => this.go('') }, '← All lessons'),
+        h('button.back', { onclick: () => this.go('') }, '← All lessons'),
         h('h2', { tabIndex: -1 }, lesson.title),
         ...(question ? [calledOut('Question', question)] : []),
         ...(lesson.predict ? [calledOut('Predict', lesson.predict)] : []),
         this.prediction.element,
-        h('div', { className: 'lesson' }, markdown(lesson.text)),
+        h('div.lesson', markdown(lesson.text)),
       );
       this.element.scrollTop = 0;
       if (focus) this.element.querySelector('h2')!.focus();
-      return true;
     } catch (error) {
       this.failed(error);
-      return false;
     }
   }
 }

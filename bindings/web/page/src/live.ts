@@ -2,7 +2,7 @@
 // Live scripts: a server process for this tab answers each knob move. Only the newest move is sent; it waits
 // for a pending answer, shortly and only before a coarse answer.
 
-import { ApiError, type Api, type RunEvent, type View } from './api';
+import { ApiError, type Api, type FieldFacts, type RunEvent, type View } from './api';
 import { fieldOf, type Field } from './pictures';
 import { Run } from './run';
 
@@ -12,18 +12,19 @@ export interface Followed {
   key: string;
 }
 
-/** An answer without the numbers of its view. */
-export interface LiveFacts {
-  part: 'coarse' | 'whole' | 'outdated' | 'ended';
-  why?: string;
-  factor?: number;
-  seconds?: number;
-  computed?: number;
-  recalled?: number;
-  events?: RunEvent[];
-  views?: { name: string; title: string }[];
-  view?: Omit<View, 'event'> & { name: string };
+/** Results without the numbers of the view. */
+export interface LiveResults {
+  part: 'coarse' | 'whole'; // coarse, then whole
+  factor: number; // of `cells`
+  seconds: number;
+  computed: number; // heavy results
+  recalled: number; // from memory
+  events: RunEvent[];
+  views: { name: string; title: string }[];
+  view?: View<FieldFacts> & { name: string };
 }
+
+export type LiveFacts = LiveResults | { part: 'outdated' | 'ended' };
 
 export interface LivePicture {
   name: string;
@@ -43,9 +44,10 @@ interface Under {
   coarse: boolean; // has arrived
 }
 
-const patience = 250; // ms, wait for a pending answer,
+const patience = 250; // ms, for a pending answer
 const mostPatience = 2000; // or 1.5 times the last full answer, up to this
 const slow = 450; // ms
+const moveAgain = 'Move the knob again, or run the script.';
 
 export class Live {
   /** Refused by the server. */
@@ -135,7 +137,7 @@ export class Live {
       }
     } catch (error) {
       this.wanted = undefined;
-      // Not live: the script runs as a whole when the knob rests.
+      // Not live: run the whole script at rest.
       if (error instanceof ApiError && error.failure === 'refused') this.failed = true;
       else this.on.failed(error);
     } finally {
@@ -153,28 +155,23 @@ export class Live {
       const id = await this.open(move.of.script);
       under.since = performance.now();
       let gone = false;
-      await this.api.moveLive(
-        id,
-        move.values,
-        this.on.view(),
-        (facts, numbers) => {
-          if (under.stop.signal.aborted) return;
-          if (facts.part === 'ended') gone = true;
-          if (facts.part !== 'coarse' && facts.part !== 'whole') return;
-          under.coarse ||= facts.part === 'coarse';
-          this.take(move, facts, numbers);
-          this.hurry();
-        },
-        under.stop.signal,
-      );
+      const take = (facts: LiveFacts, numbers: Float32Array[]): void => {
+        if (under.stop.signal.aborted) return;
+        if (facts.part === 'ended') gone = true;
+        if (facts.part !== 'coarse' && facts.part !== 'whole') return;
+        under.coarse ||= facts.part === 'coarse';
+        this.take(move, facts, numbers);
+        this.hurry();
+      };
+      await this.api.moveLive(id, move.values, this.on.view(), take, under.stop.signal);
       if (gone && !under.stop.signal.aborted) {
         this.session = undefined;
         if (again && mine) await this.ask(move, false);
-        else throw new ApiError('limit', 'The script that follows its knobs was ended.', 'Move the knob again, or run the script.');
+        else throw new ApiError('limit', 'The script that follows its knobs was ended.', moveAgain);
       }
     } catch (error) {
       if (under.stop.signal.aborted) return;
-      // The process has ended, idle or to make room: start another.
+      // Idle or replaced process: start another.
       if (again && mine && error instanceof ApiError && error.failure === 'refused') {
         this.session = undefined;
         return this.ask(move, false);
@@ -186,78 +183,59 @@ export class Live {
     }
   }
 
-  private take(move: Move, facts: LiveFacts, numbers: Float32Array[]): void {
+  private take(move: Move, facts: LiveResults, numbers: Float32Array[]): void {
     const { of } = move;
-    if (facts.part === 'whole') this.took = 1000 * (facts.seconds ?? 0);
+    if (facts.part === 'whole') this.took = 1000 * facts.seconds;
     const run = new Run('', of.name, of.script);
-    run.live = {
-      coarse: facts.part === 'coarse',
-      factor: facts.factor ?? 1,
-      seconds: facts.seconds ?? 0,
-      computed: facts.computed ?? 0,
-      recalled: facts.recalled ?? 0,
-      fields: (name) => this.look(move, name),
-    };
+    run.live = { ...facts, fields: (name) => this.look(move, name) };
     run.status = 'done';
-    for (const event of facts.events ?? []) run.take(event);
+    for (const event of facts.events) run.take(event);
     if (run.errors.length > 0) run.status = 'failed';
-    for (const { name, title } of facts.views ?? []) run.take({ n: 0, type: 'view', name, title });
-    const picture = facts.view && { name: facts.view.name, fields: facts.view.fields.map((f, k) => fieldOf(f, numbers[k])) };
-    this.on.answered(run, of, picture, move.began);
+    for (const { name, title } of facts.views) run.take({ n: 0, type: 'view', name, title });
+    this.on.answered(run, of, pictureIn(facts, numbers), move.began);
   }
 
   private async look(move: Move, name: string): Promise<Field[]> {
     let found: Field[] = [];
     const id = await this.open(move.of.script);
-    await this.api.moveLive(
-      id,
-      move.values,
-      name,
-      (facts, numbers) => {
-        if (facts.part === 'whole' && facts.view?.name === name) found = facts.view.fields.map((f, k) => fieldOf(f, numbers[k]));
-      },
-      new AbortController().signal,
-    );
+    const take = (facts: LiveFacts, numbers: Float32Array[]): void => {
+      const picture = facts.part === 'whole' ? pictureIn(facts, numbers) : undefined;
+      if (picture?.name === name) found = picture.fields;
+    };
+    await this.api.moveLive(id, move.values, name, take, new AbortController().signal);
     return found;
   }
+}
+
+function pictureIn({ view }: LiveResults, numbers: Float32Array[]): LivePicture | undefined {
+  return view && { name: view.name, fields: view.fields.map((f, k) => fieldOf(f, numbers[k])) };
 }
 
 /** Frames: a number of texts, then each after its length. */
 export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: Uint8Array[]) => void): Promise<void> {
   const reader = body.getReader();
-  let bytes = new Uint8Array(1 << 20);
-  let filled = 0;
-  for (;;) {
-    const { value, done } = await reader.read();
-    if (done) return;
-    if (filled + value.length > bytes.length) {
-      const more = new Uint8Array(2 * (filled + value.length));
-      more.set(bytes.subarray(0, filled));
-      bytes = more;
-    }
-    bytes.set(value, filled);
-    filled += value.length;
-    for (let end; (end = whole(bytes, filled, take)) > 0; ) {
-      bytes.copyWithin(0, end, filled);
-      filled -= end;
-    }
+  let bytes = new Uint8Array();
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    const more = new Uint8Array(bytes.length + piece.value.length);
+    more.set(bytes);
+    more.set(piece.value, bytes.length);
+    bytes = more;
+    for (let end; (end = whole(bytes, take)) > 0; ) bytes = bytes.slice(end);
   }
 }
 
 /** The end of the first complete frame; 0 if incomplete. */
-function whole(bytes: Uint8Array, filled: number, take: (texts: Uint8Array[]) => void): number {
+function whole(bytes: Uint8Array, take: (texts: Uint8Array[]) => void): number {
   const numbers = new DataView(bytes.buffer);
-  if (filled < 8) return 0;
-  const count = Number(numbers.getBigUint64(0, true));
+  if (bytes.length < 8) return 0;
   const texts: Uint8Array[] = [];
   let at = 8;
-  for (let k = 0; k < count; ++k) {
-    if (at + 8 > filled) return 0;
-    const length = Number(numbers.getBigUint64(at, true));
-    at += 8;
-    if (at + length > filled) return 0;
-    texts.push(bytes.slice(at, at + length));
-    at += length;
+  for (let left = numbers.getBigUint64(0, true); left > 0; --left) {
+    if (at + 8 > bytes.length) return 0;
+    const end = at + 8 + Number(numbers.getBigUint64(at, true));
+    if (end > bytes.length) return 0;
+    texts.push(bytes.slice(at + 8, end));
+    at = end;
   }
   take(texts);
   return at;

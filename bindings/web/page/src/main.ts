@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `asperity serve`. This file connects the panes; a pane knows only its run and the server's
-// interface.
+// The page of `asperity serve`: connects the panes, which know only their run and the server's interface.
 
-import { Api, ApiError, tokenHint, type About, type Mark } from './api';
+import { Api, ApiError, tokenHint, type About, type EventOf, type Mark } from './api';
+import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
-import { chartsOf } from './first_chart';
 import { KnobsPane } from './knobs';
-import { divider, Filling, goRound, Tabs } from './layout';
+import { divider, Filling, goRound, Messages, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Live, type Followed, type LivePicture } from './live';
-import { Messages } from './messages';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
-import type { Guess } from './predictions';
-import { showWhose } from './results_heading';
+import type { Guess } from './prediction_box';
 import { HelpButton, Room } from './room';
-import { Run, statusText } from './run';
-import { savedRun } from './save';
-import { RecordedRuns } from './saved/recorded';
+import { endText, errorText, readStudy, Run, statusText } from './run';
+import { RecordedRuns, savedRun } from './save';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
-import { readStudy } from './studies';
 import { TablePane } from './table_pane';
 import { bytes, duration } from './units';
 
@@ -65,12 +60,13 @@ let runOf = ''; // document key
 let listening: AbortController | undefined;
 let recording: Run | undefined; // shown after its end
 const openBefore = kept('open') ?? '';
-let opened: Opened = {
+const ownScript = (script = keptScript('own') ?? newcomer): Opened => ({
   key: 'own',
   title: 'Your own script',
-  script: keptScript('own') ?? newcomer,
+  script,
   original: newcomer,
-};
+});
+let opened = ownScript();
 const recorded = new RecordedRuns();
 
 // Panes ------------------------------------------------------------------------------------------
@@ -83,7 +79,12 @@ const editor = new Editor(byId('editor'), api, {
     showDocument();
   },
   checked: showProblems,
-  knobs: (script, told) => knobs.know({ script, name: opened.title, key: opened.key }, told),
+  found: (script, { marks, knobs: told, charts: foretold }) => {
+    foretell(script, foretold ?? []);
+    draw();
+    if (marks.some((m) => m.severity === 'error')) return;
+    knobs.know({ script, name: opened.title, key: opened.key }, told);
+  },
   failed: (error) => failed(error),
 });
 const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
@@ -115,7 +116,7 @@ const lessons = new LessonsPane(
   api,
   open,
   () => {
-    open({ key: 'own', title: 'Your own script', script: keptScript('own') ?? newcomer, original: newcomer });
+    open(ownScript());
     editor.focus();
   },
   { text: () => editor.text, replace: (script) => editor.replace(script) },
@@ -139,7 +140,7 @@ function showResults(): void {
   if (innerWidth <= oneColumn) byId('results').scrollIntoView();
 }
 
-const toldAfter = 600; // ms without a change
+const toldAfter = 600; // ms without change
 let toTell = 0;
 
 /** For the classroom's teacher. */
@@ -152,30 +153,20 @@ function predicted(lesson: string, guesses: Guess[]): void {
 
 function showDocument(): void {
   byId('script-title').textContent = opened.title;
-  const edited = keptScript(opened.key) !== null;
-  byId('document').textContent = opened.key === 'own' ? '' : edited ? 'edited, kept in this browser' : '';
-  const reset = byId<HTMLButtonElement>('reset');
-  reset.hidden = opened.key === 'own' || !edited;
+  const edited = opened.key !== 'own' && keptScript(opened.key) !== null;
+  byId('document').textContent = edited ? 'edited, kept in this browser' : '';
+  byId('reset').hidden = !edited;
 }
 
 function showProblems(marks: Mark[]): void {
-  byId('problems').replaceChildren(
-    ...marks
-      .slice(0, 20)
-      .map((m) =>
-        h(
-          'li',
-          { className: m.severity },
-          h(
-            'button',
-            { type: 'button', className: 'line', onclick: () => editor.goTo(m.line, m.column) },
-            `Line ${m.line}`,
-          ),
-          prose(m.message),
-          m.hint ? h('span', { className: 'hint' }, prose(`\n${m.hint}`)) : null,
-        ),
-      ),
+  const items = marks.slice(0, 20).map((m) =>
+    h('li', { className: m.severity },
+      h('button.line', { onclick: () => editor.goTo(m.line, m.column) }, `Line ${m.line}`),
+      prose(m.message),
+      m.hint ? h('span.hint', prose(`\n${m.hint}`)) : null,
+    ),
   );
+  byId('problems').replaceChildren(...items);
 }
 
 // The run ----------------------------------------------------------------------------------------
@@ -194,17 +185,29 @@ function draw(): void {
     if (shown === 'chart') charts.show(run);
     if (shown === 'picture') pictures.appear();
     if (shown === 'files') files.show(run);
-    tabs.count(
-      'table',
-      [...(run?.notebooks.values() ?? [])].reduce((sum, n) => sum + n.rows.length, 0),
-    );
+    const rows = [...(run?.notebooks.values() ?? [])].map((n) => n.rows.length);
+    tabs.count('table', rows.reduce((sum, n) => sum + n, 0));
     tabs.count('chart', run ? chartsOf(run).length : 0);
     tabs.count('picture', run?.views.length ?? 0);
     tabs.count('files', run?.files.size ?? 0);
-    showWhose(run, runOf, opened.key);
+    showWhose();
     lessons.prediction?.judge(runOf === opened.key ? run : undefined);
     showStatus();
   });
+}
+
+/** The line above the results. Results of another script are grey, with a note. */
+function showWhose(): void {
+  const line = byId('results-of');
+  const elsewhere = run !== undefined && runOf !== opened.key;
+  byId('results').classList.toggle('elsewhere', elsewhere);
+  const words = [elsewhere ? 'not of the open script' : ''];
+  if (run) {
+    const time = new Date(run.began).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' });
+    words.unshift(run.name, run.live ? 'live' : `run ${run.id}`, time);
+  }
+  const text = words.filter(Boolean).join(' · ') || 'No run yet';
+  if (line.textContent !== text) line.textContent = text;
 }
 
 function showStatus(): void {
@@ -213,7 +216,7 @@ function showStatus(): void {
   saveButton.disabled = !run || run.active || run.live !== undefined;
   bar.hidden = run?.active !== true;
   status.className = `status ${run?.status ?? ''}`;
-  if (live.isSlow && !run?.active && !run?.live?.coarse) {
+  if (live.isSlow && !run?.active && run?.live?.part !== 'coarse') {
     status.textContent = 'Live, computing …';
     return;
   }
@@ -224,14 +227,18 @@ function showStatus(): void {
   const p = run.active ? run.progress : undefined;
   if (p?.fraction === undefined) bar.removeAttribute('value');
   else bar.value = p.fraction;
-  const parts = [statusText(run, duration), run.live && recording ? 'being recorded' : ''];
+  const parts = [statusText(run), run.live && recording ? 'being recorded' : ''];
   if (p) {
-    parts.push(p.task || p.text || '');
+    parts.push(p.task);
     if (p.fraction !== undefined) parts.push(`${Math.floor(100 * p.fraction)} %`);
-    if (p.eta !== undefined && p.eta !== null && p.eta >= 1) parts.push(`about ${duration(p.eta)} left`);
+    parts.push(leftText(p));
   }
   status.textContent = parts.filter(Boolean).join(' · ');
   status.title = status.textContent;
+}
+
+function leftText(p: EventOf<'progress'>): string {
+  return p.eta_s && p.eta_s >= 1 ? `about ${duration(p.eta_s)} left` : '';
 }
 
 let announced = 0;
@@ -240,7 +247,7 @@ function announce(): void {
   const p = run?.progress;
   if (p?.fraction === undefined || Date.now() - announced < 8000) return;
   announced = Date.now();
-  say(`${Math.floor(100 * p.fraction)} per cent${p.eta && p.eta >= 1 ? `, about ${duration(p.eta)} left` : ''}`);
+  say([`${Math.floor(100 * p.fraction)} per cent`, leftText(p)].filter(Boolean).join(', '));
 }
 
 let waitsForEnd = false; // shown by the banner
@@ -296,7 +303,8 @@ function leaveRecording(): void {
 function follow(next: Run, key: string, quietly = false): void {
   listening?.abort();
   const mine = (listening = new AbortController());
-  sessionStorage.setItem('asperity.run', JSON.stringify({ id: next.id, name: next.name, script: next.script, began: next.began, key }));
+  const { id, name, script, began } = next;
+  sessionStorage.setItem('asperity.run', JSON.stringify({ id, name, script, began, key }));
   announced = Date.now();
   if (quietly) {
     recording = next;
@@ -341,11 +349,10 @@ function follow(next: Run, key: string, quietly = false): void {
 
 function markError(): void {
   if (!run || editor.text !== run.script) return;
-  editor.showRunMarks(
-    run.errors
-      .filter((e) => e.line !== undefined)
-      .map((e) => ({ line: e.line!, severity: 'error', message: e.message, hint: e.hint })),
+  const marks = run.errors.flatMap(({ line, message, hint }): Mark[] =>
+    line === undefined ? [] : [{ line, severity: 'error', message, hint }],
   );
+  editor.showRunMarks(marks);
 }
 
 function ended(done: Run): void {
@@ -356,11 +363,8 @@ function ended(done: Run): void {
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
   else if (done.status === 'failed') tabs.offer('output'); // by exit status only
-  const first = done.errors[0];
   if (runOf === opened.key) showResults();
-  say(
-    `${statusText(done, duration)}${done.reason ? `: ${done.reason}` : ''}.${first ? ` ${first.line === undefined ? '' : `Line ${first.line}: `}${first.message}` : ''}`,
-  );
+  say(`${endText(done)}. ${errorText(done.errors[0])}`.trim());
 }
 
 /** Charts of the script, then pictures, then output. */
@@ -404,12 +408,8 @@ async function save(): Promise<void> {
       recorded: await recorded.beside(run, api),
       prediction: runOf === opened.key && lesson ? kept(`prediction.${lesson}`) : null,
     });
-    const name =
-      run.name
-        .toLowerCase()
-        .replace(/[^\p{L}\p{N}]+/gu, '-')
-        .replace(/^-|-$/g, '') || 'run';
-    saveAs(`${name}.html`, new Blob([html], { type: 'text/html;charset=utf-8' }));
+    const words = run.name.toLowerCase().match(/[\p{L}\p{N}]+/gu) ?? ['run'];
+    saveAs(`${words.join('-')}.html`, new Blob([html], { type: 'text/html;charset=utf-8' }));
     say(missing.length ? `Saved, without ${missing.join(', ')}.` : 'Saved.');
   } catch (error) {
     failed(error);
@@ -429,14 +429,11 @@ function showLessons(on: boolean): void {
 }
 
 function limits(a: About): string {
-  const l = a.limits ?? {};
-  const parts = [
-    l.seconds ? duration(l.seconds) : '',
-    l.memory_bytes ? `${bytes(l.memory_bytes)} of memory` : '',
-    l.output_bytes ? `${bytes(l.output_bytes)} of output` : '',
-    l.runs ? `${l.runs} at once` : '',
-  ].filter(Boolean);
-  return `Asperity ${a.version}.` + (parts.length ? ` A run may take ${parts.join(', ')}.` : '');
+  const { seconds, memory_bytes: memory, output_bytes: output, runs } = a.limits;
+  return (
+    `Asperity ${a.version}. A run may take ${duration(seconds)}, ${bytes(memory)} of memory, ` +
+    `${bytes(output)} of output, ${runs} at once.`
+  );
 }
 
 /** Repeated after a failure. */
@@ -454,6 +451,7 @@ async function greet(): Promise<void> {
       editor.checkSoon(0);
     }
     byId('about').textContent = limits(about);
+    byId('documents').hidden = about.documents !== true;
     room.offer(about.teacher === true);
     help.offer(about.classroom === true && about.teacher !== true, about.help === true);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
@@ -470,13 +468,7 @@ async function firstLessons(): Promise<void> {
 /** After a reload. */
 function resume(): void {
   try {
-    const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as {
-      id: string;
-      name: string;
-      script: string;
-      began?: number;
-      key: string;
-    } | null;
+    const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as (Run & { key: string }) | null;
     if (last && api.hasToken) follow(new Run(last.id, last.name, last.script, last.began), last.key);
   } catch {
     sessionStorage.removeItem('asperity.run');
@@ -513,7 +505,7 @@ chooser.addEventListener('change', () => {
       `${file.name} has ${bytes(file.size)}; a script of at most 1 MB is opened.`,
     );
   void file.text().then((text) => {
-    open({ key: 'own', title: 'Your own script', script: text, original: newcomer });
+    open(ownScript(text));
     keepScript('own', text);
     void lessons.list();
     editor.focus();

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Markdown of lessons as elements. HTML stays text, links lead only to http and https, and pictures are not
+// Markdown of lessons as elements. HTML stays text, links lead only to http and https, pictures are not
 // loaded.
 
 import { lexer, type Token, type Tokens } from 'marked';
-import { h } from './dom';
+import { h, table } from './dom';
 
 export function markdown(text: string): DocumentFragment {
-  const fragment = document.createDocumentFragment();
-  for (const token of lexer(text)) fragment.append(block(token));
-  return fragment;
+  return blocks(lexer(text));
 }
 
 /** One line of Markdown. */
 export function calledOut(name: string, text: string): HTMLElement {
   const [token] = lexer(text);
-  return h('p', { className: 'called' }, h('b', {}, name), token?.type === 'paragraph' ? inline(token.tokens) : text);
+  return h('p.called', h('b', name), token?.type === 'paragraph' ? inline(token.tokens) : text);
 }
 
-function block(token: Token): Node {
+function block(token: Token): Node | string {
   switch (token.type) {
     case 'heading':
       return h(token.depth <= 1 ? 'h3' : 'h4', {}, inline(token.tokens));
@@ -25,86 +23,67 @@ function block(token: Token): Node {
       const called = /^(Question|Predict|Prediction|Check|Hint):\s*/.exec(token.text as string);
       return called
         ? calledOut(called[1], (token.text as string).slice(called[0].length))
-        : h('p', {}, inline(token.tokens));
+        : h('p', inline(token.tokens));
     }
     case 'code':
-      return h('pre', { className: 'sample', tabIndex: 0 }, h('code', {}, token.text as string));
+      return h('pre.sample', { tabIndex: 0 }, h('code', token.text as string));
     case 'blockquote':
-      return h('blockquote', {}, blocks(token.tokens));
+      return h('blockquote', blocks(token.tokens));
     case 'hr':
       return h('hr');
     case 'space':
     case 'def':
-      return document.createTextNode('');
+      return '';
     case 'list': {
-      const list = token as Tokens.List;
-      const items = list.items.map((item) => h('li', {}, blocks(item.tokens)));
-      return list.ordered ? h('ol', { start: Number(list.start) || 1 }, ...items) : h('ul', {}, ...items);
+      const { items, ordered, start } = token as Tokens.List;
+      const made = items.map((item) => h('li', blocks(item.tokens)));
+      return ordered ? h('ol', { start: Number(start) || 1 }, ...made) : h('ul', ...made);
     }
     case 'table': {
-      const table = token as Tokens.Table;
-      return h(
-        'div',
-        { className: 'scroll', tabIndex: 0, role: 'region', 'aria-label': 'Table' },
-        h(
-          'table',
-          {},
-          h('thead', {}, h('tr', {}, ...table.header.map((c) => h('th', {}, inline(c.tokens))))),
-          h('tbody', {}, ...table.rows.map((row) => h('tr', {}, ...row.map((c) => h('td', {}, inline(c.tokens)))))),
-        ),
-      );
+      const { header, rows } = token as Tokens.Table;
+      const cells = (row: Tokens.TableCell[], tag: 'th' | 'td') => row.map((c) => h(tag, inline(c.tokens)));
+      const made = table(cells(header, 'th'), rows.map((row) => cells(row, 'td')));
+      return h('div.scroll', { tabIndex: 0, role: 'region', 'aria-label': 'Table' }, made);
     }
     case 'text':
       return inline((token as Tokens.Text).tokens ?? [token]);
     default:
-      return h('p', {}, token.raw);
+      return h('p', token.raw);
   }
 }
 
 function blocks(tokens: Token[] | undefined): DocumentFragment {
-  const fragment = document.createDocumentFragment();
-  for (const token of tokens ?? []) fragment.append(block(token));
-  return fragment;
+  return gathered(tokens, block);
 }
 
 function inline(tokens: Token[] | undefined): DocumentFragment {
+  return gathered(tokens, span);
+}
+
+function gathered(tokens: Token[] | undefined, made: (token: Token) => Node | string): DocumentFragment {
   const fragment = document.createDocumentFragment();
-  for (const token of tokens ?? []) {
-    switch (token.type) {
-      case 'strong':
-        fragment.append(h('strong', {}, inline(token.tokens)));
-        break;
-      case 'em':
-        fragment.append(h('em', {}, inline(token.tokens)));
-        break;
-      case 'del':
-        fragment.append(h('del', {}, inline(token.tokens)));
-        break;
-      case 'codespan':
-        fragment.append(h('code', {}, token.text as string));
-        break;
-      case 'br':
-        fragment.append(h('br'));
-        break;
-      case 'link':
-        fragment.append(
-          /^https?:\/\//i.test(token.href as string)
-            ? h('a', { href: token.href, target: '_blank', rel: 'noopener noreferrer' }, inline(token.tokens))
-            : inline(token.tokens),
-        );
-        break;
-      case 'image':
-        fragment.append((token.text as string) || '');
-        break;
-      case 'escape':
-        fragment.append(token.text as string);
-        break;
-      case 'text':
-        fragment.append((token as Tokens.Text).tokens ? inline((token as Tokens.Text).tokens) : token.raw);
-        break;
-      default:
-        fragment.append(token.raw);
-    }
-  }
+  fragment.append(...(tokens ?? []).map(made));
   return fragment;
+}
+
+function span(token: Token): Node | string {
+  switch (token.type) {
+    case 'strong':
+    case 'em':
+    case 'del':
+      return h(token.type as 'strong' | 'em' | 'del', inline(token.tokens));
+    case 'codespan':
+      return h('code', token.text as string);
+    case 'br':
+      return h('br');
+    case 'link':
+      return /^https?:\/\//i.test(token.href as string)
+        ? h('a', { href: token.href, target: '_blank', rel: 'noopener noreferrer' }, inline(token.tokens))
+        : inline(token.tokens);
+    case 'image':
+    case 'escape':
+      return token.text as string;
+    default:
+      return token.type === 'text' && token.tokens ? inline(token.tokens) : token.raw;
+  }
 }

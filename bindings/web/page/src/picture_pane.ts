@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The 3-D pictures of views. Without WebGL the map is flat. Maps are fetched when shown.
+// 3-D pictures of views; flat maps without WebGL. Maps are fetched when shown.
 
 import type { Api } from './api';
-import { coloursOf, legend, rangeOf } from './colour';
-import { Choice, h } from './dom';
-import { drawFlat, drawingsOf, type Drawing } from './drawings';
-import { inkNow } from './ink';
+import { coloursOf, drawFlat, inkNow, legend, rangeOf } from './colour';
+import { Choice, h, slider } from './dom';
+import { drawingsOf, type Drawing } from './drawings';
 import {
   anchorText,
-  barFor,
   captionOf,
   describe,
   exaggerations,
   factorText,
   fieldsOf,
   fittingExaggeration,
-  heightsOf,
   reliefFields,
   resting,
-  spanOf,
   type Attitude,
   type Field,
 } from './pictures';
@@ -28,7 +24,7 @@ import type { ReliefScene } from './scene';
 import { Scrubber } from './scrub';
 
 const fetched = 24; // in memory
-const rested = 350; // ms without a move before a relief is drawn
+const rested = 350; // ms without a move
 
 export class PicturePane {
   private run: Run | undefined;
@@ -52,50 +48,38 @@ export class PicturePane {
   private readonly scrubber = new Scrubber((place) => this.choose(this.run?.views[place]?.name ?? this.shown));
   private readonly colourChoice = new Choice('Colour', (name) => this.pick(name, this.relief?.name ?? 'flat'));
   private readonly reliefChoice = new Choice('Relief', (name) => this.pick(this.colour?.name ?? '', name));
-  private readonly slider = h('input', {
-    type: 'range',
-    min: '0',
-    max: String(exaggerations.length - 1),
-    step: '1',
-    oninput: () => {
-      this.step = Number(this.slider.value);
-      this.draw();
-    },
+  private readonly exaggerate = slider('Heights', exaggerations.length - 1, (step) => {
+    this.step = step;
+    this.draw();
   });
-  private readonly factor = h('output', { className: 'factor' });
-  private readonly canvas = h('canvas', { tabIndex: 0, role: 'img', className: 'relief' });
-  private readonly map = h('canvas', { className: 'relief moving', hidden: true, 'aria-hidden': 'true' });
-  private readonly labels = h('div', { className: 'labels', 'aria-hidden': 'true' });
-  private readonly key = h('div', { className: 'key' });
-  private readonly caption = h('p', { className: 'caption', id: 'picture-caption' });
-  private readonly leftOut = h('p', { className: 'caption left-out', hidden: true });
-  private readonly stage = h('div', { className: 'stage' }, this.canvas, this.map, this.labels);
+  private readonly canvas = h('canvas.relief', { tabIndex: 0, role: 'img' });
+  private readonly map = h('canvas.relief.moving', { hidden: true, 'aria-hidden': 'true' });
+  private readonly labels = h('div.labels', { 'aria-hidden': 'true' });
+  private readonly key = h('div.key');
+  private readonly caption = h('p.caption', { id: 'picture-caption' });
+  private readonly leftOut = h('p.caption.left-out', { hidden: true });
+  private readonly stage = h('div.stage', this.canvas, this.map, this.labels);
   private readonly body: HTMLElement;
-  private readonly empty = h('p', { className: 'empty' });
+  private readonly empty = h('p.empty');
 
   constructor(
     readonly element: HTMLElement,
     private readonly api: Api,
     private readonly failed: (error: unknown) => void,
   ) {
-    const exaggerate = h('label', { className: 'choice' }, h('span', {}, 'Heights'), this.slider, this.factor);
-    const reset = h('button', { type: 'button', onclick: () => this.turn({ ...resting }) }, 'Oblique');
-    const above = h('button', { type: 'button', onclick: () => this.turn({ turn: 0, tilt: 89.9, zoom: 1 }) }, 'Above');
-    this.body = h(
-      'div',
-      { className: 'pictures', hidden: true },
-      h(
-        'div',
-        { className: 'choices' },
+    const reset = h('button', { onclick: () => this.turn({ ...resting }) }, 'Oblique');
+    const above = h('button', { onclick: () => this.turn({ turn: 0, tilt: 89.9, zoom: 1 }) }, 'Above');
+    this.body = h('div.pictures', { hidden: true },
+      h('div.choices',
         this.which.element,
         this.colourChoice.element,
         this.reliefChoice.element,
-        exaggerate,
+        this.exaggerate.element,
       ),
-      h('div', { className: 'picture' }, this.stage, this.key),
+      h('div.picture', this.stage, this.key),
       this.caption,
       this.leftOut,
-      h('div', { className: 'below' }, this.scrubber.element, h('p', {}, 'Drag it, or use the arrow keys.'), reset, above),
+      h('div.below', this.scrubber.element, h('p', 'Drag it, or use the arrow keys.'), reset, above),
     );
     element.append(this.empty, this.body);
     this.listen();
@@ -119,19 +103,12 @@ export class PicturePane {
       : 'Surfaces and contacts that a script makes are drawn here: run one that presses or generates a surface.';
     this.body.hidden = views.length === 0;
     if (views.length === 0) return;
-    const more = run?.viewsLeftOut ?? 0;
-    this.leftOut.hidden = more === 0;
-    this.leftOut.textContent = `${more} more were made and not drawn, so as not to hold up the run.`;
+    this.leftOut.hidden = !run?.viewsLeftOut;
+    if (run) this.leftOut.textContent = leftOutText(run);
     const last = views[views.length - 1].name;
     const name = this.followed ? last : this.shown || this.kept || last;
-    this.which.choose(
-      views.map((v) => ({ value: v.name, text: v.title })),
-      name,
-    );
-    this.scrubber.show(
-      views.map((v) => v.title),
-      views.findIndex((v) => v.name === name),
-    );
+    this.which.choose(views.map((v) => ({ value: v.name, text: v.title })), name);
+    this.scrubber.show(views.map((v) => v.title), views.findIndex((v) => v.name === name));
     if (name !== this.shown && this.visible) void this.look(name);
   }
 
@@ -213,14 +190,8 @@ export class PicturePane {
       const before = { colour: this.colour?.name, relief: this.relief?.name };
       const same = this.fields.length > 0 && this.fields.map((f) => f.name).join() === fields.map((f) => f.name).join();
       this.fields = fields;
-      this.colourChoice.choose(
-        fields.map((f) => ({ value: f.name, text: f.name })),
-        '',
-      );
-      this.reliefChoice.choose(
-        [...reliefFields(fields).map((f) => ({ value: f.name, text: f.name })), { value: 'flat', text: 'flat map' }],
-        '',
-      );
+      this.colourChoice.choose(fields.map((f) => f.name), '');
+      this.reliefChoice.choose([...reliefFields(fields).map((f) => f.name), { value: 'flat', text: 'flat map' }], '');
       const colour = (same && before.colour) || (fields.find((f) => f.name === 'pressure') ?? fields[0]).name;
       const relief = (same && (before.relief ?? 'flat')) || reliefFields(fields)[0]?.name || 'flat';
       this.pick(colour, relief);
@@ -237,10 +208,8 @@ export class PicturePane {
     );
     this.colourChoice.select.value = this.colour.name;
     this.reliefChoice.select.value = this.relief?.name ?? 'flat';
-    // Pictures with equal reliefs share a factor for comparison.
-    if (this.relief && (!previous || previous.name !== this.relief.name)) {
-      this.step = fittingExaggeration(spanOf(this.relief.values), Math.max(this.relief.sizeX, this.relief.sizeY));
-    }
+    // Equal reliefs share a factor for comparison.
+    if (this.relief && previous?.name !== this.relief.name) this.step = fittingExaggeration(this.relief);
     this.draw();
   }
 
@@ -289,15 +258,13 @@ export class PicturePane {
     const ink = inkNow();
     const range = rangeOf(colour.name, colour.values);
     const factor = exaggerations[this.step];
-    this.slider.value = String(this.step);
-    this.slider.disabled = !this.relief;
-    this.factor.textContent = this.relief ? factorText(factor) : '';
-    this.slider.setAttribute('aria-valuetext', factorText(factor));
-    this.slider.setAttribute('aria-label', 'Exaggeration of heights');
+    this.exaggerate.tell(this.step, this.relief ? factorText(factor) : '', factorText(factor));
+    this.exaggerate.input.disabled = !this.relief;
+    this.exaggerate.input.setAttribute('aria-label', 'Exaggeration of heights');
     this.caption.textContent =
       captionOf(colour, this.flat || !this.map.hidden ? undefined : this.relief, factor) +
       (this.map.hidden ? '' : ' while the knob moves') +
-      (this.run?.live?.coarse ? ' · coarse, the whole follows' : '') +
+      (this.run?.live?.part === 'coarse' ? ' · coarse, the whole follows' : '') +
       (this.flat ? ' · this browser has no WebGL, so nothing can be turned' : '');
     this.canvas.setAttribute(
       'aria-label',
@@ -313,18 +280,7 @@ export class PicturePane {
     }
     this.scene!.setInk(ink.muted);
     this.scene!.resize(width, height, Math.min(2, devicePixelRatio));
-    this.scene!.show(
-      {
-        nx: colour.nx,
-        ny: colour.ny,
-        sizeX: colour.sizeX,
-        sizeY: colour.sizeY,
-        colours,
-        heights: this.relief ? heightsOf(this.relief) : null,
-        exaggeration: factor,
-      },
-      this.relief ? barFor(spanOf(this.relief.values)) : 0,
-    );
+    this.scene!.show(colour, this.relief, colours, factor);
   }
 
   private render(): void {
@@ -332,17 +288,19 @@ export class PicturePane {
     this.scene.turnTo(this.attitude);
     this.scene.render();
     const { width, height } = this.room();
-    this.labels.replaceChildren(
-      ...this.scene.anchors(width, height).map((anchor) => {
-        const element = h('span', { className: 'tag' }, anchorText(anchor.name, this.colour!, this.relief));
-        // Keep labels inside.
-        element.style.left = `${Math.min(width - (anchor.outward < 0 ? 0 : 80), Math.max(anchor.name === 'z' ? 34 : anchor.outward < 0 ? 80 : 0, anchor.left))}px`;
-        element.style.top = `${anchor.top}px`;
-        element.style.transform =
-          anchor.name === 'z' ? 'translate(-60%, 4px)' : `translate(${anchor.outward < 0 ? '-100%' : '0'}, 10px)`;
-        return element;
-      }),
-    );
+    const tags = this.scene.anchors(width, height).map(({ name, left, top, outward }) => {
+      const tag = h('span.tag', anchorText(name, this.colour!, this.relief));
+      // Inside the stage.
+      const [least, most] = [name === 'z' ? 34 : outward < 0 ? 80 : 0, width - (outward < 0 ? 0 : 80)];
+      const shift = name === 'z' ? '-60%, 4px' : `${outward < 0 ? '-100%' : '0'}, 10px`;
+      Object.assign(tag.style, {
+        left: `${Math.min(most, Math.max(least, left))}px`,
+        top: `${top}px`,
+        transform: `translate(${shift})`,
+      });
+      return tag;
+    });
+    this.labels.replaceChildren(...tags);
   }
 
   private painted(began: number): void {
@@ -371,13 +329,8 @@ export class PicturePane {
     });
     this.stage.addEventListener('pointermove', (event) => {
       if (!from) return;
-      this.turn(
-        limited({
-          ...from.at,
-          turn: from.at.turn - (event.clientX - from.x) * 0.5,
-          tilt: from.at.tilt + (event.clientY - from.y) * 0.4,
-        }),
-      );
+      const turn = from.at.turn - (event.clientX - from.x) * 0.5;
+      this.turn(limited({ ...from.at, turn, tilt: from.at.tilt + (event.clientY - from.y) * 0.4 }));
     });
     for (const end of ['pointerup', 'pointercancel'] as const)
       this.stage.addEventListener(end, () => (from = undefined));
@@ -414,6 +367,10 @@ export class PicturePane {
       run === this.run ? this.fetch(name) : this.api.view(run.id, name).then(fieldsOf);
     return drawingsOf(run.views.slice(-most), fields, this.attitude, steps);
   }
+}
+
+export function leftOutText(run: Run): string {
+  return `${run.viewsLeftOut} more were made and not drawn, so as not to hold up the run.`;
 }
 
 function limited(a: Attitude): Attitude {

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps of a view as numbers, with captions. A gap is drawn downwards: contact is highest.
 
-import type { View, ViewField } from './api';
-import { numberText, scaleFor, withUnit } from './units';
+import type { FieldFacts, View } from './api';
+import { extentOf, numberText, scaleFor, withUnit } from './units';
 
-export interface Field {
-  name: string;
-  unit: string;
-  nx: number;
-  ny: number;
-  sizeX: number;
-  sizeY: number;
-  fromNx: number;
-  fromNy: number;
-  notMeasured: number; // number
-  reduction: string;
+export interface Field extends FieldFacts {
   values: Float32Array; // NaN: missing
 }
 
@@ -23,31 +13,14 @@ export function fieldsOf(view: View): Field[] {
 }
 
 function numbersIn(data: string): Float32Array {
-  const text = atob(data);
-  const raw = new Uint8Array(text.length);
-  for (let k = 0; k < text.length; ++k) raw[k] = text.charCodeAt(k);
-  const values = new Float32Array(Math.floor(raw.length / 4));
-  const view = new DataView(raw.buffer);
-  for (let k = 0; k < values.length; ++k) values[k] = view.getFloat32(4 * k, true);
-  return values;
+  const bytes = atob(data);
+  return new Float32Array(new Uint8Array(bytes.length).map((_, k) => bytes.charCodeAt(k)).buffer);
 }
 
-export function fieldOf(field: Omit<ViewField, 'data'>, values: Float32Array | undefined): Field {
+export function fieldOf(field: FieldFacts, values: Float32Array | undefined): Field {
   if (values?.length !== field.nx * field.ny)
     throw new Error(`the map \`${field.name}\` has ${values?.length} numbers where ${field.nx * field.ny} belong`);
-  return {
-    name: field.name,
-    unit: field.unit,
-    nx: field.nx,
-    ny: field.ny,
-    sizeX: field.size_x,
-    sizeY: field.size_y,
-    fromNx: field.from_nx,
-    fromNy: field.from_ny,
-    notMeasured: field.not_measured ?? 0,
-    reduction: field.reduction,
-    values,
-  };
+  return { ...field, values };
 }
 
 export interface Attitude {
@@ -68,12 +41,7 @@ export function heightsOf(field: Field): Float32Array {
 }
 
 export function spanOf(values: Float32Array): number {
-  let low = Infinity;
-  let high = -Infinity;
-  for (const v of values) {
-    if (v < low) low = v;
-    if (v > high) high = v;
-  }
+  const [low, high] = extentOf(values);
   return high > low ? high - low : 0;
 }
 
@@ -81,14 +49,12 @@ export const exaggerations: number[] = [];
 for (let power = -2; power <= 6; ++power) for (const f of [1, 2, 5]) exaggerations.push(f * 10 ** power);
 
 /** For a relief height of about a sixth of the side. */
-export function fittingExaggeration(span: number, side: number): number {
+export function fittingExaggeration({ values, size_x, size_y }: Field): number {
+  const span = spanOf(values);
   if (!(span > 0)) return exaggerations.indexOf(1);
-  const wanted = Math.log((0.17 * side) / span);
-  let best = 0;
-  exaggerations.forEach((e, k) => {
-    if (Math.abs(Math.log(e) - wanted) < Math.abs(Math.log(exaggerations[best]) - wanted)) best = k;
-  });
-  return best;
+  const wanted = Math.log((0.17 * Math.max(size_x, size_y)) / span);
+  const away = exaggerations.map((e) => Math.abs(Math.log(e) - wanted));
+  return away.indexOf(Math.min(...away));
 }
 
 /** The length of the scale bar: round, near a third of the relief. */
@@ -100,8 +66,8 @@ export function barFor(span: number): number {
 
 export function anchorText(name: 'x' | 'y' | 'z', colour: Field, relief: Field | undefined): string {
   if (name === 'z') return withUnit(barFor(spanOf(relief!.values)), 'm');
-  const scale = scaleFor('m', Math.max(colour.sizeX, colour.sizeY));
-  return `${name}  ${numberText((name === 'x' ? colour.sizeX : colour.sizeY) / scale.factor)} ${scale.unit}`;
+  const scale = scaleFor('m', Math.max(colour.size_x, colour.size_y));
+  return `${name}  ${numberText((name === 'x' ? colour.size_x : colour.size_y) / scale.factor)} ${scale.unit}`;
 }
 
 export function factorText(factor: number): string {
@@ -111,7 +77,7 @@ export function factorText(factor: number): string {
 /** "shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024", "all … nodes shown". */
 export function samplingText(field: Field): string {
   const shown = `${field.nx} × ${field.ny}`;
-  const from = `${field.fromNx} × ${field.fromNy}`;
+  const from = `${field.from_nx} × ${field.from_ny}`;
   if (field.reduction === 'none' || shown === from) return `all ${from} nodes shown`;
   const mean = /^mean of (\d+) x (\d+) (\w+)(.*)$/.exec(field.reduction);
   if (!mean) return `shown: ${shown} of ${from} (${field.reduction})`;
@@ -119,8 +85,8 @@ export function samplingText(field: Field): string {
 }
 
 export function sizeText(field: Field): string {
-  const scale = scaleFor('m', Math.max(field.sizeX, field.sizeY));
-  return `${numberText(field.sizeX / scale.factor)} × ${numberText(field.sizeY / scale.factor)} ${scale.unit}`;
+  const scale = scaleFor('m', Math.max(field.size_x, field.size_y));
+  return `${numberText(field.size_x / scale.factor)} × ${numberText(field.size_y / scale.factor)} ${scale.unit}`;
 }
 
 export function captionOf(colour: Field, relief: Field | undefined, exaggeration: number): string {
@@ -128,22 +94,14 @@ export function captionOf(colour: Field, relief: Field | undefined, exaggeration
   if (relief) parts.push(`${relief.name === 'gap' ? 'gap, drawn downwards,' : 'heights'} ${factorText(exaggeration)}`);
   else parts.push('flat map');
   parts.push(samplingText(colour));
-  if (colour.notMeasured > 0) parts.push(`${colour.notMeasured} nodes not measured`);
+  if (colour.not_measured) parts.push(`${colour.not_measured} nodes not measured`);
   return parts.join(' · ');
 }
 
 export function describe(colour: Field): string {
-  let least = Infinity;
-  let most = -Infinity;
-  let sum = 0;
-  let known = 0;
-  for (const v of colour.values) {
-    if (Number.isNaN(v)) continue;
-    least = Math.min(least, v);
-    most = Math.max(most, v);
-    sum += v;
-    ++known;
-  }
-  const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;
+  const [least, most] = extentOf(colour.values);
+  const known = colour.values.filter((v) => !Number.isNaN(v));
+  const sum = known.reduce((all, v) => all + v, 0);
+  const mean = Math.abs(sum) > 1e-6 * (most - least) * known.length ? sum / known.length : 0;
   return `${colour.name} from ${withUnit(least, colour.unit)} to ${withUnit(most, colour.unit)}, mean ${withUnit(mean, colour.unit)}`;
 }

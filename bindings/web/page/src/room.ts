@@ -3,8 +3,9 @@
 // Also the student's help button.
 
 import type { Api, RoomPerson, RoomRun } from './api';
-import { byId, Choice, h } from './dom';
-import { inkNow } from './ink';
+import { byId, Choice, h, table } from './dom';
+import { inkNow } from './colour';
+import { grouped } from './units';
 
 const askedAgain = 2000; // ms
 
@@ -13,8 +14,8 @@ export class Room {
   private readonly list = byId('room-runs');
   private readonly people = byId('room-people');
   private readonly which = new Choice('Of', () => void this.drawPredictions());
-  private readonly figure = h('figure', {});
-  private readonly caption = h('p', { className: 'caption' });
+  private readonly figure = h('figure');
+  private readonly caption = h('p.caption');
   private present: RoomPerson[] = [];
   private timer = 0;
 
@@ -51,56 +52,35 @@ export class Room {
 
   private show(runs: RoomRun[]): void {
     const focused = this.list.contains(document.activeElement) ? document.activeElement!.id : '';
-    this.list.replaceChildren(
-      ...(runs.length
-        ? runs.map((run) =>
-            h(
-              'li',
-              {},
-              h('span', {}, `${run.owner}: ${run.name || 'script'}, ${run.state}`),
-              h(
-                'button',
-                {
-                  type: 'button',
-                  id: `room-stop-${run.id}`,
-                  'aria-label': `Stop ${run.name || 'the script'} of ${run.owner}`,
-                  onclick: () => void this.stop(run.id),
-                },
-                'Stop',
-              ),
-            ),
-          )
-        : [h('li', {}, 'No script runs or waits.')]),
-    );
+    const items = runs.map(({ id, name, owner, state }) => {
+      const label = `Stop ${name || 'the script'} of ${owner}`;
+      const stop = { id: `room-stop-${id}`, 'aria-label': label, onclick: () => void this.stop(id) };
+      return h('li', h('span', `${owner}: ${name || 'script'}, ${state}`), h('button', stop, 'Stop'));
+    });
+    this.list.replaceChildren(...(items.length ? items : [h('li', 'No script runs or waits.')]));
     if (focused) document.getElementById(focused)?.focus();
   }
 
   /** Requests for help first. */
   private showPeople(people: RoomPerson[], runs: RoomRun[]): void {
     const last = new Map(runs.map((run) => [run.owner, run]));
-    const row = (p: RoomPerson): HTMLElement => {
-      const run = last.get(p.name);
-      return h(
-        'tr',
-        { className: p.help ? 'asks' : '' },
-        h('th', { scope: 'row' }, p.name),
-        h('td', {}, run ? `${run.name || 'script'}, ${run.state}` : 'none'),
-        h('td', {}, p.help ? 'asks for help' : ''),
-      );
-    };
-    const head = ['Student', 'Last run', 'Help'].map((t) => h('th', { scope: 'col' }, t));
     const sorted = [...people.filter((p) => p.help), ...people.filter((p) => !p.help)];
-    this.people.replaceChildren(
-      h('table', {}, h('thead', {}, h('tr', {}, ...head)), h('tbody', {}, ...sorted.map(row))),
-    );
+    const rows = sorted.map((p) => {
+      const run = last.get(p.name);
+      return [
+        h('th', { scope: 'row' }, p.name),
+        h('td', run ? `${run.name || 'script'}, ${run.state}` : 'none'),
+        h('td', p.help ? 'asks for help' : ''),
+      ];
+    });
+    const made = table(['Student', 'Last run', 'Help'].map((t) => h('th', { scope: 'col' }, t)), rows);
+    sorted.forEach((p, k) => made.tBodies[0].rows[k].classList.toggle('asks', p.help));
+    this.people.replaceChildren(made);
   }
 
   private async drawPredictions(): Promise<void> {
-    const groups = new Map<string, number[]>();
-    for (const { lesson, name, value } of this.present.flatMap((p) => p.predictions)) {
-      const key = name ? `${lesson}: ${name.replace(/_/g, ' ')}` : lesson;
-      groups.set(key, [...(groups.get(key) ?? []), value]);
-    }
+    const all = this.present.flatMap((p) => p.predictions);
+    const groups = grouped(all, ({ lesson, name }) => (name ? `${lesson}: ${name.replace(/_/g, ' ')}` : lesson));
     const names = [...groups.keys()].sort();
     const chosen = names.includes(this.which.value) ? this.which.value : names[0];
     this.which.element.hidden = names.length === 0;
@@ -109,12 +89,9 @@ export class Room {
       this.caption.textContent = 'Nobody has predicted a number yet.';
       return;
     }
-    this.which.choose(
-      names.map((n) => ({ value: n, text: n })),
-      chosen,
-    );
+    this.which.choose(names, chosen);
     const { drawHistogram } = await import('./chart');
-    const drawn = drawHistogram(groups.get(chosen)!, chosen, 560, 200, inkNow());
+    const drawn = drawHistogram(groups.get(chosen)!.map((p) => p.value), chosen, 560, 200, inkNow());
     this.figure.replaceChildren(drawn.element);
     this.caption.textContent = `${drawn.summary}.`;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as the sum of its events. Events only change this record; panes draw once a frame, so that 10,000
-// lines cost one drawing.
+// A run as the sum of its events. Panes draw this record once a frame: 10,000 lines cost one drawing.
 
-import type { Cell, RunEvent } from './api';
-import { chartedIn, keysIn, type Charted } from './charted';
+import type { Api, Cell, ChartEvent, EventOf, RunEvent } from './api';
 import type { Knob } from './knobs';
+import type { LiveResults } from './live';
 import type { Field } from './pictures';
+import { duration } from './units';
 
 export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
 
@@ -16,48 +16,31 @@ export interface Notebook {
   rows: Record<string, Cell>[];
 }
 
-export interface OutputPart {
-  stream: 'out' | 'err';
-  text: string;
-}
-
-export interface RunError {
-  line?: number;
-  message: string;
-  hint?: string;
-  traceback?: string;
-}
-
-export interface LiveRun {
-  coarse: boolean; // a full answer follows
-  factor: number; // of `cells`
-  seconds: number;
-  computed: number; // heavy results
-  recalled: number; // from memory
-  fields: (view: string) => Promise<Field[]>;
-}
+export type LiveRun = LiveResults & { fields: (view: string) => Promise<Field[]> };
 
 /** Characters; longer output loses its beginning. */
 export const outputKept = 400_000;
+
+const mostCharts = 50; // of the script
 
 export class Run {
   status: Status = 'starting';
   before: number | undefined; // runs ahead
   reason = '';
   seconds: number | undefined;
-  output: OutputPart[] = [];
+  output: { stream: 'out' | 'err'; text: string }[] = [];
   outputDropped = 0;
-  progress: { task: string; fraction?: number; eta?: number; text?: string } | undefined;
+  progress: EventOf<'progress'> | undefined;
   readonly notebooks = new Map<string, Notebook>();
-  readonly files = new Map<string, { name: string; bytes: number; kind: string }>();
+  readonly files = new Map<string, EventOf<'file'>>();
   readonly views: { name: string; title: string }[] = [];
   viewsLeftOut = 0; // for speed
-  readonly expectations: { text: string; held: boolean }[] = [];
+  readonly expectations: EventOf<'expectation'>[] = [];
   knobs: Knob[] = []; // with this run's values
   live: LiveRun | undefined; // not a recorded run
-  readonly errors: RunError[] = [];
-  readonly keys: string[]; // of tables, in order
-  readonly charted: Charted[]; // from the script's text
+  readonly errors: EventOf<'error'>[] = [];
+  readonly charted = new Map<string, ChartEvent>(); // each once
+  readonly studies = new Set<string>(); // of work and precision, by name
   private characters = 0;
 
   constructor(
@@ -65,10 +48,7 @@ export class Run {
     readonly name: string,
     readonly script: string,
     readonly began = Date.now(),
-  ) {
-    this.charted = chartedIn(script);
-    this.keys = keysIn(script);
-  }
+  ) {}
 
   get active(): boolean {
     return this.status === 'starting' || this.status === 'running';
@@ -86,13 +66,19 @@ export class Run {
         this.print(event.stream, event.text);
         break;
       case 'progress':
-        this.progress = { task: event.task, fraction: event.fraction, eta: event.eta_s, text: event.text };
+        this.progress = event;
         break;
       case 'row':
         this.write(event.notebook, event.row, event.units ?? {}, event.columns ?? []);
         break;
+      case 'chart':
+        if (this.charted.size < mostCharts) this.charted.set(JSON.stringify({ ...event, n: 0 }), event);
+        break;
+      case 'study':
+        this.studies.add(event.name);
+        break;
       case 'file':
-        this.files.set(event.name, { name: event.name, bytes: event.bytes, kind: event.kind ?? '' });
+        this.files.set(event.name, event);
         break;
       case 'view':
         if (!this.views.some((v) => v.name === event.name)) {
@@ -105,16 +91,15 @@ export class Run {
         this.viewsLeftOut = event.count;
         break;
       case 'expectation':
-        this.expectations.push({ text: event.text, held: event.held });
+        this.expectations.push(event);
         break;
       case 'error':
-        this.errors.push({ line: event.line, message: event.message, hint: event.hint, traceback: event.traceback });
+        this.errors.push(event);
         break;
       case 'finished':
         this.status = event.status;
         // An error has its own reason.
-        this.reason =
-          event.status === 'failed' && this.errors.length > 0 ? '' : (event.reason ?? '').replace(/\.$/, '');
+        this.reason = event.status === 'failed' && this.errors[0] ? '' : (event.reason ?? '').replace(/\.$/, '');
         this.seconds = event.seconds;
         this.progress = undefined;
         break;
@@ -122,12 +107,9 @@ export class Run {
   }
 
   private print(stream: 'out' | 'err', text: string): void {
-    const last = this.output[this.output.length - 1];
-    if (last && last.stream === stream && last.text.length < 20_000) {
-      this.output[this.output.length - 1] = { stream, text: last.text + text };
-    } else {
-      this.output.push({ stream, text });
-    }
+    const last = this.output.at(-1);
+    if (last?.stream === stream && last.text.length < 20_000) last.text += text;
+    else this.output.push({ stream, text });
     this.characters += text.length;
     while (this.characters > outputKept && this.output.length > 1) {
       const dropped = this.output.shift()!;
@@ -148,32 +130,37 @@ export class Run {
   }
 }
 
-function liveText(run: Run, live: LiveRun, seconds: (s: number) => string): string {
-  if (live.coarse) return `Live, coarse: 1/${Math.round(1 / live.factor)} of the cells a side; the whole follows`;
-  const first = run.errors[0];
-  if (first) return `Live: ${first.line === undefined ? '' : `line ${first.line}: `}${first.message}`;
-  return `Live in ${seconds(live.seconds)}, ${live.computed} computed, ${live.recalled} from memory`;
+/** "Line 3: …", or without a line. */
+export function errorText(error: EventOf<'error'> | undefined): string {
+  return error ? `${error.line === undefined ? '' : `Line ${error.line}: `}${error.message}` : '';
 }
 
-export function statusText(run: Run, seconds: (s: number) => string): string {
-  if (run.live) return liveText(run, run.live, seconds);
-  const took = run.seconds === undefined ? '' : ` ${seconds(run.seconds)}`;
-  switch (run.status) {
-    case 'starting':
-      return run.before ? `Waiting for its turn, ${run.before} before you` : 'Waiting for its turn';
-    case 'running':
-      return 'Running';
-    case 'done':
-      return `Done in${took || ' no time'}`;
-    case 'failed':
-      return `Failed${took && ' after' + took}`;
-    case 'stopped':
-      return `Stopped${took && ' after' + took}`;
-    case 'limit':
-      return `Ended at a limit${took && ' after' + took}`;
-    case 'lost':
-      return 'Lost: the server forgot this run';
-  }
+function liveText(run: Run, live: LiveRun): string {
+  if (live.part === 'coarse')
+    return `Live, coarse: 1/${Math.round(1 / live.factor)} of the cells a side; the whole follows`;
+  if (run.errors[0]) return `Live: ${errorText(run.errors[0]).replace(/^Line/, 'line')}`;
+  return `Live in ${duration(live.seconds)}, ${live.computed} computed, ${live.recalled} from memory`;
+}
+
+export function statusText(run: Run): string {
+  if (run.live) return liveText(run, run.live);
+  const took = run.seconds === undefined ? '' : duration(run.seconds);
+  const after = took && ` after ${took}`;
+  const texts: Record<Status, string> = {
+    starting: `Waiting for its turn${run.before ? `, ${run.before} before you` : ''}`,
+    running: 'Running',
+    done: `Done in ${took || 'no time'}`,
+    failed: `Failed${after}`,
+    stopped: `Stopped${after}`,
+    limit: `Ended at a limit${after}`,
+    lost: 'Lost: the server forgot this run',
+  };
+  return texts[run.status];
+}
+
+/** With the reason of the end. */
+export function endText(run: Run): string {
+  return statusText(run) + (run.reason && `: ${run.reason}`);
 }
 
 const mostNames = 60; // along an axis
@@ -198,4 +185,38 @@ export function columnsAlong(notebook: Notebook): string[] {
 
 export function numericColumns(notebook: Notebook): string[] {
   return notebook.columns.filter((c) => notebook.rows.some((r) => typeof r[c] === 'number'));
+}
+
+/** Rows of a work-precision study, which contain seconds, are in <name>.csv instead of a notebook. Here they
+    become a notebook. True if rows were added. */
+export async function readStudy(run: Run, file: string, api: Api): Promise<boolean> {
+  const name = file.replace(/\.csv$/, '');
+  if (name === file || !run.studies.has(name)) return false;
+  const { columns, units, rows } = studyTable(await (await api.file(run.id, file)).text());
+  run.notebooks.set(name, { name, columns, units, rows });
+  return true;
+}
+
+/** Units are in brackets after column names. */
+function studyTable(text: string): { columns: string[]; units: Record<string, string>; rows: Record<string, Cell>[] } {
+  const [head, ...lines] = text.split('\n').filter(Boolean).map(cellsOf);
+  const units: Record<string, string> = {};
+  const columns = (head ?? []).map((c) => {
+    const [, name, unit] = /^(.*?)(?: \[(.*)\])?$/.exec(c)!;
+    if (unit) units[name] = unit;
+    return name;
+  });
+  const rows = lines.map((cells) => {
+    const row: Record<string, Cell> = {};
+    columns.forEach((c, k) => {
+      const value = cells[k] ?? '';
+      if (value !== '') row[c] = Number.isNaN(Number(value)) ? value : Number(value);
+    });
+    return row;
+  });
+  return { columns, units, rows };
+}
+
+function cellsOf(line: string): string[] {
+  return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((m) => m[1]?.replace(/""/g, '"') ?? m[2] ?? '');
 }

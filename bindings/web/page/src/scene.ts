@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The relief in WebGL with rim and scale bar. Shading is slight, so that colours match the legend. Draws only
-// after changes. Only this file needs three.js; loaded with the first picture.
+// The relief in WebGL with rim and scale bar. Shading is slight: colours match the legend. Draws only after
+// changes. Only this file needs three.js; loaded with the first picture.
 
 import {
   BufferAttribute,
@@ -17,17 +17,8 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
-import { resting, type Attitude } from './pictures';
-
-export interface Relief {
-  nx: number;
-  ny: number;
-  sizeX: number; // m
-  sizeY: number;
-  heights: Float32Array | null; // m, row by row; null is flat
-  colours: Uint8Array; // three bytes a node
-  exaggeration: number;
-}
+import { barFor, heightsOf, resting, spanOf, type Attitude, type Field } from './pictures';
+import { extentOf } from './units';
 
 /** A label position, px from the top left. */
 export interface Anchor {
@@ -67,30 +58,18 @@ export class ReliefScene {
     this.frame?.material.color.setHex(this.ink);
   }
 
-  /** `bar`: m; 0 for none. */
-  show(relief: Relief, bar: number): void {
+  /** Flat without `relief`; `colours`: three bytes a node. */
+  show({ nx, ny, size_x, size_y }: Field, relief: Field | undefined, colours: Uint8Array, exaggeration: number): void {
     this.clear();
-    const { nx, ny } = relief;
-    const side = Math.max(relief.sizeX, relief.sizeY);
-    const [width, depth] = [relief.sizeX / side, relief.sizeY / side];
-    const up = relief.exaggeration / side;
-    const z = new Float32Array(nx * ny);
-    const known = (k: number): boolean => !relief.heights || Number.isFinite(relief.heights[k]);
-    let low = 0;
-    let high = 0;
-    if (relief.heights) {
-      low = Infinity;
-      high = -Infinity;
-      for (const v of relief.heights) {
-        if (!Number.isFinite(v)) continue;
-        low = Math.min(low, v);
-        high = Math.max(high, v);
-      }
-      if (low > high) [low, high] = [0, 0];
-      const middle = (low + high) / 2;
-      for (let k = 0; k < z.length; ++k)
-        z[k] = ((known(k) ? relief.heights[k] : low) - middle) * up;
-    }
+    const heights = relief && heightsOf(relief);
+    const side = Math.max(size_x, size_y);
+    const [width, depth] = [size_x / side, size_y / side];
+    const up = exaggeration / side;
+    const known = (k: number): boolean => !heights || Number.isFinite(heights[k]);
+    const extent = extentOf(heights ?? []);
+    const [low, high] = extent[0] > extent[1] ? [0, 0] : extent;
+    const heightAt = (k: number): number => (heights && known(k) ? heights[k] : low) - (low + high) / 2;
+    const z = new Float32Array(nx * ny).map((_, k) => heightAt(k) * up);
     const positions = new Float32Array(3 * nx * ny);
     for (let j = 0, k = 0; j < ny; ++j) {
       for (let i = 0; i < nx; ++i, ++k) {
@@ -117,7 +96,7 @@ export class ReliefScene {
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('color', new BufferAttribute(shaded(relief.colours, z, known, nx, ny, width, depth), 3, true));
+    geometry.setAttribute('color', new BufferAttribute(shaded(colours, z, known, nx, ny, width, depth), 3, true));
     geometry.setIndex(new BufferAttribute(triangles.subarray(0, count), 1));
     this.mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
     this.scene.add(this.mesh);
@@ -129,19 +108,11 @@ export class ReliefScene {
     const lines = [rim[0], rim[1], rim[1], rim[2], rim[2], rim[3], rim[3], rim[0]];
     this.corners.x = [at(0, -b), at(0, b)];
     this.corners.y = [at(-a, 0), at(a, 0)];
-    this.corners.z = [];
-    if (bar > 0 && relief.heights) {
-      for (const corner of rim) {
-        const top = corner.clone();
-        top.z += bar * up;
-        this.corners.z.push(corner);
-        lines.push(corner, top);
-      }
-    }
-    this.frame = new LineSegments(
-      new BufferGeometry().setFromPoints(lines),
-      new LineBasicMaterial({ color: this.ink }),
-    );
+    const bar = relief ? barFor(spanOf(relief.values)) : 0; // m
+    this.corners.z = bar > 0 ? rim : [];
+    lines.push(...this.corners.z.flatMap((corner) => [corner, corner.clone().setZ(corner.z + bar * up)]));
+    const ends = new BufferGeometry().setFromPoints(lines);
+    this.frame = new LineSegments(ends, new LineBasicMaterial({ color: this.ink }));
     this.scene.add(this.frame);
   }
 
@@ -176,7 +147,7 @@ export class ReliefScene {
     for (const name of ['x', 'y', 'z'] as const) {
       const places = this.corners[name].map(seen);
       if (places.length === 0) continue;
-      // The label of the scale bar is at the left, in front of the background.
+      // Scale label: left, in front of the background.
       const best = places.reduce((p, q) => (name === 'z' ? (q.left < p.left ? q : p) : q.depth < p.depth ? q : p));
       result.push({ name, left: best.left, top: best.top, outward: best.left < width / 2 ? -1 : 1 });
     }

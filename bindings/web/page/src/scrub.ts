@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slider and play button for a run's pictures. Late pictures are skipped. Hidden below two pictures.
+// Slider and play button for pictures; skips late ones. Hidden below two pictures.
 
 import { h } from './dom';
 
@@ -13,25 +13,16 @@ export class Scrubber {
   private moving = false;
   private playing = false;
   private timer = 0;
-  private readonly slider = h('input', {
-    type: 'range',
-    min: '0',
-    step: '1',
-    className: 'scrub',
-    oninput: () => {
-      this.pause();
-      void this.move(Number(this.slider.value));
-    },
-  });
-  private readonly button = h('button', { type: 'button', onclick: () => this.toggle() }, 'Play');
-  private readonly place = h('output', { className: 'factor' });
+  private readonly slider = h('input.scrub', { type: 'range', min: '0', step: '1', oninput: () => this.slid() });
+  private readonly button = h('button', { onclick: () => this.toggle() }, 'Play');
+  private readonly place = h('output.factor');
 
   /** `go` resolves when the picture is drawn or refused. */
   constructor(
     private readonly go: (place: number) => Promise<void>,
     private readonly label = 'Picture of the run',
   ) {
-    this.element = h('div', { className: 'scrubber', hidden: true }, this.button, this.slider, this.place);
+    this.element = h('div.scrubber', { hidden: true }, this.button, this.slider, this.place);
   }
 
   show(titles: string[], at: number): void {
@@ -46,6 +37,11 @@ export class Scrubber {
     clearTimeout(this.timer);
     this.playing = false;
     this.button.textContent = 'Play';
+  }
+
+  private slid(): void {
+    this.pause();
+    void this.move(Number(this.slider.value));
   }
 
   private toggle(): void {

@@ -21,25 +21,21 @@ export function keep(key: string, text: string | null): boolean {
   }
 }
 
-const own = '=';
-const none = '-'; // original script restored
-
 /** Of this tab, else of any tab; null if none. */
 export function keptScript(key: string): string | null {
   try {
     const mine = sessionStorage.getItem(scriptKey(key));
-    if (mine !== null) return mine === none ? null : mine.slice(own.length);
+    if (mine !== null) return JSON.parse(mine) as string | null;
   } catch {
   }
   return kept(`script.${key}`);
 }
 
-/** Null deletes; false if the browser refuses. */
+/** Null restores the original script; false if the browser refuses. */
 export function keepScript(key: string, text: string | null): boolean {
   try {
-    sessionStorage.setItem(scriptKey(key), text === null ? none : own + text);
+    sessionStorage.setItem(scriptKey(key), JSON.stringify(text));
   } catch {
-    // The browser's copy may succeed.
   }
   return keep(`script.${key}`, text);
 }

@@ -2,9 +2,9 @@
 // Notebook rows. A column has one unit and prefix; a cell's title has the exact value. Long notebooks show
 // their last rows.
 
-import { Choice, h } from './dom';
+import { Choice, h, table } from './dom';
 import { numericColumns, type Notebook, type Run } from './run';
-import { label, numberText, scaleFor, type Scale } from './units';
+import { greatestOf, label, numberText, scaleFor, type Scale } from './units';
 import type { Cell } from './api';
 
 const shownRows = 500;
@@ -14,10 +14,7 @@ const longText = 60;
 export function columnScales(notebook: Notebook): Map<string, Scale> {
   const scales = new Map<string, Scale>();
   for (const column of numericColumns(notebook)) {
-    const greatest = notebook.rows.reduce((most, row) => {
-      const v = row[column];
-      return typeof v === 'number' && Number.isFinite(v) ? Math.max(most, Math.abs(v)) : most;
-    }, 0);
+    const greatest = greatestOf(notebook.rows.map((row) => row[column]));
     scales.set(column, scaleFor(notebook.units[column], greatest));
   }
   return scales;
@@ -32,55 +29,24 @@ export function cellText(value: Cell | undefined, scale: Scale | undefined): str
 
 export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
   const scales = columnScales(notebook);
-  const from = Math.max(0, notebook.rows.length - most);
-  return h(
-    'table',
-    {},
-    h(
-      'caption',
-      {},
-      from
-        ? `${notebook.name}: the last ${most} of ${notebook.rows.length} rows`
-        : `${notebook.name}: ${notebook.rows.length} ${notebook.rows.length === 1 ? 'row' : 'rows'}`,
-    ),
-    h(
-      'thead',
-      {},
-      h(
-        'tr',
-        {},
-        h('th', { scope: 'col', className: 'index' }, '#'),
-        ...notebook.columns.map((c) =>
-          h(
-            'th',
-            { scope: 'col', className: (scales.has(c) ? 'number' : '') + (c.length > longName ? ' long' : '') },
-            label(c, scales.get(c) ?? { factor: 1, unit: '' }),
-          ),
-        ),
-      ),
-    ),
-    h(
-      'tbody',
-      {},
-      ...notebook.rows.slice(from).map((row, k) =>
-        h(
-          'tr',
-          {},
-          h('td', { className: 'index' }, from + k + 1),
-          ...notebook.columns.map((c) =>
-            h(
-              'td',
-              {
-                className: (scales.has(c) ? 'number' : '') + (String(row[c] ?? '').length > longText ? ' long' : ''),
-                title: typeof row[c] === 'number' ? String(row[c]) : undefined,
-              },
-              cellText(row[c], scales.get(c)),
-            ),
-          ),
-        ),
-      ),
-    ),
-  );
+  const count = notebook.rows.length;
+  const from = Math.max(0, count - most);
+  const words = from ? `the last ${most} of ${count} rows` : `${count} ${count === 1 ? 'row' : 'rows'}`;
+  const classes = (column: string, long: boolean): string => (scales.has(column) ? 'number' : '') + (long ? ' long' : '');
+  const head = notebook.columns.map((c) => {
+    const className = classes(c, c.length > longName);
+    return h('th', { scope: 'col', className }, label(c, scales.get(c) ?? { factor: 1, unit: '' }));
+  });
+  const rows = notebook.rows.slice(from).map((row, k) => {
+    const cells = notebook.columns.map((c) => {
+      const className = classes(c, String(row[c] ?? '').length > longText);
+      const title = typeof row[c] === 'number' ? String(row[c]) : undefined;
+      return h('td', { className, title }, cellText(row[c], scales.get(c)));
+    });
+    return [h('td.index', from + k + 1), ...cells];
+  });
+  const caption = h('caption', `${notebook.name}: ${words}`);
+  return table([h('th.index', { scope: 'col' }, '#'), ...head], rows, caption);
 }
 
 /** As in the run's file: comma-separated, SI, units in brackets. */
@@ -101,13 +67,10 @@ export class TablePane {
     this.chosen = name;
     this.show(this.run);
   });
-  private readonly empty = h('p', { className: 'empty' });
-  private readonly table = h('div', {
-    className: 'scroll table',
-    tabIndex: 0,
-    role: 'region',
-    'aria-label': 'Rows of the notebook',
-  });
+  private readonly empty = h('p.empty');
+  private readonly table = h('div.scroll.table',
+    { tabIndex: 0, role: 'region', 'aria-label': 'Rows of the notebook' },
+  );
 
   constructor(readonly element: HTMLElement) {
     this.which.element.hidden = true;
@@ -125,10 +88,7 @@ export class TablePane {
     this.which.element.hidden = names.length < 2;
     if (names.length === 0) return;
     if (!names.includes(this.chosen)) this.chosen = names[0];
-    this.which.choose(
-      names.map((n) => ({ value: n, text: n })),
-      this.chosen,
-    );
+    this.which.choose(names, this.chosen);
     const notebook = run!.notebooks.get(this.chosen)!;
     if (this.drawn.notebook === notebook && this.drawn.rows === notebook.rows.length) return;
     if (this.element.offsetParent === null) return;

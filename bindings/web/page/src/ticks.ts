@@ -1,37 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Range and ticks of an axis, for numbers or names: the largest set of ticks without overlapping labels.
-// Integer data have integer ticks. A logarithmic axis ends at its data.
+// Range and ticks of an axis: the largest set without overlapping labels. Integer data have integer ticks. A
+// logarithmic axis ends at its data.
 
 import { scaleLinear } from 'd3-scale';
-import { raised, sameToRounding } from './units';
+import { extentOf, raised, sameToRounding, shareOf } from './units';
 
 export interface Axis {
   domain: [number, number];
   ticks: number[];
   labels: string[];
+  log: boolean;
 }
 
 /** Whether labels at these fractions of the axis do not overlap. */
 export type Apart = (labels: string[], shares: number[]) => boolean;
 
 export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
-  let low = values.reduce((least, v) => Math.min(least, v), Infinity);
-  let high = values.reduce((most, v) => Math.max(most, v), -Infinity);
+  let [low, high] = extentOf(values);
   const whole = values.every((v) => Math.abs(v) < 1e9 && Math.abs(v - Math.round(v)) < 1e-9);
   const single = sameToRounding(low, high);
   if (single && log) [low, high] = [low / 2, high * 2];
   else if (single) [low, high] = whole ? [low - 1, high + 1] : [low - spare(low), high + spare(low)];
   const domain: [number, number] = log ? aLittleBeyond(low, high) : niceAround(low, high, whole);
-  const share = log
-    ? (v: number): number => Math.log(v / domain[0]) / Math.log(domain[1] / domain[0])
-    : (v: number): number => (v - domain[0]) / (domain[1] - domain[0]);
   const sets = log ? logarithmic(domain) : linear(domain, whole);
   for (const ticks of sets) {
     const labels = log ? labelsOfPowers(ticks) : labelsOf(ticks);
-    if (apart(labels, ticks.map(share))) return { domain, ticks, labels };
+    if (apart(labels, ticks.map((t) => shareOf(t, domain, log)))) return { domain, ticks, labels, log };
   }
   const last = sets[sets.length - 1].slice(0, 1);
-  return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last) };
+  return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last), log };
 }
 
 /** If necessary only every second, third … name is written. */
@@ -40,7 +37,8 @@ export function axisOfNames(names: string[], apart: Apart): Axis {
   for (let every = 1; ; ++every) {
     const ticks = names.flatMap((_, k) => (k % every === 0 ? [k] : []));
     const labels = ticks.map((t) => names[t]);
-    if (ticks.length < 2 || apart(labels, ticks.map((t) => (t + 0.5) / names.length))) return { domain, ticks, labels };
+    if (ticks.length < 2 || apart(labels, ticks.map((t) => shareOf(t, domain, false))))
+      return { domain, ticks, labels, log: false };
   }
 }
 
@@ -67,22 +65,19 @@ function linear([low, high]: [number, number], whole: boolean): number[][] {
 
 function logarithmic([low, high]: [number, number]): number[][] {
   const decades = Math.log10(high / low);
-  const sets: number[][] = [];
-  const add = (factors: number[], every = 1): void => {
-    const ticks: number[] = [];
-    for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; ++power) {
-      if (power % every !== 0) continue;
-      for (const factor of factors) {
-        const tick = Number(`${factor}e${power}`);
-        if (tick >= low && tick <= high) ticks.push(tick);
-      }
-    }
-    if (ticks.length >= 2) sets.push(ticks);
+  const powers: number[] = [];
+  for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; ++power) powers.push(power);
+  const of = (factors: number[], every = 1): number[][] => {
+    const all = powers.filter((p) => p % every === 0).flatMap((p) => factors.map((f) => Number(`${f}e${p}`)));
+    const ticks = all.filter((t) => t >= low && t <= high);
+    return ticks.length >= 2 ? [ticks] : [];
   };
-  if (decades < 0.8) sets.push(...linear([low, high], false).filter((ticks) => ticks[0] > 0 && ticks.length > 1));
-  if (decades < 4) add([1, 2, 5]);
-  if (decades < 5) add([1, 3]);
-  for (const every of [1, 2, 3, 4, 5, 10, 20, 50]) add([1], every);
+  const sets = [
+    ...(decades < 0.8 ? linear([low, high], false).filter((ticks) => ticks[0] > 0 && ticks.length > 1) : []),
+    ...(decades < 4 ? of([1, 2, 5]) : []),
+    ...(decades < 5 ? of([1, 3]) : []),
+    ...[1, 2, 3, 4, 5, 10, 20, 50].flatMap((every) => of([1], every)),
+  ];
   const within = scaleLinear()
     .domain([low, high])
     .ticks(3)

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readable numbers from SI data: one prefix for a column, axis or legend (4.2e-6 m is 4.2 µm).
+// Readable numbers from SI data: one prefix for a column, axis or legend.
 
 export interface Scale {
-  factor: number; // shown value times `factor` is SI
-  unit: string; // with prefix; empty for a pure number
+  factor: number; // from shown value to SI
+  unit: string; // empty: pure number
 }
 
-const prefixes: [number, string][] = [
-  [1e-12, 'p'],
-  [1e-9, 'n'],
-  [1e-6, 'µ'],
-  [1e-3, 'm'],
-  [1, ''],
-  [1e3, 'k'],
-  [1e6, 'M'],
-  [1e9, 'G'],
-  [1e12, 'T'],
-];
-
-const superscripts: Record<string, string> = { '^2': '²', '^3': '³', '^-1': '⁻¹', '^-2': '⁻²' };
+const prefixes = [...'pnµm kMGT'].map((p, k): [number, string] => [Number(`1e${3 * k - 12}`), p.trim()]);
 
 export function unitText(unit: string): string {
-  return unit.replace(/\^-?\d/g, (power) => superscripts[power] ?? power).replace(/\*/g, '·');
+  return unit.replace(/\^(-?\d)/g, (_, power) => raised(Number(power))).replace(/\*/g, '·');
 }
 
 /** For absolute values up to `greatest`. */
@@ -36,6 +24,39 @@ export function scaleFor(unit: string | undefined, greatest: number): Scale {
     if (prefix[0] <= largest && greatest >= prefix[0] ** power) best = prefix;
   }
   return { factor: best[0] ** power, unit: best[1] + plain };
+}
+
+export function grouped<Key, T>(items: Iterable<T>, keyOf: (item: T) => Key): Map<Key, T[]> {
+  const groups = new Map<Key, T[]>();
+  for (const item of items) {
+    const group = groups.get(keyOf(item));
+    if (group) group.push(item);
+    else groups.set(keyOf(item), [item]);
+  }
+  return groups;
+}
+
+/** The least and the greatest finite value; [Infinity, -Infinity] without any. */
+export function extentOf(values: Iterable<unknown>): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const v of values) {
+    if (typeof v !== 'number' || !Number.isFinite(v)) continue;
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return [low, high];
+}
+
+/** The greatest absolute value. */
+export function greatestOf(values: Iterable<unknown>): number {
+  const [low, high] = extentOf(values);
+  return Math.max(0, -low, high);
+}
+
+/** The place in a range: 0 at its lower end, 1 at its upper end. */
+export function shareOf(value: number, [low, high]: [number, number], log: boolean): number {
+  return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
 }
 
 /** With powers of ten and a true minus sign. */
@@ -81,12 +102,7 @@ export function duration(seconds: number): string {
 }
 
 export function bytes(count: number): string {
-  for (const [size, unit] of [
-    [1e9, 'GB'],
-    [1e6, 'MB'],
-    [1e3, 'kB'],
-  ] as const) {
-    if (count >= size * 0.9995) return `${numberText(count / size, 3)} ${unit}`;
-  }
-  return `${count} B`;
+  const units = { GB: 1e9, MB: 1e6, kB: 1e3, B: 1 };
+  const [unit, size] = Object.entries(units).find(([, size]) => count >= size * 0.9995) ?? ['B', 1];
+  return `${numberText(count / size, 3)} ${unit}`;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
@@ -17,12 +16,26 @@
 
 namespace asperity {
 
-namespace {
+BoxOperator::BoxOperator(const ElasticModel& of, double stiffness, double reference)
+    : ElasticOperator(of), reference_pressure(reference) {
+  modulus = stiffness;
+}
 
-void plan_sorting(const BoxOperator& box, const ContactGeometry& geometry, Plan& plan) {
+Field BoxOperator::apply(const Field& pressure, const Grid&, Boundary) const {
+  Field u = pressure;
+  for (double& value : u.values()) value /= modulus;
+  return u;
+}
+
+Field BoxOperator::inverse(const Field& displacement, const Grid&) const {
+  Field p = displacement;
+  for (double& value : p.values()) value *= modulus;
+  return p;
+}
+
+void BoxOperator::plan(const ContactGeometry& geometry, Plan& plan) const {
   const auto nodes = static_cast<std::size_t>(geometry.facing());
-  constexpr double seconds_per_node = 4e-8;  // of sorting, measured on one core
-  plan.elasticity = box;
+  constexpr double seconds_per_node = 4e-8;  // of sorting, on one core
   plan.solver = "closed form (sorted heights)";
   plan.buffers.push_back({"sorted heights and their sums", SortedDrops::bytes(nodes)});
   plan.buffers.push_back(
@@ -31,49 +44,10 @@ void plan_sorting(const BoxOperator& box, const ContactGeometry& geometry, Plan&
   plan.seconds = std::max(1e-6, seconds_per_node * static_cast<double>(nodes));
 }
 
-void plan_box(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
-  const auto& options = std::any_cast<const BoxOptions&>(given);
-  const double height = geometry.peak_to_valley();
-  BoxOperator box;
-  std::string origin;
-  if (options.stiffness) {
-    box.stiffness = *options.stiffness;
-    origin = "as given";
-    // With equal heights a cell is the only length.
-    const Grid& grid = geometry.grid();
-    box.reference_pressure = box.stiffness * (height > 0 ? height : std::min(grid.hx(), grid.hy()));
-  } else {
-    const double modulus = contact_modulus(geometry, "box elements need `young` and `poisson`",
-                                           "to set their stiffness", "`stiffness` to the box elements");
-    if (!(height > 0))
-      refuse("all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness",
-             "give `stiffness` in Pa/m");
-    box.stiffness = modulus / height;
-    box.reference_pressure = modulus;
-    origin = "E*/peak-to-valley, " + format_quantity(modulus, dimension::pressure) + " / " + metres(height);
-  }
-  if (!std::isfinite(box.stiffness) || !std::isfinite(box.reference_pressure) || !(box.stiffness > 0))
-    refuse("the stiffness of the box elements comes to " + format_short(box.stiffness) + " Pa/m",
-           "check the units of the heights and of `young`, or give `stiffness`");
-  box.lower_share = lower_elastic_share(geometry);
-  plan.terms.push_back({"elasticity", "box elements, stiffness " +
-                                          format_quantity(box.stiffness, dimension::stiffness) + " (" +
-                                          origin + ")"});
-  plan_sorting(box, geometry, plan);
-}
-
-void plan_rigid(const std::any&, const ContactGeometry& geometry, Plan& plan) {
-  BoxOperator box;
-  box.stiffness = std::numeric_limits<double>::infinity();
-  plan.terms.push_back({"elasticity", "rigid bodies, which rest on what has yielded"});
-  plan_sorting(box, geometry, plan);
-}
-
-// Throws Error{bad_state} for rigid bodies that cannot yield: nothing would carry a load.
-void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
-  const auto& box = std::get<BoxOperator>(plan.elasticity);
+// Throws Error{bad_state} for rigid bodies without yield: nothing would carry a load.
+void BoxOperator::plan_after_effects(const ContactGeometry& geometry, Plan& plan) const {
   if (!plan.yield || !plan.yield->limits()) {
-    if (!std::isfinite(box.stiffness))
+    if (!std::isfinite(modulus))
       throw Error(ErrorCode::bad_state,
                   "rigid bodies carry a load only where they yield, and their `hardness` is infinite",
                   "give a finite `hardness`, or name another elasticity");
@@ -90,27 +64,62 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
     plan.buffers.push_back({"bodies as they have yielded", fields(geometry.upper_is_flat() ? 1 : 2), false});
 }
 
+std::shared_ptr<const Solver> BoxOperator::solver(const Plan& plan,
+                                                  std::shared_ptr<const ContactGeometry> geometry) const {
+  if (plan.yield && plan.yield->limits())
+    return std::make_shared<const YieldingBoxSolver>(plan, std::move(geometry));
+  return std::make_shared<const BoxSolver>(plan, reference_pressure, std::move(geometry));
+}
+
+namespace {
+
+std::shared_ptr<const ElasticOperator> make_box(const std::any& given, const ContactGeometry& geometry) {
+  const auto& options = std::any_cast<const BoxOptions&>(given);
+  const double height = geometry.peak_to_valley();
+  double stiffness = 0, reference = 0;
+  std::string origin;
+  if (options.stiffness) {
+    stiffness = *options.stiffness;
+    origin = "as given";
+    // With equal heights a cell is the only length.
+    const Grid& grid = geometry.grid();
+    reference = stiffness * (height > 0 ? height : std::min(grid.hx(), grid.hy()));
+  } else {
+    reference = contact_modulus(geometry, "box elements need `young` and `poisson`", "to set their stiffness",
+                                "`stiffness` to the box elements");
+    if (!(height > 0))
+      refuse("all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness",
+             "give `stiffness` in Pa/m");
+    stiffness = reference / height;
+    origin = "E*/peak-to-valley, " + format_quantity(reference, dimension::pressure) + " / " + metres(height);
+  }
+  if (!std::isfinite(stiffness) || !std::isfinite(reference) || !(stiffness > 0))
+    refuse("the stiffness of the box elements comes to " + format_short(stiffness) + " Pa/m",
+           "check the units of the heights and of `young`, or give `stiffness`");
+  auto box = std::make_shared<BoxOperator>(BoxOptions::model(), stiffness, reference);
+  box->lower_share = lower_elastic_share(geometry);
+  box->sentence =
+      "box elements, stiffness " + format_quantity(stiffness, dimension::stiffness) + " (" + origin + ")";
+  return box;
+}
+
+std::shared_ptr<const ElasticOperator> make_rigid(const std::any&, const ContactGeometry&) {
+  auto box =
+      std::make_shared<BoxOperator>(RigidOptions::model(), std::numeric_limits<double>::infinity(), 0.0);
+  box->sentence = "rigid bodies, which rest on what has yielded";
+  return box;
+}
+
 void check_rigid(const std::any&, const Scene& scene) {
   if (scene.effects.any_that(Effect::Acts::bounds_pressure)) return;
   const std::string wanted = effects_that(Effect::Acts::bounds_pressure);
   refuse("rigid bodies carry a load only where they yield, and this scene does not name " + wanted,
-         "name " + wanted + " beside elasticity=\"rigid\", or name another elasticity");
-}
-
-std::any stiffness_as_planned(const std::any&, const Plan& before) {
-  return BoxOptions{std::get<BoxOperator>(before.elasticity).stiffness};
-}
-
-std::shared_ptr<const Solver> box_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry) {
-  const auto& box = std::get<BoxOperator>(plan.elasticity);
-  if (plan.yield && plan.yield->limits())
-    return std::make_shared<const YieldingBoxSolver>(plan, box, std::move(geometry));
-  return std::make_shared<const BoxSolver>(plan, box, std::move(geometry));
+         "name " + wanted + " as well, or give another elasticity");
 }
 
 }  // namespace
 
-const ElasticModel& box_model() {
+const ElasticModel& BoxOptions::model() {
   using O = BoxOptions;
   static const ElasticModel record{
       .name = "box",
@@ -119,31 +128,26 @@ const ElasticModel& box_model() {
       .sentence =
           "a Winkler foundation: independent elements over the nodes, pressure in proportion to their "
           "shortening",
+      .is_local = true,
       .defaults = O{},
       .options = {quantity_row("stiffness", &O::stiffness, dimension::stiffness, above(0),
                                "pressure per shortening of a box element; of model=\"box\" alone")
                       .defaults_to("E*/peak-to-valley")},
-      .plan = plan_box,
-      .finish = plan_yield_of_boxes,
-      .as_planned = stiffness_as_planned,
-      .solver = box_solver};
+      .make = make_box};
   return record;
 }
-const ElasticModel& BoxOptions::model() { return box_model(); }
 
-const ElasticModel& rigid_model() {
+const ElasticModel& RigidOptions::model() {
   static const ElasticModel record{.name = "rigid",
                                    .noun = "rigid bodies",
                                    .called = "rigid bodies",
                                    .sentence = "no elastic deformation, the bodies rest on what has yielded",
+                                   .is_local = true,
                                    .defaults = RigidOptions{},
                                    .options = {},
                                    .check = check_rigid,
-                                   .plan = plan_rigid,
-                                   .finish = plan_yield_of_boxes,
-                                   .solver = box_solver};
+                                   .make = make_rigid};
   return record;
 }
-const ElasticModel& RigidOptions::model() { return rigid_model(); }
 
 }  // namespace asperity

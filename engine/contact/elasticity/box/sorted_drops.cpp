@@ -8,10 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -64,15 +62,10 @@ double lane_sum(std::size_t begin, std::size_t end, Term term) {
 }  // namespace
 
 SortedDrops::SortedDrops(std::span<const double> heights) {
-  if (heights.empty()) throw Error(ErrorCode::internal, "no heights to sort");
   peak_ = range(heights).max;
   drops_.resize(heights.size());
   std::transform(heights.begin(), heights.end(), drops_.begin(), [&](double h) { return peak_ - h; });
   sort_ascending(drops_);
-  const double greatest = peak_to_valley();
-  if (!std::isfinite(greatest * greatest * static_cast<double>(drops_.size())))
-    throw Error(ErrorCode::bad_value, "the peak-to-valley of the heights is " + format_short(greatest) + " m",
-                "sums over heights this large leave the range of a double; check the unit of the surfaces");
   build_checkpoints();
   find_rms();
 }
@@ -87,7 +80,7 @@ void SortedDrops::build_checkpoints() {
     const std::size_t s = (b - 1) * block, next = b * block;
     const auto before = static_cast<double>(s);
     const double step = g[next] - g[s];
-    // Σ (step + x)² = Σ x² + 2 step Σ x + before·step², with x the shortenings at the plane g_s.
+    // Σ (step + x)² = Σ x² + 2 step Σ x + before·step², x: shortenings at the plane g_s.
     squared.add_product(2 * step, shortening.value());
     squared.add_product(before * step, step);
     squared.add(lane_sum(s, next, [&](std::size_t k) { return (g[next] - g[k]) * (g[next] - g[k]); }));
@@ -162,7 +155,7 @@ double SortedDrops::remaining_gap(double d) const {
 
 double SortedDrops::depth(double total) const {
   if (total <= 0) return 0;
-  // The last block whose first drop is passed before `total` is reached, or block 0.
+  // The last block whose first drop precedes `total`, or block 0.
   const auto above = std::lower_bound(checkpoints_.begin() + 1, checkpoints_.end(), total,
                                       [](const Checkpoint& c, double w) { return c.shortening < w; });
   const auto b = static_cast<std::size_t>(above - checkpoints_.begin()) - 1;

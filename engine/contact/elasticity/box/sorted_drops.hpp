@@ -15,8 +15,7 @@
 namespace asperity {
 
 // A sum as an unevaluated pair of doubles, exact to about 2⁻¹⁰⁶ per addition (Knuth's TwoSum; Dekker 1971,
-// "A floating-point technique for extending the available precision"). Powers of two scale the sum bit for
-// bit.
+// Numer. Math. 18, 224). Powers of two scale the sum bit for bit.
 class Accumulator {
  public:
   explicit Accumulator(double start = 0) : high_(start) {}
@@ -33,10 +32,6 @@ class Accumulator {
     add(product);
     add(std::fma(a, b, -product));
   }
-  void add(const Accumulator& other) {
-    add(other.high_);
-    add(other.low_);
-  }
   void subtract(const Accumulator& other) {
     add(-other.high_);
     add(-other.low_);
@@ -52,14 +47,13 @@ class Accumulator {
   double low_ = 0;
 };
 
-// Sorts values >= +0.0 (no -0.0), not NaN, in place. O(n); needs a second array. Checks the stop flag. Radix
-// sort of the bit patterns, which order like the doubles (M. Herf, "Radix tricks").
+// Sorts values >= +0.0 (no -0.0, no NaN) in place. O(n); needs a second array. Checks the stop flag. Radix
+// sort of bit patterns (M. Herf, "Radix tricks").
 void sort_ascending(Array<double>& values);
 
 class SortedDrops {
  public:
-  // At least one height, finite range. O(n); 2 n doubles while sorting, then n. Throws Error{bad_value} if
-  // the sum of squared drops overflows.
+  // At least one height; finite sum of squared drops. O(n); 2 n doubles while sorting, then n.
   explicit SortedDrops(std::span<const double> heights);
 
   std::size_t size() const { return drops_.size(); }
@@ -80,7 +74,7 @@ class SortedDrops {
   static std::int64_t bytes_while_sorting(std::size_t heights);
 
  private:
-  // For a plane at the first drop of a block.
+  // At the first drop of a block.
   struct Checkpoint {
     double shortening = 0;          // Σ_{i<s} (g_s − g_i)
     double squared_shortening = 0;  // Σ_{i<s} (g_s − g_i)²

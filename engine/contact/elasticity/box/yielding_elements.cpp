@@ -66,7 +66,7 @@ YieldingElements::YieldingElements(const ElementLaw& law, std::span<const double
   const auto begins = [&](const std::pair<double, double>& e) {
     return e.first + law_.depth_at_yield(e.second);
   };
-  // By depth of first yield; ties by drop and yield pressure, so the order of the nodes has no effect.
+  // By depth of first yield; ties by drop and yield pressure: node order has no effect.
   std::sort(elements.begin(), elements.end(), [&](const auto& a, const auto& b) {
     const double first = begins(a), second = begins(b);
     return first != second ? first < second : a < b;
@@ -129,12 +129,12 @@ RestingPlane YieldingElements::plane_under(double mean_pressure) const {
     const double below = this->mean_pressure(low), above = this->mean_pressure(high);
     return {low, high, above > below ? std::clamp((mean_pressure - below) / (above - below), 0.0, 1.0) : 1.0};
   };
-  // At depth 0 the highest rigid element is already touched.
+  // At depth 0 the highest rigid element touches already.
   constexpr double nothing = -std::numeric_limits<double>::denorm_min();
   if (this->mean_pressure(0) >= mean_pressure) return between(nothing, 0);
 
-  // Bisects between 0 and a depth at which all elements yield and carry enough. Values are bisected, not
-  // bits: a power of two in the lengths changes no digit.
+  // Bisects between 0 and a depth at which all elements yield and carry enough. Bisects values, not bits: a
+  // power of two in the lengths changes no digit.
   double low = 0, high = last_to_yield_;
   if (const double slope = law_.slope_past_yield(); slope > 0) high += mean_pressure / slope;
   high = std::max(high, std::numeric_limits<double>::min());

@@ -35,7 +35,7 @@ struct ElementLaw {
     if (yields(depth, yield)) return yield + slope_past_yield() * (depth - depth_at_yield(yield));
     return std::min(stiffness * depth, yield);
   }
-  // From the depth: with weak hardening the pressure has too few digits.
+  // With weak hardening the pressure has too few digits.
   double plastic_part(double depth, double yield) const {
     if (!yields(depth, yield)) return 0;
     const double past = depth - depth_at_yield(yield);
@@ -43,7 +43,7 @@ struct ElementLaw {
   }
 };
 
-// Pressures are those at `low` plus `share` of the increase up to `high`.
+// Pressures at `low` plus `share` of the increase up to `high`.
 struct RestingPlane {
   double low = 0, high = 0;  // m; the same, or neighbouring doubles
   double share = 1;
@@ -73,7 +73,7 @@ class YieldingElements {
   YieldingElements(const ElementLaw& law, std::span<const double> drops, std::span<const double> yields);
   YieldingElements(const YieldingElements&) = delete;
   YieldingElements& operator=(const YieldingElements&) = delete;
-  // The same drops, another common yield pressure. O(n/256).
+  // Other common yield pressure. O(n/256).
   YieldingElements(const YieldingElements& others, double yield);
 
   const ElementLaw& law() const { return law_; }
@@ -83,9 +83,9 @@ class YieldingElements {
 
   // Pa. O(log n).
   double mean_pressure(double depth) const;
-  // Pa, not reached by any plane; infinite with hardening.
+  // Pa, never reached; infinite with hardening.
   double greatest_mean_pressure() const;
-  // For a mean pressure above zero and below the greatest. O(log n).
+  // For mean pressures in (0, greatest). O(log n).
   RestingPlane plane_under(double mean_pressure) const;
 
   // To about a rounding of the terms.
@@ -100,7 +100,6 @@ class YieldingElements {
   static std::int64_t bytes(std::size_t elements);
 
  private:
-  // Prefix sums of a sequence.
   class FirstSums {
    public:
     void build(std::span<const double> values);
@@ -114,7 +113,7 @@ class YieldingElements {
   ElementLaw law_;
   double one_yield_ = 0;
   double last_to_yield_ = 0;  // depth at which all yield
-  // Sorted by drop; with individual yield pressures, by the depth at which each element begins to yield.
+  // Sorted by drop; with individual yield pressures, by depth of first yield.
   std::span<const double> drops_;
   std::span<const double> yields_;
   Array<double> own_drops_, own_yields_, by_drop_;

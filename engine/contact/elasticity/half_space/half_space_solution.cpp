@@ -14,11 +14,10 @@
 namespace asperity {
 
 namespace {
-// The error of Σx is the square of this.
+// The error of Σx is its square.
 constexpr double residual_reduction = 1e-5;
 constexpr int most_solver_steps = 400;
 
-// Counts elastic and hardening nodes.
 std::array<double, 2> mark_yielding(const YieldLaw& law, const HalfSpaceAnswer& answer,
                                     Array<std::uint8_t>& elastic, Array<std::uint8_t>& yields) {
   const double cap = law.caps() ? law.cap : std::numeric_limits<double>::infinity();
@@ -49,7 +48,7 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   const auto counts = mark_yielding(law, answer, elastic, yields);
   const double free = counts[0] + counts[1], n = static_cast<double>(nodes);
   if (free == 0) return 0;
-  // K(0) of a layer is in series with the rest of K.
+  // K(0) of a layer, in series with the rest of K.
   const double uniform = uniform_compliance(problem);
   if (problem.boundary == Boundary::periodic && counts[0] == n)
     return uniform > 0 ? 1 / uniform : std::numeric_limits<double>::infinity();
@@ -101,17 +100,20 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   return uniform > 0 ? stiffness / (1 + uniform * stiffness) : stiffness;
 }
 
-HalfSpaceSolution::HalfSpaceSolution(std::shared_ptr<const ContactGeometry> geometry,
-                                     HalfSpaceProblem problem, HalfSpaceAnswer answer, double lower_share)
-    : problem_(std::move(problem)),
-      at_(std::move(answer)),
-      geometry_(std::move(geometry)),
-      lower_share_(lower_share) {}
-
-const std::optional<PlannedYield>& HalfSpaceSolution::limit() const {
-  static const std::optional<PlannedYield> none;
-  return none;
-}
+HalfSpaceSolution::HalfSpaceSolution(PlacedContact contact, HalfSpaceProblem problem, HalfSpaceAnswer answer,
+                                     double attraction, std::vector<double> preload)
+    : Solution(std::move(contact), {.load = answer.mean_pressure * problem.grid.area(),
+                                    .pressure = answer.mean_pressure,
+                                    .approach = answer.approach,
+                                    .peak_pressure = answer.peak_pressure,
+                                    .contacts = answer.contacts,
+                                    .yielded = answer.yielded,
+                                    .iterations = answer.iterations,
+                                    .solver = answer.solver,
+                                    .attraction = attraction,
+                                    .preload = std::move(preload)}),
+      problem_(std::move(problem)),
+      at_(std::move(answer)) {}
 
 double HalfSpaceSolution::stiffness() const {
   return at_.contacts > 0 ? contact_stiffness(problem_, at_, Monitor::silent()) : 0.0;
@@ -133,12 +135,6 @@ PressureSplit HalfSpaceSolution::split(double threshold) const {
   return result;
 }
 
-Array<std::uint8_t> HalfSpaceSolution::contact_mask() const {
-  Array<std::uint8_t> mask(at_.pressure.size());
-  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = at_.pressure[k] > 0 ? 1 : 0;
-  return mask;
-}
-
 Field HalfSpaceSolution::gap_field() const {
   return field([&](std::size_t k) { return at_.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.gap[k]); });
 }
@@ -147,18 +143,10 @@ Field HalfSpaceSolution::displacement_field() const {
   Field u = field([&](std::size_t k) { return displacement(k); });
   if (!problem_.overhangs) return u;
   // Nodes without a counterpart move with the rest.
-  const Field all = displacement_under(problem_, moving_pressures());
+  const Field all = plan().elasticity->apply(moving_pressures(), problem_.grid, problem_.boundary);
   for (std::size_t k = 0; k < u.size(); ++k)
     if (!faces(k)) u[k] = all[k];
   return u;
-}
-
-Field HalfSpaceSolution::lower_under_load() const {
-  return lower_heights(geometry(), limit(), deformation());
-}
-
-Field HalfSpaceSolution::upper_under_load() const {
-  return upper_heights(geometry(), limit(), deformation());
 }
 
 }  // namespace asperity

@@ -5,11 +5,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
-#include <string_view>
+#include <vector>
 
-#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/solution.hpp"
 
@@ -17,35 +14,21 @@ namespace asperity {
 
 class HalfSpaceSolution : public Solution {
  public:
-  const ContactGeometry& geometry() const override { return *geometry_; }
-  double load() const override { return at_.mean_pressure * problem_.grid.area(); }
-  double pressure() const override { return at_.mean_pressure; }
-  double approach() const override { return at_.approach; }
-  std::int64_t contacts() const override { return at_.contacts; }
-  double peak_pressure() const override { return at_.peak_pressure; }
-  int iterations() const override { return at_.iterations; }
-  std::string_view solver() const override { return at_.solver; }
   Certificate certificate() const override { return at_.certificate; }
   // At fixed attraction.
   double stiffness() const override;
   double mean_gap() const override;
   PressureSplit split(double threshold) const override;
-  Array<std::uint8_t> contact_mask() const override;
   Field pressure_field() const override { return at_.pressure; }
   Field gap_field() const override;
   Field displacement_field() const override;
-  Field lower_under_load() const override;
-  Field upper_under_load() const override;
 
  protected:
-  // `lower_share`: displacement share of the lower body.
-  HalfSpaceSolution(std::shared_ptr<const ContactGeometry> geometry, HalfSpaceProblem problem,
-                    HalfSpaceAnswer answer, double lower_share);
+  HalfSpaceSolution(PlacedContact contact, HalfSpaceProblem problem, HalfSpaceAnswer answer,
+                    double attraction = 0, std::vector<double> preload = {});
 
   // Contact pressures less the attraction.
   virtual Field moving_pressures() const { return at_.pressure; }
-  // The yield law; empty without yield.
-  virtual const std::optional<PlannedYield>& limit() const;
 
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
   bool faces(std::size_t k) const { return problem_.faces(k); }
@@ -66,12 +49,6 @@ class HalfSpaceSolution : public Solution {
 
   HalfSpaceProblem problem_;
   HalfSpaceAnswer at_;
-
- private:
-  Deformation deformation() const { return {displacement_field(), lower_share_, plastic_change()}; }
-
-  std::shared_ptr<const ContactGeometry> geometry_;
-  double lower_share_;
 };
 
 // 10 to 20 applications of K, relative accuracy about 1e-8. +∞ in full elastic contact of a periodic

@@ -5,19 +5,24 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
-#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
@@ -25,7 +30,7 @@ namespace asperity {
 
 namespace {
 
-// One list for writing and reading, so both agree.
+// One list, so writing and reading agree.
 template <class Answer, class Visit>
 void numbers_of(Answer& answer, Visit visit) {
   visit("offset", answer.offset);
@@ -141,7 +146,7 @@ Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::str
     digester.add(adhesive_form.call);
     add(digester, problem.contact);
     for (const GapTerm& term : problem.attraction)
-      digester.add(term.effect).add(static_cast<int>(term.law)).add(term.work).add(term.range).add(term.edge);
+      digester.add(term.effect).add(static_cast<int>(term.law)).add(term.work).add(term.range);
     if (start != nullptr)
       digester.add("from").add(start->contact.pressure.values()).add(start->attraction.values());
     return digester.add(by).add(value).hex();
@@ -150,6 +155,21 @@ Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::str
 }
 
 namespace {
+
+// As planned and placed; without rms height and yield.
+HalfSpaceProblem problem_of(const Plan& plan, const std::shared_ptr<const ContactGeometry>& geometry) {
+  HalfSpaceProblem problem;
+  problem.grid = geometry->grid();
+  problem.boundary = geometry->boundary();
+  problem.modulus = plan.elasticity->modulus;
+  if (const WaveShare* share = plan.elasticity->wave_share()) problem.share = *share;
+  problem.heights = {geometry, &geometry->combined()};
+  problem.overhangs = geometry->overhangs();
+  problem.tolerance = plan.accuracy.tolerance;
+  problem.single = plan.accuracy.precision == Accuracy::Precision::single;
+  problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
+  return problem;
+}
 
 double rms_of(std::span<const double> heights) {
   const double middle = mean(heights), n = static_cast<double>(heights.size());
@@ -168,50 +188,15 @@ double rms_of(std::span<const double> heights) {
   return std::ldexp(std::sqrt(block_sum(squares) / n), -power);
 }
 
-}  // namespace
-
-struct HalfSpaceSolver::Ready {
-  std::shared_ptr<const ContactGeometry> geometry;
-  HalfSpaceOperator half_space;
-  std::optional<PlannedYield> yield;
-  MetMemory hardness;  // empty unless past events left hardness fields
-  HalfSpaceProblem problem;
-
-  static std::shared_ptr<const Ready> make(const Plan& plan, const HalfSpaceOperator& half_space,
-                                           std::shared_ptr<const ContactGeometry> geometry) {
-    auto ready = std::make_shared<Ready>();
-    ready->geometry = std::move(geometry);
-    ready->half_space = half_space;
-    ready->yield = plan.yield;
-    HalfSpaceProblem& problem = ready->problem;
-    problem.grid = ready->geometry->grid();
-    problem.boundary = ready->geometry->boundary();
-    problem.modulus = half_space.modulus;
-    problem.share = half_space.share;
-    problem.heights = {ready->geometry, &ready->geometry->combined()};
-    problem.overhangs = ready->geometry->overhangs();
-    problem.rms =
-        problem.overhangs ? rms_of(ready->geometry->facing_heights()) : rms_of(problem.heights->values());
-    problem.tolerance = plan.accuracy.tolerance;
-    problem.single = plan.accuracy.precision == Accuracy::Precision::single;
-    problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
-    if (ready->yield && ready->yield->hardens())
-      ready->hardness = local_hardness(*ready->geometry, *ready->yield);
-    return ready;
-  }
-};
-
-class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
+class PressedHalfSpace final : public HalfSpaceSolution {
  public:
-  // `problem` has the yield law in force; `factor`: softening by creep.
-  UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
-            double factor, const Reported& asked)
-      : HalfSpaceSolution(ready->geometry, std::move(problem), std::move(answer),
-                          ready->half_space.lower_share),
-        ready_(std::move(ready)),
+  // `problem` has its yield law; `factor`: softening by creep.
+  PressedHalfSpace(PlacedContact contact, HalfSpaceProblem problem, HalfSpaceAnswer answer, double factor,
+                   const Reported& asked)
+      : HalfSpaceSolution(std::move(contact), std::move(problem), std::move(answer)),
         factor_(factor),
         asked_(asked),
-        fits_(ready_->yield && covered(ready_->yield->carried, carried())) {}
+        fits_(plan().yield && covered(plan().yield->carried, carried())) {}
 
   SolutionError error() const override {
     Reported reported = asked_;
@@ -225,14 +210,12 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
   std::int64_t bytes() const override {
     return static_cast<std::int64_t>((at_.pressure.size() + at_.gap.size()) * sizeof(double));
   }
-  std::int64_t yielded() const override { return at_.yielded; }
   double plastic_volume() const override {
     return sum([&](std::size_t k) { return yielded(k); }) * problem_.grid.cell_area();
   }
   std::optional<PlasticChange> plastic_change() const override;
 
  private:
-  const std::optional<PlannedYield>& limit() const override { return ready_->yield; }
   CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
   // Plastic displacement w, m.
   double yielded(std::size_t k) const {
@@ -245,53 +228,38 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
     return at_.pressure[k] >= law.cap ? std::max(0.0, -at_.gap[k]) : 0.0;
   }
 
-  std::shared_ptr<const Ready> ready_;
   double factor_;
   Reported asked_;
-  bool fits_;  // the bodies have carried this load in this position
+  bool fits_;  // carried before, as placed
 };
 
-// Half the sum of pressures times displacements. In periodic full contact a large mean pressure can cost the
-// pressures their precision: their differences then come from the displacements.
-double HalfSpaceSolver::UnderLoad::energy() const {
+// Half the sum of pressures times displacements. In periodic full contact a large mean can hide pressure
+// differences; they then come from the displacements.
+double PressedHalfSpace::energy() const {
   Field pressure = at_.pressure;
   double uniform = 0;  // twice the energy of the mean pressure
   if (problem_.boundary == Boundary::periodic && static_cast<double>(at_.contacts) == nodes() &&
-      yielded() == 0) {
-    const Grid& grid = problem_.grid;
-    HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem_.boundary, 1, false,
-                                   multiplier_of(problem_));
-    compliance.apply_inverse(displacement_field().values(), pressure.values());
-    for (double& p : pressure.values()) p *= problem_.modulus / grid.hx();
-    uniform = uniform_compliance(problem_) * at_.mean_pressure * load();
+      at_.yielded == 0) {
+    pressure = plan().elasticity->inverse(displacement_field(), problem_.grid);
+    uniform = plan().elasticity->compliance_of_mean() * at_.mean_pressure * numbers().load;
   }
   const double twice = sum([&](std::size_t k) { return faces(k) ? pressure[k] * displacement(k) : 0.0; });
   return 0.5 * uniform + std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // rounding
 }
 
-std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const {
+std::optional<PlasticChange> PressedHalfSpace::plastic_change() const {
   if (!problem_.yield.limits() || at_.yielded == 0) return {};
   if (fits_) return {};
   PlasticChange change{field([&](std::size_t k) { return yielded(k); }), {}};
   if (range(change.approach.values()).max == 0) return {};
   if (at_.converged) change.carried = carried();
   if (problem_.yield.hardens())
-    // At the reference dwell: a repeated press finds the nodes exactly as hard.
+    // At the reference dwell: a repeated press finds exactly this hardness.
     change.hardness = field([&](std::size_t k) { return yielded(k) > 0 ? at_.pressure[k] / factor_ : 0.0; });
   return change;
 }
 
-HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half_space,
-                                 std::shared_ptr<const ContactGeometry> geometry)
-    : Solver(plan, std::move(geometry)) {
-  const CostScope scope;
-  ready_ = Ready::make(plan, half_space, geometry_);
-  preparation_ = elasticity_alone(scope.so_far());
-}
-
-namespace {
-
-// From `start`; again without `start` if this does not converge at once.
+// From `start`; on failure again without `start`.
 HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem& problem,
                            double mean_pressure, Monitor& monitor) {
   if (start == nullptr) return solve_at_pressure(problem, mean_pressure, nullptr, monitor);
@@ -305,8 +273,8 @@ HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem&
   return answer;
 }
 
-// Hardening on long cells converges within some 150 transforms or hardly at all (docs/stability.md). Controls
-// other than the load take some three solves.
+// Hardening on long cells converges within some 150 transforms or hardly at all (docs/stability.md). Other
+// controls take some three solves.
 constexpr double most_under_load = 400, most_of_other_controls = 2000;
 
 bool hardens_on_long_cells(const HalfSpaceProblem& problem) {
@@ -327,20 +295,39 @@ HalfSpaceAnswer solve_within(double most, const Grid& grid, const std::function<
   }
 }
 
-}  // namespace
+class HalfSpaceSolver final : public Solver {
+ public:
+  HalfSpaceSolver(const Plan& given, std::shared_ptr<const ContactGeometry> geometry)
+      : Solver(given, std::move(geometry)) {
+    const CostScope scope;
+    const std::optional<PlannedYield>& yield = plan().yield;
+    problem_ = problem_of(plan(), contact_.geometry);
+    problem_.rms =
+        problem_.overhangs ? rms_of(contact_.geometry->facing_heights()) : rms_of(problem_.heights->values());
+    if (yield && yield->hardens()) hardness_ = local_hardness(*contact_.geometry, *yield);
+    preparation_ = elasticity_alone(scope.so_far());
+  }
 
-State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
-  return pressed(request, nullptr, monitor);
-}
+  State press(const PressRequest& request, Monitor& monitor) const override {
+    return pressed(request, nullptr, monitor);
+  }
+  State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const override;
+
+ private:
+  // `start` may be null.
+  State pressed(const PressRequest& request, const HalfSpaceAnswer* start, Monitor& monitor) const;
+
+  MetMemory hardness_;  // empty without hardness fields
+  HalfSpaceProblem problem_;
+};
 
 State HalfSpaceSolver::press_from(const Solution& guess, const PressRequest& request,
                                   Monitor& monitor) const {
-  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
-  if (!by_load || geometry().overhangs()) return press(request, monitor);
+  if (!request.by_load() || geometry().overhangs()) return press(request, monitor);
   HalfSpaceAnswer start;
   start.pressure = guess.pressure_field();
   start.gap = guess.gap_field();
-  start.mean_pressure = guess.pressure();
+  start.mean_pressure = guess.numbers().pressure;
   return pressed(request, &start, monitor);
 }
 
@@ -350,30 +337,22 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
   const double height = geometry().peak_to_valley();
   check_fraction(request, height);
 
-  const double factor = ready_->yield ? ready_->yield->softened(request.dwell) : 1.0;
-  HalfSpaceProblem problem = ready_->problem;
-  if (ready_->yield) problem.yield = yield_law(*ready_->yield, ready_->hardness, factor);
+  const std::optional<PlannedYield>& yield = plan().yield;
+  const double factor = yield ? yield->softened(request.dwell) : 1.0;
+  HalfSpaceProblem problem = problem_;
+  if (yield) problem.yield = yield_law(*yield, hardness_, factor);
+  const double value = request.by == PressBy::load          ? request.value / problem.grid.area()
+                       : request.by == PressBy::indentation ? request.value * height
+                                                            : request.value;
   Reported asked;
   std::string_view by = "pressure";
-  double value = request.value;
-  switch (request.by) {
-    case PressBy::pressure:
-      break;
-    case PressBy::load:
-      value /= problem.grid.area();
-      break;
-    case PressBy::indentation:
-      value *= height;
-      [[fallthrough]];
-    case PressBy::approach:
-      by = "approach";
-      asked.prescribed = Prescribed::approach;
-      asked.asked_approach = value;
-      break;
-    case PressBy::flatten:
-      by = "flatten";
-      asked.prescribed = Prescribed::flattening;
-      break;
+  if (request.by == PressBy::flatten) {
+    by = "flatten";
+    asked.prescribed = Prescribed::flattening;
+  } else if (!request.by_load()) {
+    by = "approach";
+    asked.prescribed = Prescribed::approach;
+    asked.asked_approach = value;
   }
   const auto solve = [&] {
     return by == "approach"  ? solve_at_approach(problem, value, monitor)
@@ -390,11 +369,191 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
   if (!std::isfinite(most * static_cast<double>(problem.grid.nodes())) ||
       !std::isfinite(answer.mean_pressure * problem.grid.area()))
     refuse(quoted(name(request.by)) + " is " + format_short(request.value) +
-               ", so large that the numbers of the solution leave the range of a double",
+               ", too large: the results leave the range of a double",
            "check its unit and that of the heights");
-  auto solution =
-      std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result), factor, asked);
-  return State(std::move(solution), plan_, elasticity_alone(solved.cost));
+  auto solution = std::make_shared<const PressedHalfSpace>(contact_, std::move(problem),
+                                                           std::move(solved.result), factor, asked);
+  return State(std::move(solution), elasticity_alone(solved.cost));
+}
+
+}  // namespace
+
+std::shared_ptr<const Solver> make_half_space_solver(const Plan& plan,
+                                                     std::shared_ptr<const ContactGeometry> geometry) {
+  return std::make_shared<const HalfSpaceSolver>(plan, std::move(geometry));
+}
+
+namespace {
+
+double rms_height_of(std::span<const double> heights) {
+  const double middle = mean(heights);
+  return std::sqrt(over_nodes<1>(heights.size(),
+                                 [&](std::size_t k, double* v) {
+                                   v[0] = (heights[k] - middle) * (heights[k] - middle);
+                                 })[0] /
+                   static_cast<double>(heights.size()));
+}
+
+class AdhesiveSolution final : public HalfSpaceSolution {
+ public:
+  AdhesiveSolution(PlacedContact contact, const HalfSpaceProblem& problem, AdhesiveAnswer answer,
+                   bool by_load, std::vector<double> preload)
+      : HalfSpaceSolution(std::move(contact), problem, std::move(answer.contact),
+                          answer.mean_attraction * problem.grid.area(), std::move(preload)),
+        attraction_(std::move(answer.attraction)),
+        by_load_(by_load) {}
+
+  // Not convex: only the prescribed quantity has a bound.
+  SolutionError error() const override {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    SolutionError error{.load = by_load_ ? rounding * std::abs(numbers().load) : unknown};
+    error.approach = error.mean_gap = error.energy = error.peak_pressure = unknown;
+    error.contacts = {0, geometry().facing()};
+    error.may_differ = error.contacts.high;
+    return error;
+  }
+  double flatten() const override {
+    const double height = geometry().peak_to_valley();
+    if (!(height > 0)) return 0;
+    const auto ends = over_nodes<0, 2>(at_.gap.size(), [&](std::size_t k, double* v) {
+      const double gap = faces(k) ? at_.gap[k] : std::numeric_limits<double>::quiet_NaN();
+      v[0] = gap;  // a minimum ignores NaN
+      v[1] = -gap;
+    });
+    return 1 - (-ends[1] - ends[0]) / height;
+  }
+  double energy() const override {
+    return 0.5 * problem_.grid.cell_area() * sum([&](std::size_t k) {
+             return faces(k) ? (at_.pressure[k] - attraction_[k]) * displacement(k) : 0.0;
+           });
+  }
+  std::int64_t bytes() const override {
+    return static_cast<std::int64_t>(3 * problem_.grid.nodes() * sizeof(double));
+  }
+
+ private:
+  Field moving_pressures() const override {
+    return field([&](std::size_t k) { return at_.pressure[k] - attraction_[k]; });
+  }
+
+  Field attraction_;
+  bool by_load_;
+};
+
+class AdhesiveSolver final : public Solver {
+ public:
+  AdhesiveSolver(const Plan& given, std::shared_ptr<const ContactGeometry> geometry)
+      : Solver(given, std::move(geometry)) {
+    const CostScope scope;
+    HalfSpaceProblem& contact = problem_.contact;
+    contact = problem_of(plan(), contact_.geometry);
+    contact.rms = contact.overhangs ? rms_height_of(contact_.geometry->facing_heights())
+                                    : rms_height_of(contact.heights->values());
+    for (const GapTerm& term : plan().attraction)
+      if (term.work > 0) problem_.attraction.push_back(term);
+    preparation_ = elasticity_alone(scope.so_far());
+  }
+
+  State press(const PressRequest& request, Monitor& monitor) const override;
+
+ private:
+  struct Turn {
+    bool by_load = false;
+    std::vector<double> values;
+    AdhesiveAnswer answer;
+  };
+  StateCost parted(const Cost& whole, const Cost& contacts, const AdhesiveAnswer& answer) const;
+
+  AdhesiveProblem problem_;
+  mutable std::mutex mutex_;  // of the next member
+  mutable std::shared_ptr<const Turn> turn_;
+};
+
+State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const {
+  check(request, true);
+  const AdhesiveProblem& problem = problem_;
+  const double height = geometry().peak_to_valley();
+  check_fraction(request, height);
+  const bool by_load = request.by_load();
+  const double unit = request.by == PressBy::load          ? 1 / problem.contact.grid.area()
+                      : request.by == PressBy::indentation ? height
+                                                           : 1;
+  Cost whole;
+  const auto solve = [&](double value, const AdhesiveAnswer* start) {
+    const double target = value * unit;
+    Costed<AdhesiveAnswer> solved =
+        recall_or_adhere(problem, by_load ? "pressure" : "approach", target, start, monitor, [&] {
+          return by_load ? adhere_at_pressure(problem, target, start, monitor)
+                         : adhere_at_approach(problem, target, start, monitor);
+        });
+    whole += solved.cost;
+    return std::move(solved.result);
+  };
+  std::vector<double> turns = request.preload;
+  if (by_load && (turns.empty() ? request.value : turns.front()) < 0) turns.insert(turns.begin(), 0.0);
+  Cost contacts;  // of the first tangents
+  std::shared_ptr<const Turn> from;
+  if (!turns.empty()) {
+    std::vector<double> values = turns;
+    for (double& value : values) value *= unit;
+    {
+      const std::lock_guard lock(mutex_);
+      if (turn_ && turn_->by_load == by_load && turn_->values == values) from = turn_;
+    }
+    if (!from) {
+      auto made = std::make_shared<Turn>();
+      int iterations = 0;
+      for (std::size_t k = 0; k < turns.size(); ++k) {
+        made->answer = solve(turns[k], k > 0 ? &made->answer : nullptr);
+        iterations += made->answer.contact.iterations;
+        contacts += made->answer.first_contact;
+      }
+      made->answer.contact.iterations = iterations;
+      made->by_load = by_load;
+      made->values = std::move(values);
+      from = std::move(made);
+    }
+  }
+  AdhesiveAnswer answer = solve(request.value, from ? &from->answer : nullptr);
+  contacts += answer.first_contact;
+  if (from) answer.contact.iterations += from->answer.contact.iterations;
+  if (from) {  // a refused press leaves no trace
+    const std::lock_guard lock(mutex_);
+    turn_ = std::move(from);
+  }
+  const StateCost cost = parted(whole, contacts, answer);
+  return State(std::make_shared<const AdhesiveSolution>(contact_, problem.contact, std::move(answer), by_load,
+                                                        std::move(turns)),
+               cost);
+}
+
+StateCost AdhesiveSolver::parted(const Cost& whole, const Cost& contacts,
+                                 const AdhesiveAnswer& answer) const {
+  StateCost cost{whole, {{"elasticity", {contacts.seconds, contacts.transforms, whole.bytes}}}};
+  const auto field = static_cast<std::int64_t>(geometry().grid().nodes() * sizeof(double));
+  Cost left = whole;
+  left.seconds -= contacts.seconds;
+  left.transforms -= contacts.transforms;
+  left.bytes = field;
+  double share_left = 1;
+  const std::vector<GapTerm>& terms = problem_.attraction;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const double share = k + 1 == terms.size() ? 1 : answer.shares[k] / share_left;
+    const Cost own{share * left.seconds, share * left.transforms, field};
+    cost.by_effect.emplace_back(terms[k].effect, own);
+    left.seconds -= own.seconds;
+    left.transforms -= own.transforms;
+    share_left = std::max(share_left - answer.shares[k], std::numeric_limits<double>::min());
+  }
+  return cost;
+}
+
+}  // namespace
+
+std::shared_ptr<const Solver> make_adhesive_solver(const Plan& plan,
+                                                   std::shared_ptr<const ContactGeometry> geometry) {
+  return std::make_shared<const AdhesiveSolver>(plan, std::move(geometry));
 }
 
 }  // namespace asperity

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
@@ -16,10 +15,10 @@ namespace asperity {
 
 namespace {
 
-// From this y on the share is 1 to rounding: the difference is y² exp(−y).
+// From here on the share is 1 to rounding: the difference is y² exp(−y).
 constexpr double deep = 60;
 
-// sinh y − y for y <= 1 by its power series; the next term is below 1e-17 of the first.
+// Power series for y <= 1; the next term is below 1e-17 of the first.
 double sinh_less_argument(double y) {
   const double z = y * y;
   double sum = 1;
@@ -27,9 +26,8 @@ double sinh_less_argument(double y) {
   return y * z / 6 * sum;
 }
 
-// Numerator and denominator times 2 exp(−y), y = 2x: no term overflows. Only the numerator has terms of
-// unlike sign, which cancel for long waves on a nearly incompressible layer; (a − 1) sinh y + (sinh y − y)
-// avoids this.
+// Both parts times 2 exp(−y), y = 2x: no term overflows. On a nearly incompressible layer terms of the
+// numerator cancel for long waves; (a − 1) sinh y + (sinh y − y) avoids this.
 double bonded_share(double y, double poisson) {
   const double more = 2 * (1 - 2 * poisson), a = 1 + more;
   const double fall = elementary::exp(-y), missing = -elementary::expm1(-2 * y);  // 1 − exp(−2y)
@@ -39,7 +37,7 @@ double bonded_share(double y, double poisson) {
   return numerator / denominator;
 }
 
-// 2 sinh² x/(sinh 2x + 2x), both parts times 2 exp(−2x): all terms are positive.
+// 2 sinh² x/(sinh 2x + 2x), both parts times 2 exp(−2x): no cancellation.
 double frictionless_share(double x) {
   const double missing = -elementary::expm1(-2 * x);
   return missing * (missing / (-elementary::expm1(-4 * x) + 4 * x * elementary::exp(-2 * x)));
@@ -70,62 +68,46 @@ std::string material_found(const Material* material) {
   return material->name.empty() ? std::string("is elastic") : "is of " + quoted(material->name);
 }
 
-std::string sinking_under_pressure(double metres_per_pascal) {
-  return format_quantity(metres_per_pascal * 1e6, dimension::length) + " a MPa";
-}
-
-// Throws Error{bad_value} unless the boundary is periodic, the lower body elastic, the upper body rigid.
+// Throws Error{bad_value} unless the boundary is periodic, the lower body elastic, the upper rigid.
 void check_layer(const std::any&, const Scene& scene) {
   if (scene.boundary != Boundary::periodic)
-    refuse("`boundary` is \"free\" on a layer, which is not computed by this version",
+    refuse("`boundary` is \"free\", and a layer is computed on a periodic tile only",
            "give boundary=\"periodic\", on a tile several times as wide as contact and layer, or name "
            "elasticity=\"half_space\"");
   const Material* const lower = lower_material(scene.lower);
   if (lower != nullptr && lower->rigid)
-    refuse("the lower body is rigid, and is the layer that gives way",
-           "give the lower body the material of the layer, and lay it below");
+    refuse("the lower body is rigid, and it is the elastic layer",
+           "give the lower body the elastic material of the layer");
   const Material* const upper = upper_material(scene.upper);
   if (upper == nullptr || !upper->rigid)
-    refuse(
-        "the upper body " + material_found(upper) + ", and what presses on a layer is rigid in this version",
-        "press with lab.rigid, or give the upper surface material=lab.rigid");
+    refuse("the upper body " + material_found(upper) + ", and only a rigid body can press on a layer",
+           "press with lab.rigid, or give the upper surface material=lab.rigid");
 }
 
-void plan_layer(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
+std::shared_ptr<const ElasticOperator> make_layer(const std::any& given, const ContactGeometry& geometry) {
   const auto& options = std::any_cast<const LayerOptions&>(given);
-  plan_half_space(geometry, plan);
-  auto& half_space = std::get<HalfSpaceOperator>(plan.elasticity);
+  auto layer = std::make_shared<HalfSpaceOperator>(LayerOptions::model(), geometry);
   const double poisson = *lower_material(geometry.lower())->poisson;
-  half_space.share = wave_share({options.thickness, poisson, options.base});
-  const double uniform = options.thickness * uniform_share(poisson) / half_space.modulus;
+  layer->share = wave_share({options.thickness, poisson, options.base});
+  const double uniform = options.thickness * uniform_share(poisson) / layer->modulus;
   const bool bonded = options.base == LayerBase::bonded;
-  plan.terms.back().sentence =
-      "layer of " + format_quantity(options.thickness, dimension::length) +
-      (bonded ? ", bonded to a rigid base" : " on a frictionless rigid base") + ", E* " +
-      format_quantity(half_space.modulus, dimension::pressure) +
-      ", Fourier multiplier: a share of 2/(E*|q|); a uniform pressure compresses it by " +
-      (uniform > 0 ? sinking_under_pressure(uniform) : "nothing, for its volume stays");
-  // A thin layer coarsens the grid of the preconditioner little or not at all.
-  const Grid& grid = geometry.grid();
-  const double aspect = grid.hy() / grid.hx();
-  const auto preconditioner = [&](const ComplianceMultiplier& multiplier) {
-    return HalfOrderPyramid::bytes(grid.nx, grid.ny, aspect, Boundary::periodic, multiplier);
-  };
-  const std::int64_t more =
-      preconditioner(in_cells(*half_space.share, grid.hx(), false)) - preconditioner({});
-  if (more > 0) plan.buffers.push_back({"waves that feel the base", more, false});
+  layer->sentence = "layer of " + format_quantity(options.thickness, dimension::length) +
+                    (bonded ? ", bonded to a rigid base" : " on a frictionless rigid base") + ", E* " +
+                    format_quantity(layer->modulus, dimension::pressure) +
+                    ", Fourier multiplier: a share of 2/(E*|q|); a uniform pressure compresses it by " +
+                    (uniform > 0 ? metres(uniform * 1e6) + " a MPa" : "nothing, for its volume stays");
+  return layer;
 }
 
 }  // namespace
 
-const ElasticModel& layer_model() {
+const ElasticModel& LayerOptions::model() {
   using O = LayerOptions;
   static const ElasticModel record{
       .name = "layer",
       .noun = "a layer",
       .called = "layer",
       .sentence = "an elastic layer on a rigid base, the lower body, under a rigid one",
-      .moves_every_node = true,
       .defaults = O{},
       .options = {quantity_row(
                       "thickness", &O::thickness, dimension::length, above(0),
@@ -134,14 +116,13 @@ const ElasticModel& layer_model() {
                       .needed(),
                   choice_row("base", &O::base,
                              {{"bonded", LayerBase::bonded}, {"frictionless", LayerBase::frictionless}},
-                             "how the layer lies on its rigid base; of model=\"layer\" alone")},
+                             "bond of the layer to its rigid base; of model=\"layer\" alone")},
       .boundary = "a layer needs boundary=\"periodic\": the tile goes on beyond its rim",
       .periodic_only = true,
+      .shear = false,
       .check = check_layer,
-      .plan = plan_layer,
-      .solver = half_space_solver};
+      .make = make_layer};
   return record;
 }
-const ElasticModel& LayerOptions::model() { return layer_model(); }
 
 }  // namespace asperity

@@ -22,7 +22,7 @@ struct ElasticLayer {
   LayerBase base = LayerBase::bonded;
 };
 
-// At x = |q| t >= 0: in [0, 1], 0 at x = 0, relative error about 1e-15 at any x, infinity included.
+// At x = |q| t in [0, ∞]: in [0, 1], 0 at x = 0, relative error about 1e-15.
 double layer_share(double x, double poisson, LayerBase base);
 
 WaveShare wave_share(const ElasticLayer& layer);
@@ -30,7 +30,7 @@ WaveShare wave_share(const ElasticLayer& layer);
 // K(0) E*/t = (1 − 2ν)/(1 − ν)², E* of the layer alone.
 double uniform_share(double poisson);
 
-// The layer is the lower body; the upper body is rigid. Solved as a half-space with another multiplier.
+// Lower body: the layer; upper body: rigid. Solved as a half-space with another multiplier.
 struct LayerOptions {
   double thickness = 0;  // m, > 0
   LayerBase base = LayerBase::bonded;

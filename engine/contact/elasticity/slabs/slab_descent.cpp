@@ -7,71 +7,107 @@
 #include <optional>
 #include <utility>
 
-#include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
-#include "engine/contact/elasticity/slabs/slab_quality.hpp"
+#include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 namespace asperity {
+
+namespace {
+
+void extend(const double* below, const double* here, const double* above, const std::uint8_t* mask, int nx,
+            double* to) {
+  const auto at = [&](int i, int left, int right) {
+    const double mean = 0.25 * ((below[i] + above[i]) + (here[left] + here[right]));
+    to[i] = mask[i] != 0 ? here[i] : mean;
+  };
+  at(0, nx - 1, nx > 1 ? 1 : 0);
+  for (int i = 1; i < nx - 1; ++i) at(i, i - 1, i + 1);
+  if (nx > 1) at(nx - 1, nx - 2, 0);
+}
+
+// Transpose of `extend`.
+struct RowOf {
+  const double* value;
+  const std::uint8_t* mask;
+  double off(int i) const { return mask[i] != 0 ? 0.0 : value[i]; }
+};
+void gather_back(RowOf below, RowOf here, RowOf above, int nx, double* to) {
+  const auto at = [&](int i, int left, int right) {
+    const double quarter = 0.25 * ((below.off(i) + above.off(i)) + (here.off(left) + here.off(right)));
+    to[i] = (here.mask[i] != 0 ? here.value[i] : 0.0) + quarter;
+  };
+  at(0, nx - 1, nx > 1 ? 1 : 0);
+  for (int i = 1; i < nx - 1; ++i) at(i, i - 1, i + 1);
+  if (nx > 1) at(nx - 1, nx - 2, 0);
+}
+
+}  // namespace
+
+SlabPreconditioner::SlabPreconditioner(SlabLevel& level)
+    : level_(level), rim_(rim_rows(level.team, level.slab, sweeps)) {
+  level.team.work([&] {
+    const Slab& slab = level.slab;
+    const std::size_t rows = static_cast<std::size_t>(slab.rows() + 2 * sweeps);
+    field_.resize(rows * slab.width());
+    mask_.resize(rows * slab.width());
+    before_.resize(slab.width() * sweeps);
+    fresh_.resize(slab.width());
+  });
+  level.team.agree();
+}
+
+void SlabPreconditioner::set_free(std::span<const std::uint8_t> free) {
+  std::copy(free.begin(), free.end(), mask_.begin() + static_cast<std::ptrdiff_t>(offset()));
+  exchange_rim(mask_);
+}
+
+template <class Number>
+void SlabPreconditioner::exchange_rim(Array<Number>& field) {
+  const std::size_t width = level_.slab.width();
+  const std::size_t after = offset() + level_.nodes();
+  rim_.run(
+      [&](int j, double* to) {
+        std::copy_n(field.data() + offset() + static_cast<std::size_t>(j) * width, width, to);
+      },
+      [&](std::size_t k, const double* row) {
+        const std::size_t at = k < sweeps ? k * width : after + (k - sweeps) * width;
+        std::transform(row, row + width, field.data() + at,
+                       [](double value) { return static_cast<Number>(value); });
+      });
+}
+template void SlabPreconditioner::exchange_rim(Array<double>&);
+
+// Sweep s processes row j = t − s at step t: the row above has passed sweep s − 1, `before_` has the row
+// below before sweep s.
+void SlabPreconditioner::sweep(bool adjoint) {
+  const Slab& slab = level_.slab;
+  const int rows = slab.rows() + 2 * sweeps, nx = slab.nx;
+  if (slab.rows() == 0) return;
+  const auto row = [&](int j) { return field_.data() + static_cast<std::size_t>(j) * slab.width(); };
+  const auto mask = [&](int j) { return mask_.data() + static_cast<std::size_t>(j) * slab.width(); };
+  const auto before = [&](int s) { return before_.data() + static_cast<std::size_t>(s - 1) * slab.width(); };
+  for (int t = 1; t < rows + sweeps; ++t) {
+    for (int s = 1; s <= sweeps; ++s) {
+      const int j = t - s;
+      // Later sweeps do not read this row.
+      if (j < s || j >= rows - s) {
+        if (j == s - 1) std::copy_n(row(j), nx, before(s));
+        continue;
+      }
+      if (adjoint)
+        gather_back({before(s), mask(j - 1)}, {row(j), mask(j)}, {row(j + 1), mask(j + 1)}, nx,
+                    fresh_.data());
+      else
+        extend(before(s), row(j), row(j + 1), mask(j), nx, fresh_.data());
+      std::copy_n(row(j), nx, before(s));
+      std::copy_n(fresh_.data(), nx, row(j));
+    }
+  }
+}
 
 namespace {
 using namespace descent_rules;
 
 constexpr int steps_a_slab_pass = 2;  // applications of K
-
-// From fields.pressure, feasible. Returns whether it converged.
-bool slab_gradient(SlabLevel& level, SlabFields& f, double tolerance, int most_applications) {
-  constexpr std::size_t window = 8;
-  constexpr int renewals = 20;  // steps between recomputations of the gap (drift)
-  const double upper = level.cap;
-  const int last = level.applications + most_applications;
-  double *const p = f.pressure.data(), *const g = f.gap.data();
-  double *const d = f.direction.data(), *const image = f.image.data();
-  level.gap(f.pressure, f.gap);
-  bool fresh = true;
-  std::array<double, window> energies;
-  energies.fill(-std::numeric_limits<double>::infinity());
-  double energy = 0, pace = 0.5;
-  energies[0] = energy;
-  for (int step = 0;; ++step) {
-    const SlabQuality at = slab_quality(level, f.pressure, f.gap);
-    level.team.work([&] {
-      if (level.report) level.report(at.residual);
-    });
-    if (at.residual < tolerance) {
-      if (fresh) return true;
-      level.gap(f.pressure, f.gap);
-      fresh = true;
-      continue;
-    }
-    if (level.applications >= last || !std::isfinite(at.residual)) return false;
-
-    level.each([=, middle = at.interior_gap](std::size_t k) { d[k] = p[k] - pace * (g[k] - middle); });
-    project_slabs_to_load(level, f.direction, nullptr, f.direction);
-    level.apply([=](std::size_t k) { return d[k] -= p[k]; }, [=](std::size_t k, double u) { image[k] = u; });
-    const auto sums = level.over<4>([=, middle = at.interior_gap](std::size_t k, double* v) {
-      v[0] = (g[k] - middle) * d[k];
-      v[1] = d[k] * image[k];
-      v[2] = image[k] * image[k];
-      v[3] = d[k] * d[k];
-    });
-    const double slope = sums[0], curvature = sums[1];
-    if (!(curvature > 0)) return false;
-    const double highest = *std::max_element(energies.begin(), energies.end());
-    const double t = energy + slope + 0.5 * curvature > highest ? std::min(1.0, -slope / curvature) : 1.0;
-    level.each([=](std::size_t k) {
-      p[k] = t == 1 ? p[k] + d[k] : std::min(std::max(p[k] + t * d[k], 0.0), upper);
-      g[k] += t * image[k];
-    });
-    energy += t * slope + 0.5 * t * t * curvature;
-    energies[static_cast<std::size_t>(step + 1) % window] = energy;
-    fresh = false;
-    pace = step % 2 == 0 ? sums[3] / curvature : curvature / sums[2];
-    if (step % renewals == renewals - 1) {
-      project_slabs_to_load(level, f.pressure, nullptr, f.pressure);
-      level.gap(f.pressure, f.gap);
-      fresh = true;
-    }
-  }
-}
 
 class SlabDescent {
  public:
@@ -85,12 +121,16 @@ class SlabDescent {
   bool run();
 
  private:
-  void project(const SlabQuality& at, Array<double>& target);
-  std::optional<double> shift_to_load(const SlabQuality& at);
-  void mark_free(const SlabQuality& at);
+  bool project(std::span<double> values, const std::uint8_t* marks) {
+    return project_to_load(level_, values.data(), marks, level_.cap, level_.total_load(),
+                           SlabLevel::resolves_shifts, values.data());
+  }
+  void project(const ContactQuality& at, std::span<double> target);
+  std::optional<double> shift_to_load(const ContactQuality& at);
+  void mark_free(const ContactQuality& at);
   void free_the_nearest(double offset);
   double precondition();
-  void settle_step(const SlabQuality& at);
+  void settle_step(const ContactQuality& at);
   bool descend(int steps);
   void balance();
 
@@ -108,22 +148,22 @@ class SlabDescent {
   double direction_rz_ = 0;
 };
 
-// target = p clipped and shifted to the load on the interior; if the interior cannot carry the load, all
-// nodes move in the order of their gaps. Overwrites old_free.
-void SlabDescent::project(const SlabQuality& at, Array<double>& target) {
+// target = p clipped, with the interior shifted to the load. Without enough interior, all nodes move in the
+// order of their gaps. Overwrites old_free.
+void SlabDescent::project(const ContactQuality& at, std::span<double> target) {
   const double upper = level_.cap;
   level_.each([=, p = f_.pressure.data(), to = target.data(), marks = f_.old_free.data()](std::size_t k) {
     marks[k] = ((p[k] > 0) & (p[k] < upper)) ? 1 : 0;
     to[k] = std::min(std::max(p[k], 0.0), upper);
   });
-  if (project_slabs_to_load(level_, target, f_.old_free.data(), target)) return;
+  if (project(target, f_.old_free.data())) return;
   level_.each([=, g = f_.gap.data(), to = target.data(), stiffness = level_.short_wave_stiffness,
                middle = at.interior_gap](std::size_t k) { to[k] -= stiffness * (g[k] - middle); });
-  project_slabs_to_load(level_, target, nullptr, target);
+  project(target, nullptr);
 }
 
-// Interior shift to the load by two Newton steps; none if the first misses the load by over 1 %.
-std::optional<double> SlabDescent::shift_to_load(const SlabQuality& at) {
+// By two Newton steps; empty if the first misses the load by over 1 %.
+std::optional<double> SlabDescent::shift_to_load(const ContactQuality& at) {
   const double load = level_.total_load(), upper = level_.cap;
   if (at.interior == 0) return {};
   const double first = (load - at.load) / at.interior;
@@ -138,8 +178,8 @@ std::optional<double> SlabDescent::shift_to_load(const SlabQuality& at) {
   return first - (found[0] - load) / found[1];
 }
 
-// Nodes clipped in this pass may not leave the bound: their gaps are stale.
-void SlabDescent::mark_free(const SlabQuality& at) {
+// Newly clipped nodes may not leave the bound: their gaps are stale.
+void SlabDescent::mark_free(const ContactQuality& at) {
   const double upper = level_.cap, offset = at.interior_gap;
   const auto sums = level_.over<3>([=, p = f_.pressure.data(), g = f_.gap.data(), before = f_.old_free.data(),
                                     free = f_.free.data()](std::size_t k, double* v) {
@@ -156,7 +196,7 @@ void SlabDescent::mark_free(const SlabQuality& at) {
   free_count_ = sums[0];
   changed_ = sums[2] != 0;
   mean_gap_ = free_count_ > 0 ? sums[1] / free_count_ : offset;
-  if (free_count_ < 2 && level_.shape.slab.all_nodes() >= 2) free_the_nearest(offset);
+  if (free_count_ < 2 && level_.slab.all_nodes() >= 2) free_the_nearest(offset);
   if (changed_) preconditioner_.set_free(f_.free);
 }
 
@@ -203,8 +243,8 @@ double SlabDescent::precondition() {
   return sums[1];
 }
 
-// Applies clipping and a fixed preconditioned step for one application of K.
-void SlabDescent::settle_step(const SlabQuality& at) {
+// One application of K for clipping and a fixed preconditioned step.
+void SlabDescent::settle_step(const ContactQuality& at) {
   const double upper = level_.cap;
   const std::optional<double> shift = shift_to_load(at);
   if (!shift) project(at, f_.image);
@@ -228,7 +268,7 @@ void SlabDescent::settle_step(const SlabQuality& at) {
   balance();
 }
 
-// Conjugate gradients after `steps` steps of this pass; false if no step was possible.
+// After `steps` steps of this pass; false without any step.
 bool SlabDescent::descend(int steps) {
   const int enough = steps == 0 ? 1 : steps_a_slab_pass;
   while (steps < enough) {
@@ -271,10 +311,8 @@ bool SlabDescent::run() {
   int renewals = 0;
   std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
   for (;;) {
-    SlabQuality at = slab_quality(level_, f_.pressure, f_.gap);
-    level_.team.work([&] {
-      if (level_.report) level_.report(at.residual);
-    });
+    ContactQuality at = contact_quality(level_, f_.pressure, f_.gap);
+    level_.report_pass(at.residual);
     if (at.residual < tolerance_) {
       const double load = level_.total_load();
       if (!exact_ || (at.within && fresh && std::abs(at.load - load) < tolerance_ * load)) return true;
@@ -293,19 +331,11 @@ bool SlabDescent::run() {
       return false;
     }
     const Watch::Advice advice = watch.advice();
+    if (advice == Watch::Advice::remember_pass) level_.work([&] { f_.remember_pass(); });
     if (advice == Watch::Advice::average_passes) {
-      level_.each([p = f_.pressure.data(), g = f_.gap.data(), q = f_.old_pressure.data(),
-                   old = f_.old_gap.data()](std::size_t k) {
-        p[k] = 0.5 * (p[k] + q[k]);
-        g[k] = 0.5 * (g[k] + old[k]);
-      });
+      level_.work([&] { f_.average_passes(); });
       have_direction_ = false;
-      at = slab_quality(level_, f_.pressure, f_.gap);
-    } else if (advice == Watch::Advice::remember_pass) {
-      level_.team.work([&] {
-        f_.old_pressure = f_.pressure;
-        f_.old_gap = f_.gap;
-      });
+      at = contact_quality(level_, f_.pressure, f_.gap);
     }
     mark_free(at);
     if (!at.within || changed_) have_direction_ = false;
@@ -320,28 +350,23 @@ bool SlabDescent::run() {
 }
 }  // namespace
 
-SlabFields::SlabFields(Team& team, std::size_t nodes) {
+SlabFields::SlabFields(Team& team, std::size_t nodes) : DescentFields(0) {
   team.work([&] {
-    for (Array<double>* field : {&pressure, &gap, &direction, &image}) field->resize(nodes);
-    free.resize(nodes);
-    old_free.resize(nodes);
+    static_cast<DescentFields&>(*this) = DescentFields(nodes);
+    direction.resize(nodes);
   });
   team.agree();
 }
 
-DescentEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
-  constexpr int quick = 300, shake = 12, last_resort = 3000;
-  DescentEnd end;
-  for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
-    if (stage % 2 == 0 && stage < 4) {
-      end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
-      end.converged = SlabDescent(level, fields, tolerance, quick, effort != ChainEffort::start).run();
-    } else {
-      end.stage = "spectral projected gradients";
-      end.converged = slab_gradient(level, fields, tolerance, stage == 4 ? last_resort : shake);
-    }
-  }
-  return end;
+DescentEnd run_chain(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
+  const auto descend = [&] {
+    return SlabDescent(level, fields, tolerance, quick, effort != ChainEffort::start).run();
+  };
+  const auto shake = [&](int most) {
+    return spectral_gradient(level, PressureCap{level.cap}, fields.pressure, fields.gap, fields.direction,
+                             fields.image, tolerance, most);
+  };
+  return run_stages(effort, descend, shake);
 }
 
 }  // namespace asperity

@@ -2,25 +2,29 @@
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
-
-#include "engine/core/cost.hpp"
 
 namespace asperity {
 
-SlabLevel::SlabLevel(Team& level_team, const SlabShape& level_shape, std::span<const double> heights,
+SlabLevel::SlabLevel(Team& level_team, const LevelShape& level_shape, std::span<const double> heights,
                      double origin, double factor, double level_cap, double level_mean_pressure)
     : team(level_team),
       shape(level_shape),
+      slab(level_team.slab(level_shape.nx, level_shape.ny)),
       cap(level_cap),
       mean_pressure(level_mean_pressure),
       short_wave_stiffness(0.25 * std::numbers::pi / std::sqrt(level_shape.aspect)),
       heights_(heights),
       origin_(origin),
       factor_(factor),
-      fourier_(level_team.fourier(level_shape.slab.nx, level_shape.slab.ny)) {}
+      fourier_(level_team.fourier(level_shape.nx, level_shape.ny)) {}
 
-void SlabLevel::count() const { cost::count_transforms(2 * shape.weight); }
+double SlabLevel::first_number(double own) {
+  const Array<double> all = team.gather(std::array<double, 1>{own});
+  const auto first = std::find_if(all.begin(), all.end(), [](double number) { return !std::isnan(number); });
+  return first == all.end() ? own : *first;
+}
 
 Array<double> restrict_slabs(Team& team, const Slab& fine, const CoarserGrid& coarse,
                              std::span<const double> field) {

@@ -5,6 +5,7 @@
 // non-const member together.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -16,56 +17,70 @@
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
+#include "engine/core/cost.hpp"
 #include "engine/core/slabs/row_exchange.hpp"
 #include "engine/core/slabs/team.hpp"
 
 namespace asperity {
 
-struct SlabShape {
-  Slab slab;
-  double aspect = 1;
-  double weight = 1;  // cost of a transform, in transforms of the finest grid
-};
-
-template <std::size_t sums, std::size_t minima = 0, class Term>
-std::array<double, sums + minima> over_slabs(Team& team, std::size_t nodes, Term term) {
+// `gather`: sums, then minima, over own nodes.
+template <std::size_t sums, std::size_t minima, class Gather>
+std::array<double, sums + minima> over_slabs(Team& team, const Gather& gather) {
   std::array<double, sums + minima> own{};
-  for (std::size_t i = sums; i < own.size(); ++i) own[i] = std::numeric_limits<double>::infinity();
-  team.work([&] { own = over_nodes<sums, minima>(nodes, term); });
+  std::fill(own.begin() + sums, own.end(), std::numeric_limits<double>::infinity());
+  team.work([&] { own = gather(); });
   return team.reduce<sums, minima>(own);
 }
 
 class SlabLevel {
  public:
-  // (heights − origin)·factor is in cell units; `cap` may be infinite.
-  SlabLevel(Team& level_team, const SlabShape& level_shape, std::span<const double> heights, double origin,
+  // Cell units: (heights − origin)·factor; `cap` may be infinite.
+  SlabLevel(Team& level_team, const LevelShape& level_shape, std::span<const double> heights, double origin,
             double factor, double cap, double mean_pressure);
 
   Team& team;
-  const SlabShape shape;
+  const LevelShape shape;
+  const Slab slab;
   const double cap, mean_pressure;
+  static constexpr bool resolves_shifts = false;
   double length = 1;     // unit of gaps in the residual
   int applications = 0;  // of K
-  // Pressure per gap of a short wave.
   const double short_wave_stiffness;
-  // Called after each pass in this process; may throw.
+  // Called after each pass; may throw.
   std::function<void(double)> report;
 
-  std::size_t nodes() const { return shape.slab.nodes(); }  // of this process
-  double total_load() const { return mean_pressure * shape.slab.all_nodes(); }
-  double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
-  void count_from(double origin) { origin_ = origin; }
-
+  // As AllNodes; nodes() are those of this process.
+  std::size_t nodes() const { return slab.nodes(); }
+  double all_nodes() const { return slab.all_nodes(); }
   template <std::size_t sums, std::size_t minima = 0, class Term>
   std::array<double, sums + minima> over(Term term) {
-    return over_slabs<sums, minima>(team, nodes(), term);
+    return over_slabs<sums, minima>(team, [&] { return over_nodes<sums, minima>(nodes(), term); });
+  }
+  template <std::size_t sums, std::size_t minima = 0, class Term>
+  std::array<double, sums + minima> in_lanes(Term term) {
+    return over_slabs<sums, minima>(team, [&] { return over_lanes<sums, minima>(nodes(), term); });
   }
   template <class Body>
   void each(Body body) {
-    team.work([&] { for_nodes(nodes(), body); });
+    work([&] { for_nodes(nodes(), body); });
+  }
+  template <class Body>
+  void work(const Body& body) {
+    team.work(body);
+  }
+  void agree() { team.agree(); }
+  double first_number(double own);
+
+  double total_load() const { return mean_pressure * all_nodes(); }
+  void count_from(double origin) { origin_ = origin; }
+  void report_pass(double residual) {
+    work([&] {
+      if (report) report(residual);
+    });
   }
 
-  // u = K p: `source(k)` returns p, `sink(k, u)` receives u, at the nodes of this process.
+  // u = K p: `source(k)` returns p, `sink(k, u)` receives u, at own nodes.
   template <class Source, class Sink>
   void apply(Source source, Sink sink) {
     ++applications;
@@ -76,16 +91,23 @@ class SlabLevel {
   void apply_inverse(Source source, Sink sink) {
     filter(source, sink, [](double q) { return 0.5 * q; });
   }
-  // g = K p − h.
+  void apply(std::span<const double> p, std::span<double> u) {
+    apply([p](std::size_t k) { return p[k]; }, [u](std::size_t k, double value) { u[k] = value; });
+  }
+  // The mean moves nothing.
   void gap(std::span<const double> p, std::span<double> g) {
-    apply([p = p.data()](std::size_t k) { return p[k]; },
-          [this, g = g.data()](std::size_t k, double u) { g[k] = u - height(k); });
+    apply([p](std::size_t k) { return p[k]; }, [this, g](std::size_t k, double u) { g[k] = u - height(k); });
+  }
+  void gap_beside_mean(std::span<const double> p, std::span<double> g) { gap(p, g); }
+  void inverse_of_heights(std::span<double> p) {
+    apply_inverse([this](std::size_t k) { return height(k); },
+                  [p](std::size_t k, double value) { p[k] = value; });
   }
 
  private:
+  double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
   template <class Source, class Sink, class Factor>
   void filter(Source source, Sink sink, Factor factor) {
-    const Slab& slab = shape.slab;
     const int rows = slab.rows(), nx = slab.nx;
     team.work([&] {
       parallel_for(rows, [&](std::int64_t j) {
@@ -104,12 +126,11 @@ class SlabLevel {
         for (int i = 0; i < nx; ++i) sink(begin + static_cast<std::size_t>(i), row[i]);
       });
     });
-    count();
+    cost::count_transforms(2 * shape.weight);
   }
 
   template <class Factor>
   void multiply(Factor factor) {
-    const Slab& slab = shape.slab;
     const double per_x = 2 * std::numbers::pi / slab.nx,
                  per_y = 2 * std::numbers::pi / (slab.ny * shape.aspect);
     const double norm = 1 / slab.all_nodes();
@@ -128,19 +149,24 @@ class SlabLevel {
       });
   }
 
-  void count() const;
-
   std::span<const double> heights_;
   double origin_, factor_;
   std::unique_ptr<SlabFourier> fourier_;
 };
 
-// Both grids are in slabs of the same team.
+// Both in slabs of one team.
 Array<double> restrict_slabs(Team& team, const Slab& fine, const CoarserGrid& coarse,
                              std::span<const double> field);
 
-// target = factor · values, interpolated to the fine grid.
+// target = factor · values, interpolated.
 void prolong_slabs(Team& team, const CoarserGrid& coarse, std::span<const double> values, double factor,
                    const Slab& fine, std::span<double> target);
+
+// Over all processes.
+inline ContactQuality contact_quality(SlabLevel& level, std::span<const double> p,
+                                      std::span<const double> g) {
+  const contact_measures::AsStored stored{p.data(), g.data()};
+  return contact_measures::measure_bounded(level, level.cap, stored, stored);
+}
 
 }  // namespace asperity

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
+#include "engine/contact/elasticity/slabs/slab_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
-#include "engine/contact/elasticity/slabs/slab_nest.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
@@ -28,14 +27,14 @@ std::string pascals(double p) { return format_quantity(p, dimension::pressure); 
 void check(const SlabContactProblem& problem, double mean_pressure) {
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
     refuse("`pressure` is " + pascals(mean_pressure),
-           "a mean pressure is finite and not negative: nothing here pulls");
+           "give a finite pressure from zero up: nothing here attracts the bodies");
   if (mean_pressure > 0 && mean_pressure < 1e-60 * problem.modulus)
     refuse("`pressure` is " + format_short(mean_pressure) +
-               " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
-           "give a larger pressure, or none");
+               " Pa, less than 1e-60 of the contact modulus: too small over ranks",
+           "give a larger pressure, or 0");
   if (mean_pressure >= problem.cap)
     refuse_infeasible("a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
-                          pascals(problem.cap) + ", and every node would have to carry as much or more",
+                          pascals(problem.cap) + ", the most that any node carries",
                       "press with less than the hardness");
 }
 
@@ -54,14 +53,15 @@ double rough_slope(Team& team, const SlabSurface& surface) {
   const Slab& slab = surface.slab;
   const std::size_t nx = slab.width(), nodes = slab.nodes();
   const double* const h = surface.heights->data();
-  const auto sums = over_slabs<3>(team, nodes, [=](std::size_t k, double* v) {
+  const auto term = [=](std::size_t k, double* v) {
     const double x = h[k % nx + 1 < nx ? k + 1 : k + 1 - nx] - h[k];
     const bool has_next = k + nx < nodes;
     const double y = has_next ? h[k + nx] - h[k] : 0.0;
     v[0] = x * x;
     v[1] = y * y;
     v[2] = has_next ? 1.0 : 0.0;
-  });
+  };
+  const auto sums = over_slabs<3, 0>(team, [&] { return over_nodes<3>(nodes, term); });
   const double hx = surface.grid.hx(), hy = surface.grid.hy();
   const double along_x = sums[0] / slab.all_nodes() / (hx * hx);
   const double along_y = sums[2] > 0 ? sums[1] / sums[2] / (hy * hy) : along_x;
@@ -73,22 +73,22 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   const double *const p = answer.pressure.data(), *const g = answer.gap.data();
   const double* const h = problem.surface.heights->data();
   const bool capped = std::isfinite(cap);
-  const auto found = over_slabs<8, 4>(
-      team, answer.pressure.size(), [=, approach = answer.approach](std::size_t k, double* v) {
-        const double displacement = g[k] + (approach - (peak - h[k]));
-        v[0] = p[k];
-        v[1] = p[k] > 0 ? 1.0 : 0.0;
-        v[2] = p[k] >= cap ? 1.0 : 0.0;
-        v[3] = p[k] * g[k];
-        v[4] = !capped ? 0.0 : g[k] > 0 ? p[k] * g[k] : (p[k] - cap) * g[k];
-        v[5] = std::max(0.0, g[k]);
-        v[6] = (p[k] - mean_pressure) * displacement;  // a uniform pressure displaces nothing
-        v[7] = p[k] >= cap ? std::max(0.0, -g[k]) : 0.0;
-        v[8] = g[k];
-        v[9] = p[k] < cap ? g[k] : infinity;
-        v[10] = p[k];
-        v[11] = -p[k];
-      });
+  const auto term = [=, approach = answer.approach](std::size_t k, double* v) {
+    const double displacement = g[k] + (approach - (peak - h[k]));
+    v[0] = p[k];
+    v[1] = p[k] > 0 ? 1.0 : 0.0;
+    v[2] = p[k] >= cap ? 1.0 : 0.0;
+    v[3] = p[k] * g[k];
+    v[4] = !capped ? 0.0 : g[k] > 0 ? p[k] * g[k] : (p[k] - cap) * g[k];
+    v[5] = std::max(0.0, g[k]);
+    v[6] = (p[k] - mean_pressure) * displacement;  // a uniform pressure displaces nothing
+    v[7] = p[k] >= cap ? std::max(0.0, -g[k]) : 0.0;
+    v[8] = g[k];
+    v[9] = p[k] < cap ? g[k] : infinity;
+    v[10] = p[k];
+    v[11] = -p[k];
+  };
+  const auto found = over_slabs<8, 4>(team, [&] { return over_nodes<8, 4>(answer.pressure.size(), term); });
   const double n = problem.surface.slab.all_nodes(), cell = problem.surface.grid.cell_area(),
                total = found[0];
   answer.contacts = static_cast<std::int64_t>(found[1]);
@@ -105,7 +105,7 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
-// Before first touch (0), or of a flat.
+// Before first touch, or a flat.
 SlabContactAnswer even(Team& team, const SlabContactProblem& problem, double pressure) {
   SlabContactAnswer answer;
   const double peak = problem.surface.peak;
@@ -123,6 +123,70 @@ SlabContactAnswer even(Team& team, const SlabContactProblem& problem, double pre
   return answer;
 }
 
+constexpr double coarse_slab_tolerance = 1e-3;
+
+// `start_pressure` and `start_gap`: cell units, without the offset; empty: nested grids.
+CellAnswer nested_descent(Team& team, const CellProblem& problem, std::span<const double> start_pressure,
+                          std::span<const double> start_gap, Monitor& monitor) {
+  // A process without rows has an empty start.
+  const bool warm = team.reduce<1>({static_cast<double>(start_pressure.size())})[0] > 0;
+  const double cap = greatest_pressure(problem.limit);
+  std::vector<NestedGrid> steps = nested_grids(
+      problem, warm, [&](const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field) {
+        return restrict_slabs(team, team.slab(fine.nx, fine.ny), coarse, field);
+      });
+  DescentProgress progress(monitor, "contact in slabs");
+  CellAnswer answer;
+  answer.levels = static_cast<int>(steps.size());
+  UnsetArray<double> carried;  // level-set field
+  double all_work = 0;
+  for (const NestedGrid& step : steps) all_work += step.shape.weight;
+  for (std::size_t l = steps.size(); l-- > 0;) {
+    NestedGrid& step = steps[l];
+    const bool finest = l == 0;
+    SlabLevel level(team, step.shape, finest ? problem.heights : std::span<const double>(step.heights),
+                    problem.origin, problem.factor, cap * step.pitch, step.mean_pressure);
+    level.length = problem.length;
+    const double tolerance = finest ? problem.tolerance : std::max(coarse_slab_tolerance, problem.tolerance);
+    level.report = progress.next_grid(step.shape.weight, all_work, tolerance);
+
+    SlabFields fields(team, level.nodes());
+    UnsetArray<double>& p = fields.pressure;
+    if (warm) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      to_level_set(level, level.cap, level.short_wave_stiffness, 0, start_gap, p);
+    } else if (l + 1 == steps.size()) {
+      std::fill(p.begin(), p.end(), step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong_slabs(team, from, carried, 1 / from.pitch_x, level.slab, p);
+      carried = UnsetArray<double>();
+    }
+    project_to_load(level, p.data(), nullptr, level.cap, level.total_load(), SlabLevel::resolves_shifts,
+                    p.data());
+    DescentEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+    if (!end.converged) level.gap(p, fields.gap);
+    if (finest) {
+      answer.from_peak = LightContact(level, fields, problem).refine(end);
+      if (std::isfinite(level.cap)) snap_to_bounds(level, level.cap, p);
+    }
+    const ContactQuality at = contact_quality(level, p, fields.gap);
+    if (finest) {
+      answer.pressure = std::move(p);
+      answer.gap = std::move(fields.gap);
+      answer.offset = at.offset;
+      answer.converged = end.converged;
+      answer.applications = level.applications;
+      answer.stage = end.stage;
+    } else {
+      to_level_set(level, level.cap, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
+      carried = std::move(p);
+      step.heights = Array<double>();
+    }
+  }
+  return answer;
+}
+
 }  // namespace
 
 SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& problem, double mean_pressure,
@@ -135,24 +199,27 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   const double height = flat ? mean_pressure / problem.modulus * grid.hx() : surface.rms;
   const double unit = problem.modulus * (height / grid.hx());  // of pressures, Pa
 
-  SlabCellProblem cell;
-  cell.shape = {surface.slab, grid.hy() / grid.hx(), 1};
+  CellProblem cell;
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx()};
   cell.heights = *surface.heights;
   cell.origin = surface.mean;
   cell.factor = 1 / height;
-  cell.highest = surface.peak;
-  cell.cap = problem.cap / unit;
+  const double cap = problem.cap / unit;
+  cell.limit = PressureCap{cap};
   cell.mean_pressure = mean_pressure / unit;
   if (flat) cell.length = std::sqrt(surface.slab.all_nodes() * cell.shape.aspect);
-  // Margin for rounding in the conversion to pascals.
+  // Conversion to pascals adds rounding.
   cell.tolerance = 0.99 * problem.tolerance;
-  SlabCellAnswer found;
-  if (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(team, surface))
-    found = full_contact_in_slabs(team, cell, monitor);
+  CellAnswer found;
+  if (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(team, surface)) {
+    SlabLevel level(team, cell.shape, cell.heights, cell.origin, cell.factor, cap, cell.mean_pressure);
+    DescentProgress progress(monitor, "contact in slabs");
+    found = full_contact_on(level, cell, progress);
+  }
   if (!found.converged) {
     const int before = found.applications;
     found = {};
-    Array<double> pressure, gap;
+    UnsetArray<double> pressure, gap;
     if (start != nullptr && start->mean_pressure > 0) {
       team.work([&] {
         pressure = start->pressure;
@@ -162,12 +229,12 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
       });
       team.agree();
     }
-    found = nested_descent_in_slabs(team, cell, pressure, gap, monitor);
+    found = nested_descent(team, cell, pressure, gap, monitor);
     found.applications += before;
   }
   SlabContactAnswer answer;
   answer.mean_pressure = mean_pressure;
-  for (double& p : found.pressure) p = p >= cell.cap ? problem.cap : std::min(p * unit, problem.cap);
+  for (double& p : found.pressure) p = p >= cap ? problem.cap : std::min(p * unit, problem.cap);
   for (double& g : found.gap) g = (g - found.offset) * height;
   answer.pressure = std::move(found.pressure);
   answer.gap = std::move(found.gap);
@@ -190,16 +257,15 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
 SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper, const Effects& effects) {
   SurfaceTraits traits;
   traits.material = lower;
-  // One node represents the bodies: only materials matter.
+  // One node for the bodies: only materials matter.
   Scene scene{Surface({1, 1, 1, 1}, Field(1, 1), std::move(traits)), upper, Boundary::periodic,
               HalfSpaceOptions{}};
   scene.effects = effects;
   check(scene);
   const ContactGeometry geometry(scene, LatticeIsometry(1, 1));
-  SlabTerms terms;
-  terms.modulus = contact_modulus(geometry, "the half-space needs `young` and `poisson`", "", "");
-  terms.cap = std::numeric_limits<double>::infinity();
-  if (const Plan plan = make_plan(scene, geometry); plan.yield) {
+  const Plan plan = make_plan(scene, geometry);
+  SlabTerms terms{plan.elasticity->modulus, std::numeric_limits<double>::infinity()};
+  if (plan.yield) {
     if (plan.yield->hardens())
       refuse("`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
                  ".hardening` is not computed over ranks",
@@ -210,7 +276,7 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
 }
 
 // Load of a given approach: bracketed secant over ln(load), on the next coarser grid, then on the finest,
-// each solve started from the last.
+// each solve from the last.
 namespace {
 
 constexpr int most_solves = 60;
@@ -249,7 +315,7 @@ struct Found {
   bool reached = false;
 };
 
-// `target`: approach from first touch at `peak`, m.
+// `target`: approach [m] from first touch at `peak`.
 Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
              double accuracy, Monitor& monitor) {
   SlabContactProblem now = problem;
@@ -304,9 +370,9 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
   const SlabSurface& surface = problem.surface;
   const double full = surface.peak - surface.mean;
   if (!std::isfinite(problem.cap) && approach >= full)
-    refuse_infeasible("`approach` is " + metres(approach) + ", and all of the tile touches at " +
-                          metres(full) + ": past full contact no load brings a periodic tile closer",
-                      "give less, or `pressure`");
+    refuse_infeasible("`approach` is " + metres(approach) +
+                          ", and this periodic tile is in full contact at " + metres(full),
+                      "give a smaller `approach`, or press by `pressure`");
   Root root;
   root.logarithm =
       elementary::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
@@ -320,16 +386,15 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
   answer.converged = answer.certificate.worst() <= problem.tolerance;
   if (!found.reached && answer.approach < approach && std::isfinite(problem.cap))
     refuse_infeasible("`approach` is " + metres(approach) +
-                          ", and under the greatest load that `hardness` allows it is " +
-                          metres(answer.approach),
-                      "give less, or `pressure`");
+                          ", and the greatest load that `hardness` allows reaches " + metres(answer.approach),
+                      "give a smaller `approach`, or press by `pressure`");
   if (!answer.converged && !problem.best_effort)
     throw Error(ErrorCode::not_converged,
                 "the approach of " + metres(approach) + " was missed by " +
                     metres(answer.approach - approach) + " with a residual of " +
-                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
+                    format_short(answer.certificate.worst(), 3) + ", above the `tolerance` of " +
                     format_short(problem.tolerance, 3),
-                "ask for a larger `tolerance`, or accept the best reached with `on_failure = \"best\"`");
+                "give a larger `tolerance`, or accept the best result with on_failure=\"best\"");
   return std::move(found.answer);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part asperity-hdf5.so: writes arrays with the HDF5 library, format version 1.8, contiguous, without
-// times. Stateless.
+// The part asperity-hdf5.so: writes arrays with the HDF5 library, without times.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 namespace {
 
 // The library's reason, read before closing objects clears it. The innermost stack entry includes the
-// system's message, such as "No space left on device".
+// system's message.
 struct Failure {
   std::string reason = "the HDF5 library gives no reason";
   Failure() { H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason); }
@@ -60,7 +59,7 @@ void must(herr_t status) {
   if (status < 0) throw Failure{};
 }
 
-// Keeps links and attributes in the checksummed object header, readable by any reader of this format.
+// Keeps links and attributes in the object header, readable by any reader of 1.8.
 constexpr unsigned most_in_header = 60000;
 
 void write_text(hid_t object, const AsperityHdf5Text& text) {
@@ -116,7 +115,8 @@ void write_array(hid_t file, const AsperityHdf5Array& array) {
   must(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER));
   Handle data(H5Dcreate2(file, array.name, in_file, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   if (count > 0) must(H5Dwrite(data, in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values));
-  for (std::size_t k = 0; k < array.attribute_count; ++k) write_text(data, array.attributes[k]);
+  if (*array.unit != '\0') write_text(data, {"unit", array.unit});
+  write_text(data, {"digest", array.digest});
   data.close();
 }
 
@@ -139,10 +139,10 @@ void write_file(const char* path, const AsperityHdf5File& content) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int asperity_hdf5_write_1(const char* path,
+extern "C" __attribute__((visibility("default"))) int asperity_hdf5_write_2(const char* path,
                                                                             const AsperityHdf5File* file,
                                                                             char* reason, std::size_t room) {
-  static_assert(std::is_same_v<decltype(asperity_hdf5_write_1), AsperityHdf5Write>);
+  static_assert(std::is_same_v<decltype(asperity_hdf5_write_2), AsperityHdf5Write>);
   // At exit, the library would write a failed file again and crash.
   static const herr_t left_alone = H5dont_atexit();
   (void)left_alone;

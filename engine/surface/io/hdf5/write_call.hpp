@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain C interface to asperity-hdf5.so: no shared types, memory or exceptions. The function's name
-// contains the version of these structures.
+// Plain C interface to asperity-hdf5.so. The function's name contains the version of these structures.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 extern "C" {
 
@@ -24,10 +22,9 @@ struct AsperityHdf5Array {
   const char* name;  // with `/` between groups
   AsperityHdf5Kind kind;
   int rank;
-  const std::uint64_t* shape;
+  const std::size_t* shape;
   const void* values;
-  const AsperityHdf5Text* attributes;
-  std::size_t attribute_count;
+  const char *unit, *digest;  // UTF-8; "": no unit
 };
 
 struct AsperityHdf5File {
@@ -39,6 +36,6 @@ struct AsperityHdf5File {
   std::size_t array_count;
 };
 
-// Replaces `path`. Returns 0, or 1 with the library's zero-terminated message in `reason`. Not thread-safe.
+// Replaces `path`. Returns 0, or 1 with a message in `reason`. Not thread-safe.
 using AsperityHdf5Write = int(const char* path, const AsperityHdf5File* file, char* reason, std::size_t room);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sequential, bounds-checked reader of an instrument's little-endian numbers and texts.
+// A bounds-checked cursor, types of number, shared checks.
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,9 +12,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/grid.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {
@@ -33,6 +36,22 @@ T big_endian(const char* at) {
   return std::bit_cast<T>(raw);
 }
 
+template <class T>
+std::string raw_bytes(T value) {
+  static_assert(std::endian::native == std::endian::little, "files are little-endian");
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// A number of a file as a double.
+struct NumberType {
+  std::size_t width = 0;  // bytes
+  double (*read)(const char* at) = nullptr;
+};
+template <class T, T (*from)(const char* at) = little_endian<T>>
+inline constexpr NumberType number_type{sizeof(T),
+                                        [](const char* at) { return static_cast<double>(from(at)); }};
+
+// Little-endian.
 class BinaryCursor {
  public:
   // `what` names the piece in errors: "its header".
@@ -50,6 +69,7 @@ class BinaryCursor {
   std::string_view text(std::size_t width);
   // Skips the zero byte.
   std::string_view ended_text();
+  std::string_view rest() const { return bytes_.substr(at_); }
   std::size_t left() const { return bytes_.size() - at_; }
   std::size_t position() const { return at_; }
 
@@ -60,35 +80,61 @@ class BinaryCursor {
   std::string what_;
 };
 
+// Throws Error{bad_file} past the end.
+std::string_view bytes_at(const SourceFile& file, std::uint64_t at, std::uint64_t length,
+                          const std::string& what);
+
 // Throws Error{bad_file} unless nx, ny > 0 and all numbers of `width` bytes are present.
 void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
-// Also throws on surplus bytes: with a header wrong by a column, every line would be shifted.
+// Also throws on surplus bytes: the header may be wrong.
 void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
+
+// Returns `value`. Throws Error{bad_file} unless finite and above zero.
+double above_zero(const SourceFile& file, double value, const std::string& unit_and_place);
+
+// "a, b and 3 more".
+std::string listed_up_to(std::size_t most, std::vector<std::string> names);
 
 // For files with a stated end; the heights are complete.
 void warn_of_bytes_over(const SourceFile& file, std::uint64_t over, Monitor& monitor);
 
-struct NoHoles {
-  bool operator()(auto) const { return false; }
-};
-// ny rows, checked before by require_numbers(). `is_hole` selects the numbers of missing points.
-template <class T, T (*read)(const char* at) = little_endian<T>, class IsHole = NoHoles>
-Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, const IsHole& is_hole = {}) {
-  Field heights(nx, ny);
-  Task task(monitor, "reading", ny);
-  for (int j = 0; j < ny; ++j) {
-    const char* at = bytes.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) * sizeof(T);
+// Greatest expansion of deflate.
+constexpr std::uint64_t most_of_deflate = 1032;
+
+// From a zlib stream (RFC 1950). Throws Error{bad_file} for damage or another size.
+Array<char> inflated(const SourceFile& file, std::string_view packed, std::uint64_t wanted,
+                     std::string_view what);
+
+inline constexpr auto never_missing = [](double) { return false; };
+inline constexpr auto not_finite = [](double value) { return !std::isfinite(value); };
+// ny lines, checked before by require_numbers(). `is_missing` selects missing points.
+template <class IsMissing = decltype(never_missing)>
+Field field_of_numbers(NumberType type, std::string_view bytes, std::uint64_t nx, std::uint64_t ny,
+                       Monitor& monitor, const IsMissing& is_missing = never_missing,
+                       std::uint64_t padding_of_line = 0) {
+  Field heights(static_cast<int>(nx), static_cast<int>(ny));
+  Task task(monitor, "reading", heights.ny());
+  const char* at = bytes.data();
+  for (int j = 0; j < heights.ny(); ++j, at += padding_of_line) {
     for (double& height : heights.row(j)) {
-      const T value = read(at);
-      height = is_hole(value) ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value);
-      at += sizeof(T);
+      const double value = type.read(at);
+      height = is_missing(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+      at += type.width;
     }
     task.advance();
   }
   return heights;
+}
+
+// Checks by require_exactly().
+template <class IsMissing = decltype(never_missing)>
+Field exact_field(const SourceFile& file, NumberType type, std::string_view bytes, std::uint64_t nx,
+                  std::uint64_t ny, Monitor& monitor, const IsMissing& is_missing = never_missing) {
+  require_exactly(file, nx, ny, type.width, bytes.size());
+  return field_of_numbers(type, bytes, nx, ny, monitor, is_missing);
 }
 
 }  // namespace asperity

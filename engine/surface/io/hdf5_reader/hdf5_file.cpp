@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The digest of an array covers its shape and its values.
+// Digests cover shape and values.
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/loaded_part.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 namespace asperity {
 
@@ -44,29 +44,32 @@ std::string digest_of(const Hdf5Array& array) {
   return digester.add(bytes_of(array.values)).hex();
 }
 
-// Only names of groups and arrays contain slashes.
+// Accepts a name of a group member.
+bool is_name(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
+         name.find('\0') == std::string_view::npos;
+}
+
+// Slashes only in names of groups and arrays.
 void check_name(const std::string& name, bool parted) {
   bool good = !name.empty() && name.find('\0') == std::string::npos;
   for (std::size_t start = 0; parted && good && start <= name.size();) {
     const std::size_t end = std::min(name.find('/', start), name.size());
-    const std::string piece = name.substr(start, end - start);
-    good = !piece.empty() && piece != "." && piece != "..";
+    good = is_name(std::string_view(name).substr(start, end - start));
     start = end + 1;
   }
   if (!good)
-    throw Error(ErrorCode::bad_value, quoted(name) + " cannot be a name in an HDF5 file",
-                "parts between `/` are neither empty nor `.` nor `..`");
+    refuse(quoted(name) + " cannot be a name in an HDF5 file",
+           "parts between `/` are neither empty nor `.` nor `..`");
 }
 
 void check_text(const std::string& name, const std::string& text) {
   check_name(name, false);
   if (name.size() + text.size() > longest_text)
-    throw Error(ErrorCode::bad_value,
-                "the text " + quoted(name) + " has " + std::to_string(text.size()) +
-                    " bytes, more than an attribute of an HDF5 file holds",
-                "keep it as an array of bytes");
-  if (text.find('\0') != std::string::npos)
-    throw Error(ErrorCode::bad_value, "the text " + quoted(name) + " has a zero byte within");
+    refuse("the text " + quoted(name) + " has " + std::to_string(text.size()) +
+               " bytes, more than an attribute of an HDF5 file holds",
+           "store it as an array of bytes");
+  if (text.find('\0') != std::string::npos) refuse("the text " + quoted(name) + " has a zero byte within");
 }
 
 void check_array(const Hdf5Array& array) {
@@ -75,17 +78,16 @@ void check_array(const Hdf5Array& array) {
   std::size_t product = 1;
   for (const std::size_t side : array.shape) product *= side;
   if (array.shape.size() > 32 || product != count_of(array.values))
-    throw Error(ErrorCode::bad_value, "the shape of " + quoted(array.name) + " holds " +
-                                          std::to_string(product) + " numbers and there are " +
-                                          std::to_string(count_of(array.values)));
+    refuse("the shape of " + quoted(array.name) + " holds " + std::to_string(product) +
+           " numbers and there are " + std::to_string(count_of(array.values)));
 }
 
 // Names are unique; no group is an array.
 void check_names(const Hdf5Content& content) {
   std::set<std::string> arrays, groups, texts;
   const auto twice = [](const std::string& name) {
-    throw Error(ErrorCode::bad_value, quoted(name) + " stands twice among what an HDF5 file shall hold",
-                "each array, group and text has its own name");
+    refuse(quoted(name) + " is given twice for one HDF5 file",
+           "give each array, group and text its own name");
   };
   for (const auto& [name, text] : content.texts)
     if (!texts.insert(name).second) twice(name);
@@ -134,14 +136,9 @@ class Reader {
     }
     if (depth == 0) read_attributes(header);
     for (const Hdf5Link& link : read_members(file_, header, content_.unread)) {
-      if (!is_name(link.name)) file_.damaged("a member has a name that is none");
+      if (!is_name(link.name)) file_.damaged("a member has an invalid name");
       visit(name.empty() ? link.name : name + "/" + link.name, link.address, depth + 1);
     }
-  }
-
-  static bool is_name(const std::string& name) {
-    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
-           name.find('\0') == std::string::npos;
   }
 
   void read_attributes(const Hdf5Header& header) {
@@ -165,7 +162,7 @@ class Reader {
     const Hdf5Message* const filters = header.find(Hdf5MessageKind::filters);
     if (space == nullptr || type == nullptr) file_.damaged(quoted(name) + " has no shape or no type");
     if (space->shared || type->shared || (filters != nullptr && filters->shared)) {
-      content_.unread.push_back(quoted(name) + ": values of a type kept elsewhere in the file");
+      content_.unread.push_back(quoted(name) + ": values stored elsewhere in the file");
       return;
     }
     Hdf5Dataset dataset{name, read_shape(file_, space->body), read_type(file_, type->body), {}, {}};
@@ -225,23 +222,17 @@ void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
   check_names(content);
   // A deque keeps addresses valid.
   std::deque<std::string> digests;
-  std::deque<std::vector<AsperityHdf5Text>> attributes;
-  std::deque<std::vector<std::uint64_t>> shapes;
   std::vector<AsperityHdf5Array> arrays;
   for (const Hdf5Array& array : content.arrays) {
     check_array(array);
     const std::string& digest = digests.emplace_back(digest_of(array));
-    std::vector<AsperityHdf5Text>& own = attributes.emplace_back();
-    if (!array.unit.empty()) own.push_back({"unit", array.unit.c_str()});
-    own.push_back({"digest", digest.c_str()});
-    const auto& shape = shapes.emplace_back(array.shape.begin(), array.shape.end());
     constexpr std::array kinds{asperity_hdf5_double, asperity_hdf5_int64, asperity_hdf5_uint8};
-    arrays.push_back({array.name.c_str(), kinds[array.values.index()], static_cast<int>(shape.size()),
-                      shape.data(), bytes_of(array.values).data(), own.data(), own.size()});
+    arrays.push_back({array.name.c_str(), kinds[array.values.index()], static_cast<int>(array.shape.size()),
+                      array.shape.data(), bytes_of(array.values).data(), array.unit.c_str(), digest.c_str()});
   }
   const AsperityHdf5File file{texts.data(),   texts.size(),  numbers.data(),
                               numbers.size(), arrays.data(), arrays.size()};
-  auto* const write = part_function<AsperityHdf5Write>(part, "asperity_hdf5_write_1");
+  auto* const write = part_function<AsperityHdf5Write>(part, "asperity_hdf5_write_2");
 
   AtomicFile staged(path, FileWords::data);
   static std::mutex one_at_a_time;

@@ -1,35 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a dataset: contiguous or chunked (B-tree version 1); deflate, shuffle, fletcher32; any width
 // and byte order.
-#include <zlib.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstring>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 namespace asperity {
 
 namespace {
-
-constexpr std::uint64_t most_from_one = 1032;
-
-Array<char> inflated(const Hdf5Bytes& file, std::string_view packed, std::size_t wanted) {
-  Array<char> plain(wanted);
-  uLongf length = wanted;
-  const int status = ::uncompress(reinterpret_cast<Bytef*>(plain.data()), &length,
-                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  if (status == Z_MEM_ERROR)
-    throw Error(ErrorCode::out_of_memory,
-                "no memory to unpack " + format_bytes(static_cast<std::int64_t>(wanted)));
-  if (status != Z_OK || length != wanted) file.damaged("a chunk does not unpack to its size");
-  return plain;
-}
 
 // Bytes of equal significance are stored together.
 Array<char> unshuffled(const Array<char>& mixed, std::size_t width) {
@@ -71,13 +52,13 @@ class Chunks {
     for (std::size_t k = 0; k < rank_; ++k) {
       if (chunk[k] == 0) file.damaged(quoted(name) + " has chunks of nothing");
       along_.push_back((dataset.shape.sizes[k] - 1) / chunk[k] + 1);
-      if (along_[k] > most / count || chunk[k] > size * most_from_one / chunk_bytes_)
+      if (along_[k] > most / count || chunk[k] > size * most_of_deflate / chunk_bytes_)
         file.damaged("it claims more numbers in " + quoted(name) + " than it can hold");
       count *= along_[k];
       chunk_bytes_ *= chunk[k];
     }
     found_.resize(count);
-    if (dataset.shape.count(file) * width_ > size * most_from_one)
+    if (dataset.shape.count(file) * width_ > size * most_of_deflate)
       file.damaged("it claims more numbers in " + quoted(name) + " than it can hold");
   }
 
@@ -86,7 +67,8 @@ class Chunks {
     Task task(monitor, "reading", static_cast<std::int64_t>(found_.size()));
     walk(dataset_.layout.address, 0, task);
     if (std::ranges::find(found_, 0) != found_.end())
-      refuse_file(file_.file, "holds " + quoted(dataset_.name) + " of which not all numbers were written",
+      refuse_file(file_.file,
+                  "holds " + quoted(dataset_.name) + ", and some of its numbers were never written",
                   "write them all");
     return std::move(values_);
   }
@@ -119,7 +101,7 @@ class Chunks {
   // Undoes the filters, last first.
   Array<char> plain(std::string_view stored, std::uint64_t skipped) {
     const std::string& name = dataset_.name;
-    if (stored.size() > room_) file_.damaged("chunks of " + quoted(name) + " lie over each other");
+    if (stored.size() > room_) file_.damaged("chunks of " + quoted(name) + " overlap");
     room_ -= stored.size();
     Array<char> bytes(stored.begin(), stored.end());
     const std::vector<std::uint64_t>& filters = dataset_.filters;
@@ -133,11 +115,11 @@ class Chunks {
           file_.damaged("the checksum of a chunk of " + quoted(name) + " is not that of its bytes");
         bytes.resize(content.size());
       } else if (filters[k] == Hdf5Filter::deflate) {
-        if (chunk_bytes_ / most_from_one > bytes.size()) file_.damaged("a chunk does not unpack to its size");
         // Includes a checksum made before compression.
         const auto here = filters.begin() + static_cast<std::ptrdiff_t>(k);
         const bool summed = std::find(filters.begin(), here, Hdf5Filter::fletcher32) != here;
-        bytes = inflated(file_, {bytes.data(), bytes.size()}, chunk_bytes_ + (summed ? sum : 0));
+        bytes = inflated(file_.file, {bytes.data(), bytes.size()}, chunk_bytes_ + (summed ? sum : 0),
+                         "a chunk of " + quoted(name));
       } else {
         bytes = unshuffled(bytes, width_);
       }
@@ -153,7 +135,7 @@ class Chunks {
     std::vector<std::uint64_t> inside;  // position in the array
     for (std::size_t k = 0; k < rank_; ++k) {
       if (place[k] >= sizes[k] || place[k] % chunk[k] != 0)
-        file_.damaged("a chunk of " + quoted(dataset_.name) + " lies outside it");
+        file_.damaged("a chunk of " + quoted(dataset_.name) + " is outside it");
       index = index * along_[k] + place[k] / chunk[k];
       inside.push_back(std::min(chunk[k], sizes[k] - place[k]));
       if (k + 1 < rank_) rows *= inside[k];
@@ -187,17 +169,10 @@ class Chunks {
   std::size_t nodes_ = 0;
 };
 
-template <class T>
-T element(const char* at, bool swap) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), at, sizeof(T));
-  if (swap) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<T>(raw);
-}
-
 template <class From, class To>
 Array<To> converted(std::string_view raw, bool swap, Monitor& monitor) {
   Array<To> values(raw.size() / sizeof(From));
+  const auto read = swap ? big_endian<From> : little_endian<From>;
   constexpr std::size_t piece = std::size_t{1} << 16;
   Task task(monitor, "reading", static_cast<std::int64_t>(values.size() / piece + 1));
   for (std::size_t start = 0; start < values.size(); start += piece) {
@@ -206,7 +181,7 @@ Array<To> converted(std::string_view raw, bool swap, Monitor& monitor) {
       std::memcpy(values.data() + start, raw.data() + start * sizeof(From), (end - start) * sizeof(From));
     } else {
       for (std::size_t k = start; k < end; ++k)
-        values[k] = static_cast<To>(element<From>(raw.data() + k * sizeof(From), swap));
+        values[k] = static_cast<To>(read(raw.data() + k * sizeof(From)));
     }
     task.advance();
   }
@@ -215,16 +190,10 @@ Array<To> converted(std::string_view raw, bool swap, Monitor& monitor) {
 
 Array<std::int64_t> wide_integers(const Hdf5Type& type, std::string_view raw, bool swap, Monitor& monitor) {
   const auto of = [&](auto zero) { return converted<decltype(zero), std::int64_t>(raw, swap, monitor); };
-  switch (type.width) {
-    case 1:
-      return of(std::int8_t{});
-    case 2:
-      return type.is_signed ? of(std::int16_t{}) : of(std::uint16_t{});
-    case 4:
-      return type.is_signed ? of(std::int32_t{}) : of(std::uint32_t{});
-    default:
-      return of(std::int64_t{});
-  }
+  if (type.width == 1) return of(std::int8_t{});
+  if (type.width == 2) return type.is_signed ? of(std::int16_t{}) : of(std::uint16_t{});
+  if (type.width == 4) return type.is_signed ? of(std::int32_t{}) : of(std::uint32_t{});
+  return of(std::int64_t{});
 }
 
 // In C order.
@@ -232,7 +201,7 @@ Hdf5Array from_raw(const Hdf5Dataset& dataset, std::string_view raw, Monitor& mo
   std::vector<std::size_t> shape(dataset.shape.sizes.begin(), dataset.shape.sizes.end());
   if (dataset.shape.none) shape = {0};
   const Hdf5Type& type = dataset.type;
-  const bool swap = type.big_endian == (std::endian::native == std::endian::little);
+  const bool swap = type.big_endian;
   const auto owning = [&](auto values) {
     return owning_array(dataset.name, std::move(shape), std::move(values));
   };

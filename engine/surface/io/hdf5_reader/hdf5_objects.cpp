@@ -56,7 +56,7 @@ std::string_view checked(const Hdf5Bytes& file, std::string_view piece, const ch
   return content;
 }
 
-// Header versions 1 and 2; continuation blocks are added to `more`.
+// Continuation blocks are added to `more`.
 void take_messages(const Hdf5Bytes& file, std::string_view block, int version, bool ordered,
                    std::vector<Hdf5Message>& messages, std::vector<std::string_view>& more) {
   Hdf5Cursor cursor(file, block, "an object header");
@@ -218,16 +218,9 @@ std::uint64_t Hdf5Cursor::number(std::uint64_t width) {
   return value;
 }
 
-std::string_view Hdf5Cursor::take(std::uint64_t count) {
-  if (count > left()) refuse("ends too soon");
-  const std::string_view taken = piece_.substr(at_, static_cast<std::size_t>(count));
-  at_ += taken.size();
-  return taken;
-}
-
 bool Hdf5Cursor::starts_with(std::string_view mark) {
-  if (piece_.substr(at_, mark.size()) != mark) return false;
-  at_ += mark.size();
+  if (!rest().starts_with(mark)) return false;
+  skip(mark.size());
   return true;
 }
 
@@ -267,14 +260,14 @@ Hdf5Bytes open_hdf5(const SourceFile& file) {
   cursor.skip(old ? 2 * bytes.address_width : 0);
   bytes.root = cursor.address();
   if (!old) checked(bytes, bytes.bytes.substr(0, cursor.position() + 4), what);
-  // Base and end share an arbitrary origin; only the difference counts.
+  // Base and end share an arbitrary origin.
   if (end < base) cursor.refuse("ends before it begins");
   const std::uint64_t length = end - base;
   if (length > bytes.bytes.size() || length < cursor.position())
     refuse_file(file,
                 "is cut short: it says that it has " + std::to_string(length) + " bytes and has " +
                     std::to_string(bytes.bytes.size()),
-                "copy it again from where it was whole");
+                "copy it again from its source");
   bytes.over = bytes.bytes.size() - length;
   bytes.bytes = bytes.bytes.substr(0, static_cast<std::size_t>(length));
   return bytes;

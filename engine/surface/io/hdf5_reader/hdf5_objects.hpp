@@ -1,24 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Structures of an HDF5 file: bounds-checked bytes (little-endian, stated widths), objects (superblock,
-// both kinds of groups, headers of versions 1 and 2 with checksums), messages and numbers. Source: HDF5
-// File Format Specification, version 3.0, The HDF Group. Not read: dense groups (fractal heap) and chunks
-// with newer indices.
+// Structures of an HDF5 file: bounds-checked bytes, objects (both kinds of groups, headers of versions 1 and
+// 2), messages and numbers. Source: HDF5 File Format Specification, version 3.0, The HDF Group. Not read:
+// dense groups (fractal heap) and chunks with newer indices.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/core/files/source_file.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 
-// Only a fuzzer sets false, at start, to pass the checksums.
+using Hdf5Values =
+    std::variant<std::span<const double>, std::span<const std::int64_t>, std::span<const std::uint8_t>>;
+
+// Copies share the values.
+struct Hdf5Array {
+  std::string name;                // "bodies/lower/plastic": no empty part, no "." or ".."
+  std::vector<std::size_t> shape;  // C order: (ny, nx); empty: one number
+  Hdf5Values values;
+  std::string unit;
+  // Owns the storage; null if the caller keeps it alive.
+  std::shared_ptr<const void> keeper{};
+  // Marks missing values: attribute "_FillValue", as in netCDF. We write NaN.
+  std::optional<double> missing{};
+};
+
+template <class T>
+Hdf5Array owning_array(std::string name, std::vector<std::size_t> shape, Array<T> values,
+                       std::string unit = {}) {
+  const auto kept = std::make_shared<const Array<T>>(std::move(values));
+  return {std::move(name), std::move(shape), std::span<const T>(*kept), std::move(unit), kept};
+}
+
+// Only a fuzzer sets false, at start.
 inline bool hdf5_checksums_are_compared = true;
 
 bool looks_like_hdf5(const SourceFile& file);
@@ -39,29 +65,22 @@ struct Hdf5Bytes {
   [[noreturn]] void damaged(const std::string& finding, const std::string& hint = {}) const;
 };
 
-// Every call throws Error{bad_file} naming `what` past the end.
-class Hdf5Cursor {
+class Hdf5Cursor : public BinaryCursor {
  public:
   Hdf5Cursor(const Hdf5Bytes& file, std::string_view piece, const char* what)
-      : file_(file), piece_(piece), what_(what) {}
+      : BinaryCursor(file.file, piece, what), file_(file), what_(what) {}
   Hdf5Cursor(const Hdf5Bytes& file, std::uint64_t at, std::uint64_t length, const char* what)
       : Hdf5Cursor(file, file.piece(at, length, what), what) {}
 
   std::uint64_t number(std::uint64_t width);
   std::uint64_t address() { return number(file_.address_width); }
   std::uint64_t length() { return number(file_.length_width); }
-  std::string_view take(std::uint64_t count);
-  void skip(std::uint64_t count) { take(count); }
-  std::size_t left() const { return piece_.size() - at_; }
-  std::size_t position() const { return at_; }
   // Skips equal bytes.
   bool starts_with(std::string_view mark);
   [[noreturn]] void refuse(const std::string& finding) const;
 
  private:
   const Hdf5Bytes& file_;
-  std::string_view piece_;
-  std::size_t at_ = 0;
   const char* what_;
 };
 
@@ -157,8 +176,8 @@ std::optional<double> number_of(const Hdf5Bytes& file, const Hdf5Attribute& attr
 
 // Reason for an unsupported layout, or empty.
 std::string why_unread(const Hdf5Dataset& dataset);
-// `room` counts the bytes of the file not yet used by arrays, so shared bytes cannot multiply in memory.
-// Chunks expand by at most 1032 (deflate). A chunk never written is an error, not fill values.
+// `room`: bytes of the file not yet used by arrays, so shared bytes cannot multiply in memory. A chunk never
+// written is an error.
 Hdf5Array read_numbers(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::uint64_t& room,
                        Monitor& monitor);
 

@@ -5,14 +5,13 @@
 // SurfaceTopography's readers.
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/core/files/text_table.hpp"
-#include "engine/core/text.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
-#include "engine/surface/io/length_unit.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 namespace asperity {
 
@@ -20,9 +19,6 @@ namespace {
 
 constexpr std::size_t header_characters = 2048;
 constexpr std::string_view unicode_ending = "_unicode";
-constexpr double nanometre = 1e-9;
-
-using Lines = std::map<std::string, std::string>;
 
 std::pair<std::string, std::string_view> statement(std::string_view line) {
   const std::size_t sign = line.find('=');
@@ -30,7 +26,7 @@ std::pair<std::string, std::string_view> statement(std::string_view line) {
   return {lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1))};
 }
 
-// In single bytes; non-ASCII characters, irrelevant here, become question marks.
+// In single bytes; non-ASCII characters become question marks.
 struct BcrHeader {
   std::string text;
   std::size_t data_at = 0;
@@ -65,131 +61,109 @@ bool recognises_bcr(const SourceFile& file) {
   return key == "fileformat" && lower_case(value).starts_with("bcr");
 }
 
-std::uint64_t count_of(const SourceFile& file, const Lines& lines, const std::string& key) {
-  const auto found = lines.find(key);
-  if (found == lines.end()) refuse_file(file, "has no " + key + " in its header");
-  if (const auto count = count_in(found->second)) return *count;
-  refuse_file(file, "has no count for " + key + " in its header: " + shown(found->second));
-}
-
 // Returns the numbers in `data`.
-Lines lines_of(const SourceFile& file, std::size_t characters, std::string_view& data) {
+HeaderEntries entries_of(const SourceFile& file, std::size_t characters, std::string_view& data) {
   const BcrHeader header = header_of(file, characters);
   if (file.bytes().size() < header.data_at)
     refuse_file(file, "is cut short in its header of " + std::to_string(header.data_at) + " bytes");
   data = file.bytes().substr(header.data_at);
   std::string_view text = header.text;
   text = text.substr(0, text.find('\0'));
-  Lines lines;
+  HeaderEntries entries(file);
   LineReader reader(text);
   std::string_view line;
   while (reader.next(line))
-    if (const auto [key, value] = statement(line); !key.empty()) lines.emplace(key, value);
-  return lines;
+    if (const auto [key, value] = statement(line); !key.empty()) entries.add(key, value);
+  return entries;
 }
 
-Lines read_lines(const SourceFile& file, std::string_view& data) {
+HeaderEntries read_entries(const SourceFile& file, std::string_view& data) {
   require_format(file, recognises_bcr(file),
                  "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`");
-  Lines lines = lines_of(file, header_characters, data);
-  if (lines.count("headersize") == 0) return lines;
-  const std::uint64_t said = count_of(file, lines, "headersize");
-  if (said == header_characters) return lines;
+  HeaderEntries entries = entries_of(file, header_characters, data);
+  if (!entries.find("headersize")) return entries;
+  const std::uint64_t said = entries.count("headersize");
+  if (said == header_characters) return entries;
   if (said < header_characters || said > file.bytes().size())
     refuse_file(file, "says that its header has " + std::to_string(said) + " characters",
                 "they are 2048 or more, and no more than the file has");
-  return lines_of(file, static_cast<std::size_t>(said), data);
+  return entries_of(file, static_cast<std::size_t>(said), data);
 }
 
-// The number of a missing point; some files state a count of missing points instead.
-double void_number(const SourceFile& file, const Lines& lines) {
-  const auto found = lines.find("voidpixels");
-  if (found == lines.end()) return 1;
-  const TextCell cell = read_cell(found->second, Separator::blank);
-  if (cell.kind != CellKind::number)
-    refuse_file(file, "has no number for voidpixels in its header: " + shown(found->second));
-  return cell.value;
+// Metres; default nanometres.
+double unit_of(const SourceFile& file, const HeaderEntries& entries, std::string_view key) {
+  constexpr double nanometre = 1e-9;
+  const auto word = entries.find(key);
+  const std::optional<double> metres = word ? length_unit(*word) : nanometre;
+  if (!metres)
+    refuse_file(file, "gives no known unit of length as " + std::string(key) + ": " + shown(*word));
+  return *metres;
 }
 
-// In metres; unit from the line `unit_key`, default nanometres.
-std::optional<double> length_of(const SourceFile& file, const Lines& lines, const std::string& key,
-                                const std::string& unit_key) {
-  const auto found = lines.find(key);
-  if (found == lines.end()) return {};
-  const TextCell cell = read_cell(found->second, Separator::blank);
-  if (cell.kind != CellKind::number || !(cell.value > 0))
-    refuse_file(file, "has no length for " + key + " in its header: " + shown(found->second));
-  const auto unit = lines.find(unit_key);
-  const std::optional<double> metres = unit == lines.end() ? nanometre : length_unit(unit->second);
-  if (!metres) refuse_file(file, "gives no known unit of length as " + unit_key + ": " + shown(unit->second));
-  return cell.value * *metres;
-}
-
-template <class T, class IsHole>
-Field heights_of(std::string_view data, int nx, int ny, bool big_endian, Monitor& monitor, IsHole&& is_hole) {
-  return big_endian ? field_of_numbers<T, asperity::big_endian<T>>(data, nx, ny, monitor, is_hole)
-                    : field_of_numbers<T>(data, nx, ny, monitor, is_hole);
+// In metres.
+std::optional<double> length_of(const SourceFile& file, const HeaderEntries& entries, std::string_view key,
+                                std::string_view unit_key) {
+  if (!entries.find(key)) return {};
+  return above_zero(file, entries.decimal(key), "as its " + std::string(key)) *
+         unit_of(file, entries, unit_key);
 }
 
 HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
   std::string_view data;
-  const Lines lines = read_lines(file, data);
-  std::string kind = lower_case(lines.at("fileformat"));
+  const HeaderEntries entries = read_entries(file, data);
+  const std::string_view stated = entries.text("fileformat");
+  std::string kind = lower_case(stated);
   if (is_utf16_head(file.bytes()) && kind.ends_with(unicode_ending))
     kind.resize(kind.size() - unicode_ending.size());
   const bool integers = kind == "bcrstm";
   if (!integers && kind != "bcrf")
-    refuse_file(file, "is a BCR file of the kind " + shown(lines.at("fileformat")),
-                "bcrstm and bcrf are read");
-  const std::uint64_t columns = count_of(file, lines, "xpixels"), rows = count_of(file, lines, "ypixels");
-  require_exactly(file, columns, rows, integers ? 2 : 4, data.size());
-  const bool big_endian = lines.count("intelmode") != 0 && count_of(file, lines, "intelmode") == 0;
-  const double void_value = void_number(file, lines);
+    refuse_file(file, "is a BCR file of the kind " + shown(stated), "bcrstm and bcrf are read");
+  const std::uint64_t nx = entries.count("xpixels"), ny = entries.count("ypixels");
+  const bool swapped = entries.find("intelmode") && entries.count("intelmode") == 0;
+  // Some files state a count of missing points instead.
+  const double void_value = entries.find("voidpixels") ? entries.decimal("voidpixels") : 1;
   const bool value = void_value < 0 || void_value != std::floor(void_value);
-  const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);
   HeightMap map;
   if (integers) {
-    constexpr std::int16_t missing = 32767;
-    map.heights = heights_of<std::int16_t>(data, nx, ny, big_endian, monitor, [&](std::int16_t number) {
-      return (void_value != 0 && number == missing) || (value && number == void_value);
-    });
-    map.unit = length_of(file, lines, "bit2nm", "zunit");
+    constexpr double missing = 32767;
+    map.heights = exact_field(
+        file, swapped ? number_type<std::int16_t, big_endian<std::int16_t>> : number_type<std::int16_t>, data,
+        nx, ny, monitor, [&](double number) {
+          return (void_value != 0 && number == missing) || (value && number == void_value);
+        });
+    map.unit = length_of(file, entries, "bit2nm", "zunit");
   } else {
-    constexpr float least_missing = 1.7e38F;
-    map.heights = heights_of<float>(data, nx, ny, big_endian, monitor, [&](float number) {
-      return !(std::abs(number) <= least_missing) || (value && number == static_cast<float>(void_value));
-    });
-    const auto zunit = lines.find("zunit");
-    map.unit = zunit == lines.end() ? nanometre : length_unit(zunit->second);
-    if (!map.unit) refuse_file(file, "gives no known unit of length as zunit: " + shown(zunit->second));
-    // The format defines bit2nm only for integers, although one reader applies it here.
-    if (const auto scale = lines.find("bit2nm"); scale != lines.end()) {
-      const TextCell cell = read_cell(scale->second, Separator::blank);
-      if (cell.kind != CellKind::number || cell.value != 1)
-        monitor.warn(file_name(file.path()) + " holds floating-point heights and a bit2nm of " +
-                     shown(scale->second) + ", which is of integers: it is passed over");
-    }
+    constexpr double least_missing = 1.7e38F;
+    const auto rounded = static_cast<double>(static_cast<float>(void_value));
+    map.heights = exact_field(
+        file, swapped ? number_type<float, big_endian<float>> : number_type<float>, data, nx, ny, monitor,
+        [&](double number) { return !(std::abs(number) <= least_missing) || (value && number == rounded); });
+    map.unit = unit_of(file, entries, "zunit");
+    // The format defines bit2nm only for integers.
+    const std::string_view scale = entries.find("bit2nm").value_or("1");
+    const TextCell cell = read_cell(scale, Separator::blank);
+    if (cell.kind != CellKind::number || cell.value != 1)
+      monitor.warn(file_name(file.path()) + " holds floating-point heights and a bit2nm of " + shown(scale) +
+                   ", which is for integers only and is ignored");
   }
-  map.size_x = length_of(file, lines, "xlength", "xunit");
-  map.size_y = length_of(file, lines, "ylength", "yunit");
+  map.size_x = length_of(file, entries, "xlength", "xunit");
+  map.size_y = length_of(file, entries, "ylength", "yunit");
   return map;
 }
 
 }  // namespace
 
-const Format& bcr_format() {
-  static const Format format{"bcr",
-                             "`fileformat = bcrstm` or bcrf at the start",
-                             {"BCR and BCRF of SPIP (Image Metrology): integers or single precision, in text "
-                              "of one or two bytes a character.",
-                              "Other kinds of number, heights that are no length.",
-                              "A file in UTF-16 of the public test set of SurfaceTopography (bcrf): every "
-                              "height, size; integers by the layout alone."},
-                             {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-                             {"bcr", "bcrf"},
-                             recognises_bcr,
-                             read_bcr};
-  return format;
-}
+extern constexpr Format bcr_format{
+    "bcr",
+    "`fileformat = bcrstm` or bcrf at the start",
+    {"BCR and BCRF of SPIP (Image Metrology): integers or single precision, in text "
+     "of one or two bytes a character.",
+     "Other kinds of number, heights that are no length.",
+     "A file in UTF-16 of the public test set of SurfaceTopography (bcrf): every "
+     "height, size; integers by the layout alone."},
+    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
+    {"bcr", "bcrf"},
+    recognises_bcr,
+    read_bcr};
 
 }  // namespace asperity

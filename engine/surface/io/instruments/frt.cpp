@@ -3,7 +3,7 @@
 // valid range (16 bits only). A missing point is 1 or out of range. Layout: SurfaceTopography's and
 // Gwyddion's readers.
 #include <cmath>
-#include <utility>
+#include <map>
 
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
@@ -18,9 +18,9 @@ constexpr std::string_view frt_mark = "FRTM_GLIDERV";
 
 bool recognises_frt(const SourceFile& file) { return file.bytes().starts_with(frt_mark); }
 
-struct FrtBlocks {
-  std::optional<std::string_view> shape, size, scale, valid, heights;
-};
+// The first of equal kinds counts.
+using FrtBlocks = std::map<int, std::string_view>;
+constexpr int frt_heights = 0x0B, frt_shape = 0x66, frt_size = 0x67, frt_scale = 0x6C, frt_valid = 0x70;
 
 FrtBlocks read_frt_blocks(const SourceFile& file) {
   require_format(file, recognises_frt(file), "is not an FRT file: it does not start with FRTM_GLIDERV");
@@ -42,61 +42,47 @@ FrtBlocks read_frt_blocks(const SourceFile& file) {
                   "has a block of " + std::to_string(length) + " bytes where " +
                       std::to_string(cursor.left()) + " are left",
                   "the file is cut short");
-    const std::string_view content = cursor.take(static_cast<std::size_t>(length));
-    std::optional<std::string_view>* const wanted = kind == 0x66   ? &blocks.shape
-                                                    : kind == 0x67 ? &blocks.size
-                                                    : kind == 0x6C ? &blocks.scale
-                                                    : kind == 0x70 ? &blocks.valid
-                                                    : kind == 0x0B ? &blocks.heights
-                                                                   : nullptr;
-    if (wanted != nullptr && !*wanted) *wanted = content;
+    blocks.emplace(kind, cursor.take(static_cast<std::size_t>(length)));
   }
   return blocks;
 }
 
-std::pair<std::uint32_t, std::uint32_t> valid_range(const SourceFile& file, const FrtBlocks& blocks) {
-  if (!blocks.valid) return {0, std::numeric_limits<std::uint16_t>::max()};
-  BinaryCursor cursor(file, *blocks.valid, "its range of valid heights");
+Range valid_range(const SourceFile& file, const FrtBlocks& blocks) {
+  const auto found = blocks.find(frt_valid);
+  if (found == blocks.end()) return {-INFINITY, INFINITY};
+  BinaryCursor cursor(file, found->second, "its range of valid heights");
   const std::uint32_t least = cursor.number<std::uint32_t>(), greatest = cursor.number<std::uint32_t>();
   if (!(least < greatest))
     refuse_file(file, "says that valid heights run from " + std::to_string(least) + " to " +
                           std::to_string(greatest));
-  return {least, greatest};
+  return {static_cast<double>(least), static_cast<double>(greatest)};
 }
 
 HeightMap read_frt(const SourceFile& file, Monitor& monitor) {
   const FrtBlocks blocks = read_frt_blocks(file);
-  if (!blocks.heights) refuse_file(file, "holds no map of heights", "the block 0x0B, topography, is read");
-  if (!blocks.shape) refuse_file(file, "does not say how many points it has");
-  BinaryCursor shape(file, *blocks.shape, "its numbers of points");
+  const auto heights = blocks.find(frt_heights), dimensions = blocks.find(frt_shape);
+  if (heights == blocks.end())
+    refuse_file(file, "holds no map of heights", "the block 0x0B, topography, is read");
+  if (dimensions == blocks.end()) refuse_file(file, "does not say how many points it has");
+  BinaryCursor shape(file, dimensions->second, "its numbers of points");
   const std::uint64_t nx = shape.number<std::uint32_t>(), ny = shape.number<std::uint32_t>();
   const std::uint64_t bits = shape.number<std::uint32_t>();
   if (bits != 16 && bits != 32)
     refuse_file(file, "holds heights of " + std::to_string(bits) + " bits",
                 "heights of 16 and 32 bits are read");
-  require_exactly(file, nx, ny, bits / 8, blocks.heights->size());
+  constexpr double missing = 1;
+  const Range valid = bits == 16 ? valid_range(file, blocks) : Range{-INFINITY, INFINITY};
   HeightMap map;
-  constexpr int missing = 1;
-  const int columns = static_cast<int>(nx), rows = static_cast<int>(ny);
-  if (bits == 16) {
-    const std::pair<std::uint32_t, std::uint32_t> valid = valid_range(file, blocks);
-    map.heights = field_of_numbers<std::uint16_t>(
-        *blocks.heights, columns, rows, monitor,
-        [&](std::uint16_t v) { return v == missing || v < valid.first || v > valid.second; });
-  } else {
-    map.heights = field_of_numbers<std::int32_t>(*blocks.heights, columns, rows, monitor,
-                                                 [](std::int32_t v) { return v == missing; });
-  }
-  if (blocks.scale) {
-    BinaryCursor scale(file, *blocks.scale, "its scale of heights");
+  map.heights =
+      exact_field(file, bits == 16 ? number_type<std::uint16_t> : number_type<std::int32_t>, heights->second,
+                  nx, ny, monitor, [&](double v) { return v == missing || v < valid.min || v > valid.max; });
+  if (const auto found = blocks.find(frt_scale); found != blocks.end()) {
+    BinaryCursor scale(file, found->second, "its scale of heights");
     scale.skip(4);
-    const double step = scale.number<double>();
-    if (!(step > 0) || !std::isfinite(step))
-      refuse_file(file, "gives " + format_short(step) + " m as the height of one step");
-    map.unit = step;
+    map.unit = above_zero(file, scale.number<double>(), "m as the height of one step");
   }
-  if (blocks.size) {
-    BinaryCursor size(file, *blocks.size, "its size");
+  if (const auto found = blocks.find(frt_size); found != blocks.end()) {
+    BinaryCursor size(file, found->second, "its size");
     const double x = size.number<double>(), y = size.number<double>();
     if (!(x > 0) || !std::isfinite(x) || !(y > 0) || !std::isfinite(y))
       refuse_file(file, "gives " + format_short(x) + " m x " + format_short(y) + " m as its size");
@@ -108,19 +94,16 @@ HeightMap read_frt(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& frt_format() {
-  static const Format format{
-      "frt",
-      "FRTM_GLIDERV at the start",
-      {"FRT of MicroProf profilometers, versions 1.00 and 1.01: the topography, of 16 or 32 bits.",
-       "Files without a topography; other maps in a file are passed over.",
-       "Two files of 16 bits of the public test set of SurfaceTopography, every height, missing points, "
-       "size; 32 bits by the layout alone."},
-      {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
-      {"frt"},
-      recognises_frt,
-      read_frt};
-  return format;
-}
+extern constexpr Format frt_format{
+    "frt",
+    "FRTM_GLIDERV at the start",
+    {"FRT of MicroProf profilometers, versions 1.00 and 1.01: the topography, of 16 or 32 bits.",
+     "Files without a topography; other maps in a file are passed over.",
+     "Two files of 16 bits of the public test set of SurfaceTopography, every height, missing points, "
+     "size; 32 bits by the layout alone."},
+    {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
+    {"frt"},
+    recognises_frt,
+    read_frt};
 
 }  // namespace asperity

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/instruments/instrument_header.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/length_unit.hpp"
+#include "engine/surface/io/column_head.hpp"
+#include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
 namespace asperity {
 
 namespace {
 
 std::string listed_names(const std::vector<NamedMap>& maps, bool only_heights) {
-  constexpr std::size_t most = 24;
   std::vector<std::string> names;
-  std::size_t count = 0;
-  for (const NamedMap& map : maps) {
-    if (!map.heights && only_heights) continue;
-    if (++count <= most) names.push_back(quoted(map.name));
-  }
-  if (count > most) names.push_back(std::to_string(count - most) + " more");
-  return joined(names, " and ");
+  for (const NamedMap& map : maps)
+    if (map.heights || !only_heights) names.push_back(quoted(map.name));
+  return listed_up_to(24, std::move(names));
 }
 
 // Returns NaN without a number.
@@ -68,6 +62,33 @@ double instrument_length(const SourceFile& file, std::string_view key, std::stri
   if (!(value > 0) || !std::isfinite(value) || !metres)
     refuse_file(file, "has no length for " + quoted(key) + " in its header: " + shown(text));
   return value * *metres;
+}
+
+std::optional<std::string_view> HeaderEntries::find(std::string_view key) const {
+  const auto found = entries_.find(key);
+  return found == entries_.end() ? std::nullopt : std::optional<std::string_view>(found->second);
+}
+
+std::string_view HeaderEntries::text(std::string_view key) const {
+  if (const auto found = find(key)) return *found;
+  refuse_file(*file_, "has no " + quoted(key) + " in its header");
+}
+
+std::uint64_t HeaderEntries::count(std::string_view key) const {
+  return instrument_count(*file_, key, text(key));
+}
+
+double HeaderEntries::number(std::string_view key) const { return instrument_number(*file_, key, text(key)); }
+
+double HeaderEntries::decimal(std::string_view key) const {
+  const TextCell cell = read_cell(trimmed(text(key)), Separator::blank);
+  if (cell.kind != CellKind::number && cell.kind != CellKind::hole)
+    refuse_file(*file_, "has no number for " + quoted(key) + " in its header: " + shown(text(key)));
+  return cell.value;
+}
+
+double HeaderEntries::length(std::string_view key, std::string_view unit) const {
+  return instrument_length(*file_, key, trimmed(std::string(text(key)) + " " + std::string(unit)));
 }
 
 void tell_apart(std::vector<NamedMap>& maps) {
@@ -120,15 +141,6 @@ std::size_t chosen_map(const SourceFile& file, const std::vector<NamedMap>& maps
 void refuse_no_heights(const SourceFile& file, const NamedMap& map, const std::string& unit) {
   refuse_file(file, "holds the map " + quoted(map.name) + " in " + unit + ", which is no unit of length",
               "name a map of heights with `channel`");
-}
-
-Field lines_reversed(const Field& heights) {
-  Field turned(heights.nx(), heights.ny());
-  for (int j = 0; j < heights.ny(); ++j) {
-    const auto line = heights.row(j);
-    std::reverse_copy(line.begin(), line.end(), turned.row(j).begin());
-  }
-  return turned;
 }
 
 }  // namespace asperity

@@ -1,27 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shared by readers of scanning-probe files: header numbers, with errors that name the key, and the choice
-// among several maps.
+// Header numbers of scanning-probe files, and the choice among several maps.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/grid.hpp"
 
 namespace asperity {
 
 // The next three functions throw Error{bad_file} unless the text is a count from 0 on, a finite number, or a
-// positive length such as "500 nm", "20\xB5m", "10 ~m"; a length is returned in m.
+// positive length such as "500 nm", "10 ~m", in m.
 std::uint64_t instrument_count(const SourceFile& file, std::string_view key, std::string_view text);
 double instrument_number(const SourceFile& file, std::string_view key, std::string_view text);
 double instrument_length(const SourceFile& file, std::string_view key, std::string_view text);
-// Metres per unit: length_unit(), plus "~m" for um, and um and angstrom in UTF-8 or Latin-1. None for other
-// dimensions, "A" (ampere) and several words.
+// length_unit(), plus "~m" for um, and um and angstrom in UTF-8 or Latin-1. None for "A" (ampere) and several
+// words.
 std::optional<double> instrument_length_unit(std::string_view text);
+
+// Keys and values in text. The first of equal keys counts. text() to length() throw Error{bad_file} for a
+// missing or unreadable entry.
+class HeaderEntries {
+ public:
+  explicit HeaderEntries(const SourceFile& file) : file_(&file) {}
+  void add(std::string_view key, std::string_view value) { entries_.emplace(key, value); }
+  // The last of equal keys counts.
+  void replace(std::string_view key, std::string_view value) { entries_[std::string(key)] = value; }
+  std::optional<std::string_view> find(std::string_view key) const;
+  const std::map<std::string, std::string, std::less<>>& all() const { return entries_; }
+
+  std::string_view text(std::string_view key) const;
+  std::uint64_t count(std::string_view key) const;
+  double number(std::string_view key) const;
+  double decimal(std::string_view key) const;  // also with a decimal comma; NaN for "nan", "bad" …
+  // In m; `unit` follows the text.
+  double length(std::string_view key, std::string_view unit = {}) const;
+
+ private:
+  const SourceFile* file_;
+  std::map<std::string, std::string, std::less<>> entries_;
+};
 
 struct NamedMap {
   std::string name;
@@ -33,12 +56,10 @@ void tell_apart(std::vector<NamedMap>& maps);
 // First appends `more[k]` (Trace, Retrace) to shared names.
 void tell_apart_by(std::vector<NamedMap>& maps, const std::vector<std::string>& more);
 
-// Index of the map `channel`; if empty, of the only map of heights. Throws Error{bad_file}, listing the
-// maps, if none or several match.
+// Index of the map `channel`; if empty, of the only map of heights. Throws Error{bad_file} if none or several
+// match.
 std::size_t chosen_map(const SourceFile& file, const std::vector<NamedMap>& maps, const std::string& channel);
 
 [[noreturn]] void refuse_no_heights(const SourceFile& file, const NamedMap& map, const std::string& unit);
-
-Field lines_reversed(const Field& heights);
 
 }  // namespace asperity

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MetroPro of Zygo's interferometers, big-endian: header, camera intensities, 32-bit phases. Height = phase
-// · scale factor · wavelength · obliquity factor / R; R = 4096, 32768 or 131072 for a phase resolution of
-// 0, 1 or 2. The header may invert the sign. Phases from 2147483640 on are missing. Source: MetroPro
-// Reference Guide, restated by SurfaceTopography's and Gwyddion's readers.
+// MetroPro of Zygo's interferometers, big-endian: header, camera intensities, 32-bit phases. Height = phase ·
+// scale factor · wavelength · obliquity factor / R; R = 4096, 32768 or 131072 for a phase resolution of 0, 1
+// or 2. The header may invert the sign. Phases from 2147483640 on are missing. Source: SurfaceTopography's
+// and Gwyddion's readers, after the MetroPro Reference Guide.
 #include <array>
 #include <cmath>
 
@@ -66,8 +66,9 @@ MetroProHeader read_metropro_header(const SourceFile& file) {
   header.spacing = number(184);
   header.inverted = word(232) != 0;
   if (!std::isfinite(header.unit) || header.unit == 0)
-    refuse_file(file, "gives its heights the scale " + format_short(number(164)) + ", the wavelength " +
-                          format_short(number(168)) + " m and the obliquity " + format_short(number(176)));
+    refuse_file(file, "gives its heights no usable scale: scale " + format_short(number(164)) +
+                          ", wavelength " + format_short(number(168)) + " m, obliquity " +
+                          format_short(number(176)));
   if (!(header.spacing >= 0) || !std::isfinite(header.spacing))
     refuse_file(file, "gives " + format_short(header.spacing) + " m as the distance of its points");
   return header;
@@ -76,37 +77,32 @@ MetroProHeader read_metropro_header(const SourceFile& file) {
 HeightMap read_metropro(const SourceFile& file, Monitor& monitor) {
   const MetroProHeader header = read_metropro_header(file);
   const std::string_view data = file.bytes().substr(header.data_at);
-  require_exactly(file, header.nx, header.ny, sizeof(std::int32_t), data.size());
-  const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
-  constexpr std::int32_t least_missing = 2147483640;
+  constexpr double least_missing = 2147483640;
   HeightMap map;
-  map.heights = field_of_numbers<std::int32_t, big_endian<std::int32_t>>(
-      data, nx, ny, monitor, [](std::int32_t phase) { return phase >= least_missing; });
+  map.heights = exact_field(file, number_type<std::int32_t, big_endian<std::int32_t>>, data, header.nx,
+                            header.ny, monitor, [](double phase) { return phase >= least_missing; });
   if (header.inverted != (header.unit < 0))
     for (double& height : map.heights.values()) height = -height;
   map.unit = std::abs(header.unit);
   if (header.spacing > 0) {
-    map.size_x = header.spacing * nx;
-    map.size_y = header.spacing * ny;
+    map.size_x = header.spacing * map.heights.nx();
+    map.size_y = header.spacing * map.heights.ny();
   }
   return map;
 }
 
 }  // namespace
 
-const Format& metropro_format() {
-  static const Format format{
-      "metropro",
-      "88 1B 03 6F, 70 or 71 at the start",
-      {"MetroPro (.dat) of Zygo interferometers: the phase map, of headers 1, 2 and 3.",
-       "Files of intensities alone; intensities are passed over.",
-       "A file of the public test set of SurfaceTopography (header 1, resolution 1), every height and size; "
-       "it has no missing points."},
-      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-      {},  // ambiguous
-      recognises_metropro,
-      read_metropro};
-  return format;
-}
+extern constexpr Format metropro_format{
+    "metropro",
+    "88 1B 03 6F, 70 or 71 at the start",
+    {"MetroPro (.dat) of Zygo interferometers: the phase map, of headers 1, 2 and 3.",
+     "Files of intensities alone; intensities are passed over.",
+     "A file of the public test set of SurfaceTopography (header 1, resolution 1), every height and size; "
+     "it has no missing points."},
+    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
+    {},  // ambiguous
+    recognises_metropro,
+    read_metropro};
 
 }  // namespace asperity

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MI of Agilent's (Molecular Imaging's) microscopes: header lines with 14-character keys, then the numbers
-// of all buffers. A number n of b bits is n / 2^(b-1) of `bufferRange`, in `bufferUnit`; lengths are in
-// metres. There are no missing points. Layout: Gwyddion's and SurfaceTopography's readers.
-#include <map>
-
+// MI of Agilent's (Molecular Imaging's) microscopes: header lines with 14-character keys, then the numbers of
+// all buffers. A number n of b bits is n / 2^(b-1) of `bufferRange`, in `bufferUnit`; lengths are in metres.
+// No missing points. Layout: Gwyddion's and SurfaceTopography's readers.
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
@@ -17,11 +15,9 @@ namespace {
 constexpr std::string_view mi_mark = "fileType      Image";
 constexpr std::size_t mi_key = 14;
 
-using MiLines = std::map<std::string, std::string_view>;
-
 struct MiHeader {
-  MiLines lines;  // before the first buffer
-  std::vector<MiLines> buffers;
+  HeaderEntries lines;  // before the first buffer
+  std::vector<HeaderEntries> buffers;
   std::string_view kind, data;
 };
 
@@ -29,7 +25,7 @@ MiHeader mi_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
   require_format(file, bytes.starts_with(mi_mark),
                  "is not an MI image: it does not start with \"fileType      Image\"");
-  MiHeader header;
+  MiHeader header{HeaderEntries(file), {}, {}, {}};
   std::size_t at = 0;
   while (at < bytes.size()) {
     const std::size_t end = bytes.find('\n', at);
@@ -44,16 +40,10 @@ MiHeader mi_header(const SourceFile& file) {
       header.data = bytes.substr(at);
       return header;
     }
-    if (key == "bufferLabel") header.buffers.emplace_back();
-    (header.buffers.empty() ? header.lines : header.buffers.back()).emplace(key, value);
+    if (key == "bufferLabel") header.buffers.emplace_back(file);
+    (header.buffers.empty() ? header.lines : header.buffers.back()).add(key, value);
   }
   refuse_file(file, "has a header without the line `data`", "the file is cut short");
-}
-
-std::string_view mi_entry(const SourceFile& file, const MiLines& lines, const std::string& key) {
-  const auto found = lines.find(key);
-  if (found == lines.end()) refuse_file(file, "has no " + quoted(key) + " in its header");
-  return found->second;
 }
 
 HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
@@ -61,16 +51,13 @@ HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Mo
   if (header.kind != "BINARY" && header.kind != "BINARY_32")
     refuse_file(file, "holds numbers of the kind " + shown(header.kind), "BINARY and BINARY_32 are read");
   const std::size_t width = header.kind == "BINARY" ? 2 : 4;
-  const auto count = [&](const char* key) {
-    return instrument_count(file, key, mi_entry(file, header.lines, key));
-  };
-  const std::uint64_t columns = count("xPixels"), rows = count("yPixels");
+  const std::uint64_t columns = header.lines.count("xPixels"), rows = header.lines.count("yPixels");
   std::vector<NamedMap> maps;
   std::vector<std::string> traces;
-  for (const MiLines& buffer : header.buffers) {
-    const std::string label = plain_text(std::string(mi_entry(file, buffer, "bufferLabel")));
+  for (const HeaderEntries& buffer : header.buffers) {
+    const std::string label = plain_text(std::string(buffer.text("bufferLabel")));
     const auto trace = buffer.find("trace");
-    traces.push_back(trace == buffer.end() ? "" : ", " + plain_text(std::string(trace->second)));
+    traces.push_back(trace ? ", " + plain_text(std::string(*trace)) : "");
     maps.push_back({label, label.starts_with("Topography") || label == "Height"});
   }
   tell_apart_by(maps, traces);
@@ -83,45 +70,36 @@ HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Mo
                     std::to_string(columns) + " x " + std::to_string(rows) + " numbers but has " +
                     std::to_string(header.data.size()) + " bytes of data",
                 "its header is wrong or the file is damaged");
-  const MiLines& buffer = header.buffers[chosen];
-  const std::string_view unit_text = mi_entry(file, buffer, "bufferUnit");
+  const HeaderEntries& buffer = header.buffers[chosen];
+  const std::string_view unit_text = buffer.text("bufferUnit");
   const std::optional<double> unit = instrument_length_unit(unit_text);
   if (!unit) refuse_no_heights(file, maps[chosen], shown(unit_text));
-  const double range = instrument_number(file, "bufferRange", mi_entry(file, buffer, "bufferRange"));
-  if (!(range > 0)) refuse_file(file, "gives " + format_short(range) + " as its bufferRange");
+  const double range = above_zero(file, buffer.number("bufferRange"), "as its bufferRange");
   const std::string_view data = header.data.substr(chosen * in_a_map, in_a_map);
-  const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);
-  HeightMap map;
-  map.heights = width == 2 ? field_of_numbers<std::int16_t>(data, nx, ny, monitor)
-                           : field_of_numbers<std::int32_t>(data, nx, ny, monitor);
-  map.unit = *unit * range / (width == 2 ? 32768.0 : 2147483648.0);
-  const auto size_of = [&](const char* key) {
-    return instrument_length(file, key, std::string(mi_entry(file, header.lines, key)) + " m");
-  };
-  map.size_x = size_of("xLength");
-  map.size_y = size_of("yLength");
-  map.trace = ny == 1;
-  return map;
+  return {.heights = field_of_numbers(width == 2 ? number_type<std::int16_t> : number_type<std::int32_t>,
+                                      data, columns, rows, monitor),
+          .unit = *unit * range / (width == 2 ? 32768.0 : 2147483648.0),
+          .size_x = header.lines.length("xLength", "m"),
+          .size_y = header.lines.length("yLength", "m"),
+          .trace = rows == 1};
 }
 
 bool recognises_mi(const SourceFile& file) { return file.bytes().starts_with(mi_mark); }
 
 }  // namespace
 
-const Format& mi_format() {
-  static const Format format{"mi",
-                             "`fileType      Image` at the start",
-                             {"MI of Agilent and Molecular Imaging: the buffer of topography, or another in "
-                              "a unit of length with `channel`.",
-                              "Spectra, numbers written as text, buffers of other quantities.",
-                              "A file of the public test set of SurfaceTopography: size, heights, and the "
-                              "one that its tests state."},
-                             {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
-                             {"mi"},
-                             recognises_mi,
-                             nullptr,
-                             read_mi_channel};
-  return format;
-}
+extern constexpr Format mi_format{
+    "mi",
+    "`fileType      Image` at the start",
+    {"MI of Agilent and Molecular Imaging: the buffer of topography, or another in "
+     "a unit of length with `channel`.",
+     "Spectra, numbers written as text, buffers of other quantities.",
+     "A file of the public test set of SurfaceTopography: size, heights, and the "
+     "one that its tests state."},
+    {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
+    {"mi"},
+    recognises_mi,
+    nullptr,
+    read_mi_channel};
 
 }  // namespace asperity

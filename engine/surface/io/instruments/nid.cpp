@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NID of Nanosurf's microscopes: header sections `[Name]` of lines `key=value`, then `#!` and the numbers
-// of all images in the order of [DataSet]. A number n of b bits has height (n / 2^b + 1/2) · `Dim2Range` +
-// `Dim2Min`. There are no missing points. Layout: the headers, and Gwyddion's reader of the same layout
-// (EZD).
+// NID of Nanosurf's microscopes: header sections `[Name]` of lines `key=value`, then `#!` and the numbers of
+// all images in the order of [DataSet]. A number n of b bits has height (n / 2^b + 1/2) · `Dim2Range` +
+// `Dim2Min`. No missing points. Layout: the headers, and Gwyddion's reader of EZD.
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -17,10 +16,8 @@ namespace {
 
 constexpr std::string_view nid_mark = "[DataSet]", nid_data_mark = "#!";
 
-using NidSection = std::map<std::string, std::string_view>;
-
 struct NidHeader {
-  std::map<std::string, NidSection> sections;
+  std::map<std::string, HeaderEntries> sections;
   std::vector<std::string> images;  // in the order of the data
   std::string_view data;
 };
@@ -36,53 +33,44 @@ NidHeader nid_header(const SourceFile& file) {
   header.data = bytes.substr(end + 1 + nid_data_mark.size());
   LineReader reader(bytes.substr(0, end));
   std::string_view line;
-  NidSection* section = nullptr;
+  HeaderEntries* section = nullptr;
+  std::string name;
   while (reader.next(line)) {
     line = trimmed(line);
     if (line.starts_with('[') && line.ends_with(']')) {
-      section = &header.sections[std::string(line.substr(1, line.size() - 2))];
+      name = line.substr(1, line.size() - 2);
+      section = &header.sections.try_emplace(name, file).first->second;
       continue;
     }
     const std::size_t sign = line.find('=');
     if (sign == std::string_view::npos || section == nullptr) continue;
     const std::string_view key = trimmed(line.substr(0, sign)), value = trimmed(line.substr(sign + 1));
-    section->emplace(key, value);
-    if (section == &header.sections["DataSet"] && key.starts_with("Gr") &&
-        key.find("-Ch") != std::string_view::npos)
+    section->add(key, value);
+    if (name == "DataSet" && key.starts_with("Gr") && key.find("-Ch") != std::string_view::npos)
       header.images.emplace_back(value);
   }
   return header;
 }
 
 struct NidImage {
-  const NidSection* section = nullptr;
+  const HeaderEntries* section = nullptr;
   std::uint64_t nx = 0, ny = 0, width = 0;
   std::string_view data;
 };
 
-std::string_view nid_entry(const SourceFile& file, const NidSection& section, const std::string& key) {
-  const auto found = section.find(key);
-  if (found == section.end()) refuse_file(file, "has an image without " + quoted(key) + " in its header");
-  return found->second;
-}
-
-// Removes the numbers of the image from `data`.
 NidImage take_nid_image(const SourceFile& file, const NidHeader& header, const std::string& name,
                         std::string_view& data) {
   const auto found = header.sections.find(name);
   if (found == header.sections.end())
-    refuse_file(file, "names an image " + shown(name) + ", of which its header says nothing");
+    refuse_file(file, "names an image " + shown(name) + ", and its header does not describe it");
   NidImage image;
-  image.section = &found->second;
-  const auto count = [&](const char* key) {
-    return instrument_count(file, key, nid_entry(file, found->second, key));
-  };
-  image.nx = count("Points");
-  image.ny = count("Lines");
-  const std::uint64_t bits = count("SaveBits");
+  const HeaderEntries& section = found->second;
+  image.section = &section;
+  image.nx = section.count("Points");
+  image.ny = section.count("Lines");
+  const std::uint64_t bits = section.count("SaveBits");
   const auto is = [&](const char* key, std::string_view wanted) {
-    const auto entry = found->second.find(key);
-    return entry == found->second.end() || entry->second == wanted;
+    return section.find(key).value_or(wanted) == wanted;
   };
   if ((bits != 16 && bits != 32) || !is("SaveMode", "Binary") || !is("SaveSign", "Signed") ||
       !is("SaveOrder", "Intel"))
@@ -95,13 +83,6 @@ NidImage take_nid_image(const SourceFile& file, const NidHeader& header, const s
   return image;
 }
 
-// In metres.
-double nid_length(const SourceFile& file, const NidSection& section, const std::string& dimension) {
-  return instrument_length(file, dimension + "Range",
-                           std::string(nid_entry(file, section, dimension + "Range")) + " " +
-                               std::string(nid_entry(file, section, dimension + "Unit")));
-}
-
 HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const NidHeader header = nid_header(file);
   std::vector<NidImage> images;
@@ -109,11 +90,11 @@ HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, M
   std::string_view data = header.data;
   for (const std::string& name : header.images) {
     images.push_back(take_nid_image(file, header, name, data));
-    const NidSection& section = *images.back().section;
-    const std::string title = plain_text(std::string(nid_entry(file, section, "Dim2Name")));
+    const HeaderEntries& section = *images.back().section;
+    const std::string title = plain_text(std::string(section.text("Dim2Name")));
     const auto frame = section.find("Frame");
-    const bool length = instrument_length_unit(nid_entry(file, section, "Dim2Unit")).has_value();
-    maps.push_back({frame == section.end() ? title : title + ", " + plain_text(std::string(frame->second)),
+    const bool length = instrument_length_unit(section.text("Dim2Unit")).has_value();
+    maps.push_back({frame ? title + ", " + plain_text(std::string(*frame)) : title,
                     length && (title.starts_with("Z-Axis") || title.starts_with("Topography"))});
   }
   if (!data.empty())
@@ -122,28 +103,26 @@ HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, M
   tell_apart(maps);
   const std::size_t found = chosen_map(file, maps, channel);
   const NidImage& image = images[found];
-  const NidSection& section = *image.section;
-  const std::string_view unit_text = nid_entry(file, section, "Dim2Unit");
+  const HeaderEntries& section = *image.section;
+  const std::string_view unit_text = section.text("Dim2Unit");
   const std::optional<double> unit = instrument_length_unit(unit_text);
   if (!unit) refuse_no_heights(file, maps[found], shown(unit_text));
-  const double range = instrument_number(file, "Dim2Range", nid_entry(file, section, "Dim2Range"));
-  const double least = instrument_number(file, "Dim2Min", nid_entry(file, section, "Dim2Min"));
-  if (!(range > 0)) refuse_file(file, "gives " + format_short(range) + " as its Dim2Range");
-  const int nx = static_cast<int>(image.nx), ny = static_cast<int>(image.ny);
+  const double range = above_zero(file, section.number("Dim2Range"), "as its Dim2Range");
+  const double least = section.number("Dim2Min");
   HeightMap map;
   const double steps = image.width == 2 ? 65536.0 : 4294967296.0;
-  map.heights = image.width == 2 ? field_of_numbers<std::int16_t>(image.data, nx, ny, monitor)
-                                 : field_of_numbers<std::int32_t>(image.data, nx, ny, monitor);
+  map.heights = field_of_numbers(image.width == 2 ? number_type<std::int16_t> : number_type<std::int32_t>,
+                                 image.data, image.nx, image.ny, monitor);
   for (double& height : map.heights.values()) height = (height / steps + 0.5) * range + least;
   map.unit = unit;
-  map.size_x = nid_length(file, section, "Dim0");
-  map.size_y = nid_length(file, section, "Dim1");
-  map.trace = ny == 1;
-  if (const auto line = section.find("CurLine"); line != section.end())
-    if (const std::uint64_t last = instrument_count(file, "CurLine", line->second); last + 1 < image.ny)
+  map.size_x = section.length("Dim0Range", section.text("Dim0Unit"));
+  map.size_y = section.length("Dim1Range", section.text("Dim1Unit"));
+  map.trace = image.ny == 1;
+  if (section.find("CurLine"))
+    if (const std::uint64_t last = section.count("CurLine"); last + 1 < image.ny)
       monitor.warn(file_name(file.path()) + " says that its scan stopped at line " +
                    std::to_string(last + 1) + " of " + std::to_string(image.ny) +
-                   ": crop it to the lines that were measured");
+                   ": crop it to the measured lines");
   return map;
 }
 
@@ -153,20 +132,17 @@ bool recognises_nid(const SourceFile& file) {
 
 }  // namespace
 
-const Format& nid_format() {
-  static const Format format{
-      "nid",
-      "[DataSet] at the start",
-      {"NID of Nanosurf's microscopes: the image of the z axis, or another in a unit of length with "
-       "`channel`.",
-       "Images of other quantities, numbers of other than 16 and 32 bits.",
-       "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
-      {FirstLine::bottom, "Gwyddion's reader of the same layout (EZD) shows the first line at the bottom."},
-      {"nid"},
-      recognises_nid,
-      nullptr,
-      read_nid_channel};
-  return format;
-}
+extern constexpr Format nid_format{
+    "nid",
+    "[DataSet] at the start",
+    {"NID of Nanosurf's microscopes: the image of the z axis, or another in a unit of length with "
+     "`channel`.",
+     "Images of other quantities, numbers of other than 16 and 32 bits.",
+     "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
+    {FirstLine::bottom, "Gwyddion's reader of the same layout (EZD) shows the first line at the bottom."},
+    {"nid"},
+    recognises_nid,
+    nullptr,
+    read_nid_channel};
 
 }  // namespace asperity

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // NMS of NanoFocus' confocal microscopes (usurf): header, 16-bit integers, camera picture. The header maps
-// its integer range to its height range in micrometres; distances are in nanometres. Source: surfalize's
-// and SurfaceTopography's readers; they disagree on units and range, and the header's numbers and the
-// objective's field (160 um) decide. No mark of missing points is known: fill them in the instrument's
-// software, or use `masked` for outliers.
+// its integer range to its height range in micrometres; distances are in nanometres. Source: surfalize's and
+// SurfaceTopography's readers; they disagree on units and range, and the objective's field (160 um) decides.
+// No mark of missing points is known.
 #include <cmath>
 
 #include "engine/core/text.hpp"
@@ -41,9 +40,6 @@ HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
   if (!(high > low) || !std::isfinite(high - low))
     refuse_file(
         file, "says that its heights run from " + format_short(low) + " um to " + format_short(high) + " um");
-  for (const double spacing : {dx, dy})
-    if (!(spacing > 0) || !std::isfinite(spacing))
-      refuse_file(file, "gives " + format_short(spacing) + " nm as the distance of its points");
   const std::string_view data = bytes.substr(static_cast<std::size_t>(start));
   require_numbers(file, nx, ny, width, data.size());
   const std::uint64_t points = nx * ny;
@@ -52,34 +48,32 @@ HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
                 "has " + std::to_string(data.size()) + " bytes after its header, where " +
                     std::to_string(nx) + " x " + std::to_string(ny) + " heights take " +
                     std::to_string(width * points) + " and a picture " + std::to_string(points) + " more",
-                "its header is wrong or the file is damaged: read so, its lines would be shifted");
+                "its header is wrong or the file is damaged");
   constexpr double micrometre = 1e-6, nanometre = 1e-9;
   HeightMap map;
-  map.heights = field_of_numbers<std::uint16_t>(data, static_cast<int>(nx), static_cast<int>(ny), monitor);
+  map.heights = field_of_numbers(number_type<std::uint16_t>, data, nx, ny, monitor);
   const double step = (high - low) / static_cast<double>(last - first);
   for (double& height : map.heights.values()) height = low + (height - static_cast<double>(first)) * step;
   map.unit = micrometre;
-  map.size_x = dx * nanometre * static_cast<double>(nx);
-  map.size_y = dy * nanometre * static_cast<double>(ny);
+  constexpr const char* distance = "nm as the distance of its points";
+  map.size_x = above_zero(file, dx, distance) * nanometre * static_cast<double>(nx);
+  map.size_y = above_zero(file, dy, distance) * nanometre * static_cast<double>(ny);
   return map;
 }
 
 }  // namespace
 
-const Format& nms_format() {
-  static const Format format{
-      "nms",
-      "OM_MS_ at byte 32",
-      {"NMS of NanoFocus confocal microscopes: the height image, in 16 bits.",
-       "Other widths of number; no mark of missing points is known.",
-       "Two files of the public test set of SurfaceTopography, every height and size; "
-       "its public readers differ on units, and 160 um is the objective's field."},
-      {FirstLine::top,
-       "An image, shown by SurfaceTopography's reader from the top; no specification is public."},
-      {"nms"},
-      recognises_nms,
-      read_nms};
-  return format;
-}
+extern constexpr Format nms_format{
+    "nms",
+    "OM_MS_ at byte 32",
+    {"NMS of NanoFocus confocal microscopes: the height image, in 16 bits.",
+     "Other widths of number; no mark of missing points is known.",
+     "Two files of the public test set of SurfaceTopography, every height and size; "
+     "its public readers differ on units, and 160 um is the objective's field."},
+    {FirstLine::top,
+     "An image, shown by SurfaceTopography's reader from the top; no specification is public."},
+    {"nms"},
+    recognises_nms,
+    read_nms};
 
 }  // namespace asperity

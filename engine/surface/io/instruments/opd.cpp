@@ -5,6 +5,7 @@
 // Layout: Gwyddion's and SurfaceTopography's readers.
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
@@ -49,9 +50,7 @@ std::vector<Block> read_directory(const SourceFile& file) {
     const std::size_t size = cursor.number<std::uint32_t>();
     cursor.skip(2);
     if (size == 0) continue;
-    if (at > bytes.size() || size > bytes.size() - at)
-      refuse_file(file, "has the block " + shown(block.name) + " past its end", "the file is cut short");
-    block.data = bytes.substr(at, size);
+    block.data = bytes_at(file, at, size, "the block " + shown(block.name));
     at += size;
     blocks.push_back(std::move(block));
   }
@@ -70,27 +69,16 @@ std::optional<double> number_of(const SourceFile& file, const std::vector<Block>
   const Block* const block = find(blocks, name);
   if (block == nullptr) return {};
   BinaryCursor cursor(file, block->data, "its block " + std::string(name));
-  double value = 0;
-  switch (block->type) {
-    case 6:
-      value = cursor.number<std::int16_t>();
-      break;
-    case 7:
-      value = static_cast<double>(cursor.number<float>());
-      break;
-    case 8:
-      value = cursor.number<double>();
-      break;
-    case 12:
-      value = cursor.number<std::int32_t>();
-      break;
-    default:
-      refuse_file(file, "has a block " + std::string(name) + " of type " + std::to_string(block->type) +
-                            ", which is no number");
-  }
-  if (!(value > 0) || !std::isfinite(value))
-    refuse_file(file, "gives " + format_short(value) + " as its " + std::string(name));
-  return value;
+  const std::map<int, NumberType> types{{6, number_type<std::int16_t>},
+                                        {7, number_type<float>},
+                                        {8, number_type<double>},
+                                        {12, number_type<std::int32_t>}};
+  const auto type = types.find(block->type);
+  if (type == types.end())
+    refuse_file(file, "has a block " + std::string(name) + " of type " + std::to_string(block->type) +
+                          ", which is no number");
+  return above_zero(file, type->second.read(cursor.take(type->second.width).data()),
+                    "as its " + std::string(name));
 }
 
 const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks, const std::string& channel) {
@@ -113,16 +101,6 @@ const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks,
               maps.empty() ? "" : "name one of them with `channel`");
 }
 
-// The file stores columns; y runs along a column.
-template <class T, class IsHole>
-Field turned(std::string_view data, int nx, int ny, Monitor& monitor, IsHole&& is_hole) {
-  const Field columns = field_of_numbers<T>(data, ny, nx, monitor, is_hole);
-  Field heights(nx, ny);
-  for (int i = 0; i < nx; ++i)
-    for (int j = 0; j < ny; ++j) heights(i, j) = columns(j, i);
-  return heights;
-}
-
 HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const std::vector<Block> blocks = read_directory(file);
   const Block& block = map_block(file, blocks, channel);
@@ -135,16 +113,17 @@ HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, M
                 "integers of 2 bytes and floating-point numbers of 4 are read");
   require_exactly(file, static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
                   static_cast<std::uint64_t>(width), data.size());
+  const auto is_missing = [&](double v) {
+    constexpr double least_bad = 1e38F, least_bad_integer = 32766;
+    return width == 4 ? !(std::abs(v) < least_bad) : v >= least_bad_integer || v == -32768;
+  };
+  const Field columns =
+      field_of_numbers(width == 2 ? number_type<std::int16_t> : number_type<float>, data,
+                       static_cast<std::uint64_t>(ny), static_cast<std::uint64_t>(nx), monitor, is_missing);
   HeightMap map;
-  if (width == 2) {
-    constexpr std::int16_t least_bad = 32766;
-    map.heights = turned<std::int16_t>(data, nx, ny, monitor, [](std::int16_t v) {
-      return v >= least_bad || v == std::numeric_limits<std::int16_t>::min();
-    });
-  } else {
-    constexpr float least_bad = 1e38F;
-    map.heights = turned<float>(data, nx, ny, monitor, [](float v) { return !(std::abs(v) < least_bad); });
-  }
+  map.heights = Field(nx, ny);
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) map.heights(i, j) = columns(j, i);
   constexpr double nanometre = 1e-9, millimetre = 1e-3;
   if (const auto wavelength = number_of(file, blocks, "Wavelength"))
     map.unit = *wavelength * nanometre / number_of(file, blocks, "Mult").value_or(1);
@@ -159,20 +138,17 @@ bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(op
 
 }  // namespace
 
-const Format& opd_format() {
-  static const Format format{
-      "opd",
-      "a directory of blocks",
-      {"OPD of Wyko, Veeco and Bruker interferometers: the raw map, or another block with `channel`.",
-       "Blocks that are no maps, heights of other than 2 or 4 bytes.",
-       "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
-       "points."},
-      {FirstLine::bottom, "Gwyddion's reader: y runs upwards along each stored column."},
-      {"opd"},
-      recognises_opd,
-      nullptr,
-      read_opd_channel};
-  return format;
-}
+extern constexpr Format opd_format{
+    "opd",
+    "a directory of blocks",
+    {"OPD of Wyko, Veeco and Bruker interferometers: the raw map, or another block with `channel`.",
+     "Blocks that are no maps, heights of other than 2 or 4 bytes.",
+     "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
+     "points."},
+    {FirstLine::bottom, "Gwyddion's reader: y runs upwards along each stored column."},
+    {"opd"},
+    recognises_opd,
+    nullptr,
+    read_opd_channel};
 
 }  // namespace asperity

@@ -2,7 +2,8 @@
 // OPDx of Bruker's Vision64 (Dektak stylus profilometers): nested items of name, type and value. A profile
 // is the container /1D_Data/NAME; `Extent` spans the first to the last sample. Non-finite numbers are
 // missing samples. Layout: SurfaceTopography's reader. Maps (`2D_Data`) are refused for lack of a test file.
-#include <cmath>
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -52,60 +53,37 @@ using OpdxItems = std::map<std::string, OpdxItem>;
 std::string_view opdx_name(BinaryCursor& cursor) { return cursor.take(cursor.number<std::uint32_t>()); }
 
 std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
-  switch (const int width = cursor.number<std::uint8_t>()) {
-    case 1:
-      return cursor.number<std::uint8_t>();
-    case 2:
-      return cursor.number<std::uint16_t>();
-    case 4:
-      return cursor.number<std::uint32_t>();
-    default:
-      refuse_file(
-          file,
-          "is an OPDx file of Bruker with a length of " + std::to_string(width) + " bytes among its items",
-          "the file is damaged");
-  }
+  const int width = cursor.number<std::uint8_t>();
+  if (width == 1) return cursor.number<std::uint8_t>();
+  if (width == 2) return cursor.number<std::uint16_t>();
+  if (width == 4) return cursor.number<std::uint32_t>();
+  refuse_file(
+      file, "is an OPDx file of Bruker with a length of " + std::to_string(width) + " bytes among its items",
+      "the file is damaged");
 }
 
 std::string_view opdx_value(const SourceFile& file, BinaryCursor& cursor, OpdxType type,
                             const std::string& path) {
-  switch (type) {
-    case OpdxType::boolean:
-      return cursor.take(1);
-    case OpdxType::int16:
-    case OpdxType::uint16:
-      return cursor.take(2);
-    case OpdxType::int32:
-    case OpdxType::uint32:
-    case OpdxType::single_number:
-      return cursor.take(4);
-    case OpdxType::int64:
-    case OpdxType::uint64:
-    case OpdxType::double_number:
-      return cursor.take(8);
-    case OpdxType::time_stamp:
-      return cursor.take(9);
-    case OpdxType::matrix:
-      opdx_name(cursor);
-      cursor.skip(4);
-      [[fallthrough]];
-    case OpdxType::type_id:
-    case OpdxType::array:
-    case OpdxType::names:
-    case OpdxType::positions:
-      opdx_name(cursor);
-      [[fallthrough]];
-    case OpdxType::container:
-    case OpdxType::raw_profile:
-    case OpdxType::raw_map:
-    case OpdxType::text:
-    case OpdxType::quantity:
-    case OpdxType::unit:
-      return cursor.take(opdx_length(file, cursor));
-    default:
-      refuse_file(file, "has an item " + shown(path) + " of the unknown type " +
-                            std::to_string(static_cast<int>(type)));
+  using enum OpdxType;
+  const auto is_one_of = [&](std::initializer_list<OpdxType> types) {
+    return std::ranges::find(types, type) != types.end();
+  };
+  if (type == boolean) return cursor.take(1);
+  if (is_one_of({int16, uint16})) return cursor.take(2);
+  if (is_one_of({int32, uint32, single_number})) return cursor.take(4);
+  if (is_one_of({int64, uint64, double_number})) return cursor.take(8);
+  if (type == time_stamp) return cursor.take(9);
+  if (type == matrix) {
+    opdx_name(cursor);
+    cursor.skip(4);
   }
+  if (is_one_of({matrix, type_id, array, names, positions})) {
+    opdx_name(cursor);
+  } else if (!is_one_of({container, raw_profile, raw_map, text, quantity, unit})) {
+    refuse_file(file, "has an item " + shown(path) + " of the unknown type " +
+                          std::to_string(static_cast<int>(type)));
+  }
+  return cursor.take(opdx_length(file, cursor));
 }
 
 // Recursive; the path of an item starts with its container's path.
@@ -118,7 +96,7 @@ void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::
     const std::string_view name = opdx_name(cursor);
     const auto type = static_cast<OpdxType>(cursor.number<std::uint8_t>());
     if (type == OpdxType::end) return;
-    // Longer paths indicate damage and would be copied for many items.
+    // Longer paths indicate damage.
     constexpr std::size_t longest_path = 256;
     if (prefix.size() + name.size() >= longest_path)
       refuse_file(file, "has an item with a name of " + std::to_string(name.size()) + " bytes",
@@ -148,9 +126,7 @@ double opdx_metres(const SourceFile& file, const OpdxItems& items, const std::st
   const std::optional<double> unit = instrument_length_unit(sign);
   if (!unit)
     refuse_file(file, "gives " + quoted(path) + " in " + shown(sign) + ", which is no unit of length");
-  if (!(value > 0) || !std::isfinite(value))
-    refuse_file(file, "gives " + format_short(value) + " as " + quoted(path));
-  return value * *unit;
+  return above_zero(file, value, "as " + quoted(path)) * *unit;
 }
 
 HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
@@ -182,11 +158,9 @@ HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, 
                 "holds heights of type " + std::to_string(type) + " and " + std::to_string(width) + " bytes",
                 "doubles are read");
   const std::string_view data = array.substr(cursor.position());
-  require_exactly(file, count, 1, sizeof(double), data.size());
-  if (count < 2) refuse_file(file, "holds one sample, which is no profile");
   HeightMap map;
-  map.heights = field_of_numbers<double>(data, static_cast<int>(count), 1, monitor,
-                                         [](double value) { return !std::isfinite(value); });
+  map.heights = exact_field(file, number_type<double>, data, count, 1, monitor, not_finite);
+  if (count < 2) refuse_file(file, "holds one sample, which is no profile");
   map.unit = opdx_metres(file, items, prefix + "/DataScale");
   map.spacing = opdx_metres(file, items, prefix + "/Extent") / static_cast<double>(count - 1);
   map.size_x = *map.spacing * static_cast<double>(count);
@@ -198,19 +172,17 @@ bool recognises_opdx(const SourceFile& file) { return file.bytes().starts_with(o
 
 }  // namespace
 
-const Format& opdx_format() {
-  static const Format format{"opdx",
-                             "VCA DATA at the start",
-                             {"OPDx of Bruker's Vision64 and Dektak profilometers: a profile.",
-                              "Maps, of which no file could be compared.",
-                              "A file of the public test set of SurfaceTopography: heights and positions, "
-                              "with its maker's export as text."},
-                             {FirstLine::bottom, "Profiles only."},
-                             {"opdx"},
-                             recognises_opdx,
-                             nullptr,
-                             read_opdx_channel};
-  return format;
-}
+extern constexpr Format opdx_format{
+    "opdx",
+    "VCA DATA at the start",
+    {"OPDx of Bruker's Vision64 and Dektak profilometers: a profile.",
+     "Maps, of which no file could be compared.",
+     "A file of the public test set of SurfaceTopography: heights and positions, "
+     "with its maker's export as text."},
+    {FirstLine::bottom, "Profiles only."},
+    {"opdx"},
+    recognises_opdx,
+    nullptr,
+    read_opdx_channel};
 
 }  // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TIFF of Park Systems' microscopes (PSIA): a picture plus private tags. Height = (n · scale + offset) ·
-// gain in the header's unit; sizes are in micrometres. Non-finite numbers are missing points. Layout:
-// Gwyddion's and SurfaceTopography's readers. Little-endian only, as the microscopes write.
+// TIFF of Park Systems' microscopes (PSIA): a picture plus private tags. Height = (n · scale + offset) · gain
+// in the header's unit; sizes are in micrometres. Non-finite numbers are missing points. Layout: Gwyddion's
+// and SurfaceTopography's readers. Little-endian only.
 #include <array>
 #include <cmath>
 
@@ -23,7 +23,6 @@ constexpr std::uint32_t park_mark = 0x0E031301;
 struct TiffTag {
   std::uint32_t value = 0;  // first number
   std::uint64_t bytes = 0;  // of all numbers
-  bool there = false;
 };
 
 std::uint64_t tiff_width(std::uint16_t type) {
@@ -32,7 +31,7 @@ std::uint64_t tiff_width(std::uint16_t type) {
 }
 
 // From the first directory. Never throws.
-TiffTag tiff_tag(std::string_view bytes, std::uint16_t wanted) {
+std::optional<TiffTag> tiff_tag(std::string_view bytes, std::uint16_t wanted) {
   if (bytes.size() < 8 || !bytes.starts_with(tiff_mark)) return {};
   const std::size_t directory = little_endian<std::uint32_t>(bytes.data() + 4);
   if (directory > bytes.size() || bytes.size() - directory < 2) return {};
@@ -44,25 +43,23 @@ TiffTag tiff_tag(std::string_view bytes, std::uint16_t wanted) {
     const char* const entry = bytes.data() + at;
     if (little_endian<std::uint16_t>(entry) != wanted) continue;
     const std::uint64_t width = tiff_width(little_endian<std::uint16_t>(entry + 2));
-    return {little_endian<std::uint32_t>(entry + 8), width * little_endian<std::uint32_t>(entry + 4), true};
+    return TiffTag{little_endian<std::uint32_t>(entry + 8), width * little_endian<std::uint32_t>(entry + 4)};
   }
   return {};
 }
 
 bool recognises_park(const SourceFile& file) {
-  const TiffTag tag = tiff_tag(file.bytes(), park_mark_tag);
-  return tag.there && tag.bytes == 4 && tag.value == park_mark;
+  const auto tag = tiff_tag(file.bytes(), park_mark_tag);
+  return tag && tag->bytes == 4 && tag->value == park_mark;
 }
 
 std::string_view park_tag_bytes(const SourceFile& file, std::uint16_t wanted, const std::string& what) {
-  const TiffTag tag = tiff_tag(file.bytes(), wanted);
-  if (!tag.there) refuse_file(file, "is a TIFF of Park without its tag of " + what);
-  if (tag.value > file.bytes().size() || tag.bytes > file.bytes().size() - tag.value)
-    refuse_file(file, "has " + what + " past its end", "the file is cut short");
-  return file.bytes().substr(tag.value, tag.bytes);
+  const auto tag = tiff_tag(file.bytes(), wanted);
+  if (!tag) refuse_file(file, "is a TIFF of Park without its tag of " + what);
+  return bytes_at(file, tag->value, tag->bytes, what);
 }
 
-// UTF-16; non-ASCII characters become question marks, except micro and angstrom.
+// UTF-16; of non-ASCII characters only micro and angstrom.
 std::string park_text(BinaryCursor& cursor, std::size_t characters) {
   std::string text;
   const std::string_view field = cursor.take(2 * characters);
@@ -86,8 +83,8 @@ struct ParkHeader {
 
 ParkHeader park_header(const SourceFile& file) {
   constexpr std::uint32_t first_version = 0x01000001, second_version = 0x01000002;
-  const TiffTag version = tiff_tag(file.bytes(), park_version_tag);
-  if (!version.there || (version.value != first_version && version.value != second_version))
+  const auto version = tiff_tag(file.bytes(), park_version_tag);
+  if (!version || (version->value != first_version && version->value != second_version))
     refuse_file(file, "is a TIFF of Park of an unknown version", "versions 1.0.1 and 1.0.2 are read");
   BinaryCursor cursor(file, park_tag_bytes(file, park_header_tag, "its header"), "its header");
   ParkHeader header;
@@ -105,7 +102,7 @@ ParkHeader park_header(const SourceFile& file) {
   header.scale = cursor.number<double>();
   header.offset = cursor.number<double>();
   header.unit = park_text(cursor, 8);
-  if (version.value == second_version) {
+  if (version->value == second_version) {
     cursor.skip(3 * 4 + 3 * 4 + 2 * 8 + 3 * 16);  // extremes, display modes, servo
     header.number_type = cursor.number<std::uint32_t>();
   }
@@ -120,15 +117,13 @@ HeightMap read_park(const SourceFile& file, Monitor& monitor) {
     refuse_file(file, "is a line profile or spectroscopy of Park's microscopes, not a map",
                 "maps are read; export the others as text");
   if (header.swapped != 0)
-    refuse_file(file, "was scanned with x and y swapped, and which side of its map is up is not known",
+    refuse_file(file, "was scanned with x and y swapped, so its orientation is unknown",
                 "save it as .gwy in Gwyddion");
   const std::optional<double> unit = instrument_length_unit(header.unit);
   if (!unit)
     refuse_file(file, "holds a map of " + quoted(plain_text(header.source)) + " in " + shown(header.unit) +
                           ", which is no unit of length");
-  for (const double size : {header.size_x, header.size_y})
-    if (!(size > 0) || !std::isfinite(size))
-      refuse_file(file, "gives " + format_short(size) + " as its size");
+  for (const double size : {header.size_x, header.size_y}) above_zero(file, size, "as its size");
   const double scale = header.scale == 0 ? 1 : header.scale;
   for (const double factor : {header.gain, scale})
     if (!std::isfinite(factor) || factor == 0)
@@ -139,40 +134,30 @@ HeightMap read_park(const SourceFile& file, Monitor& monitor) {
   if (header.number_type > 2)
     refuse_file(file, "holds numbers of type " + std::to_string(header.number_type),
                 "types 0 to 2 are read: integers of 16 and 32 bits, floating-point numbers of 32");
-  require_exactly(file, header.nx, header.ny, header.number_type == 0 ? 2 : 4, data.size());
-  const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
+  constexpr std::array types{number_type<std::int16_t>, number_type<std::int32_t>, number_type<float>};
   HeightMap map;
-  if (header.number_type == 0)
-    map.heights = field_of_numbers<std::int16_t>(data, nx, ny, monitor);
-  else if (header.number_type == 1)
-    map.heights = field_of_numbers<std::int32_t>(data, nx, ny, monitor);
-  else
-    map.heights =
-        field_of_numbers<float>(data, nx, ny, monitor, [](float value) { return !std::isfinite(value); });
+  map.heights = exact_field(file, types[header.number_type], data, header.nx, header.ny, monitor, not_finite);
   for (double& height : map.heights.values()) height = (height * scale + header.offset) * header.gain;
   constexpr double micrometre = 1e-6;
   map.unit = unit;
   map.size_x = header.size_x * micrometre;
   map.size_y = header.size_y * micrometre;
-  map.trace = ny == 1;
+  map.trace = header.ny == 1;
   return map;
 }
 
 }  // namespace
 
-const Format& park_format() {
-  static const Format format{
-      "park",
-      "a TIFF with Park's mark in its tag 50432",
-      {"TIFF of Park Systems' microscopes (PSIA): the map of heights.",
-       "Line profiles, spectroscopy, other quantities, scans with x and y swapped, pictures without heights.",
-       "A file of the public test set of SurfaceTopography: heights, size and the roughness that its tests "
-       "state."},
-      {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
-      {"tiff", "tif"},
-      recognises_park,
-      read_park};
-  return format;
-}
+extern constexpr Format park_format{
+    "park",
+    "a TIFF with Park's mark in its tag 50432",
+    {"TIFF of Park Systems' microscopes (PSIA): the map of heights.",
+     "Line profiles, spectroscopy, other quantities, scans with x and y swapped, pictures without heights.",
+     "A file of the public test set of SurfaceTopography: heights, size and the roughness that its tests "
+     "state."},
+    {FirstLine::bottom, "Gwyddion's reader shows the first line at the bottom."},
+    {"tiff", "tif"},
+    recognises_park,
+    read_park};
 
 }  // namespace asperity

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PLU of Sensofar's profilers (PLu 2300, PLu neox): date, comment, calibration, settings, then the layers,
 // single precision. All lengths are in micrometres. A missing point is 1000001. Layout: Gwyddion's and
-// SurfaceTopography's readers. The only mark of the format is the form of its date.
+// SurfaceTopography's readers. The only mark is the form of its date.
 #include <cctype>
 #include <cmath>
 
-#include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 
@@ -54,43 +53,36 @@ HeightMap read_plu(const SourceFile& file, Monitor& monitor) {
   const std::uint64_t ny = cursor.number<std::uint32_t>(), nx = cursor.number<std::uint32_t>();
   if (nx != columns || ny != lines)
     refuse_file(file,
-                "says in its header that it holds " + std::to_string(columns) + " x " +
-                    std::to_string(lines) + " points, and of its first layer " + std::to_string(nx) + " x " +
+                "holds " + std::to_string(columns) + " x " + std::to_string(lines) +
+                    " points by its header and by its first layer " + std::to_string(nx) + " x " +
                     std::to_string(ny),
                 "its header is wrong or the file is damaged");
   const std::string_view data = file.bytes().substr(cursor.position());
   require_numbers(file, nx, ny, sizeof(float), data.size());
-  for (const double spacing : {dx, dy})
-    if (!(spacing > 0) || !std::isfinite(spacing))
-      refuse_file(file, "gives " + format_short(spacing) + " um as the distance of its points");
   if (layers > 1)
     monitor.warn(file_name(file.path()) + " holds " + std::to_string(layers) + " layers; the first is read");
-  constexpr float missing = 1000001.0F;
+  constexpr double missing = 1000001;
   constexpr double micrometre = 1e-6;
-  HeightMap map;
-  map.heights = field_of_numbers<float>(data, static_cast<int>(nx), static_cast<int>(ny), monitor,
-                                        [](float value) { return !(value != missing); });
-  map.unit = micrometre;
-  map.size_x = dx * micrometre * static_cast<double>(nx);
-  map.size_y = dy * micrometre * static_cast<double>(ny);
-  return map;
+  constexpr const char* distance = "um as the distance of its points";
+  return {.heights = field_of_numbers(number_type<float>, data, nx, ny, monitor,
+                                      [](double value) { return value == missing; }),
+          .unit = micrometre,
+          .size_x = above_zero(file, dx, distance) * micrometre * static_cast<double>(nx),
+          .size_y = above_zero(file, dy, distance) * micrometre * static_cast<double>(ny)};
 }
 
 }  // namespace
 
-const Format& plu_format() {
-  static const Format format{
-      "plu",
-      "a date of 24 letters and a zero byte at the start",
-      {"PLU of Sensofar profilers: the first layer of a topography.",
-       "Profiles, pictures, thicknesses; pictures beside a topography are passed over.",
-       "Two files of the public test sets of SurfaceTopography and surfalize, every height and size; they "
-       "have no missing points."},
-      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-      {"plu", "apx"},
-      recognises_plu,
-      read_plu};
-  return format;
-}
+extern constexpr Format plu_format{
+    "plu",
+    "a date of 24 letters and a zero byte at the start",
+    {"PLU of Sensofar profilers: the first layer of a topography.",
+     "Profiles, pictures, thicknesses; pictures beside a topography are passed over.",
+     "Two files of the public test sets of SurfaceTopography and surfalize, every height and size; they "
+     "have no missing points."},
+    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
+    {"plu", "apx"},
+    recognises_plu,
+    read_plu};
 
 }  // namespace asperity

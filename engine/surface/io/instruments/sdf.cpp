@@ -5,11 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
 
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -18,18 +27,28 @@ namespace {
 struct SdfHeader {
   std::uint64_t points = 0, profiles = 0;
   double x_scale = 0, y_scale = 0, z_scale = 0;
-  int compression = 0, type = -1;
+  std::uint64_t compression = 0, type = 0;
 };
 
-constexpr int types = 8;  // u8, u16, u32, float, i8, i16, i32, double
-constexpr std::array<std::uint64_t, types> widths{1, 2, 4, 4, 1, 2, 4, 8};
+struct SdfNumber {
+  NumberType type;
+  double missing = std::numeric_limits<double>::quiet_NaN();
+};
+constexpr std::array<SdfNumber, 8> sdf_numbers{{{number_type<std::uint8_t>},
+                                                {number_type<std::uint16_t>, 65535},
+                                                {number_type<std::uint32_t>, 4294967295},
+                                                {number_type<float>},
+                                                {number_type<std::int8_t>},
+                                                {number_type<std::int16_t>, -32768},
+                                                {number_type<std::int32_t>, -2147483648},
+                                                {number_type<double>}}};
 
 // "aISO-1.0", "bBCR-1.0": a (text) or b (binary), capitals, a version.
 bool is_version(std::string_view mark, char form) {
   return mark.size() >= 8 && mark[0] == form && (mark.substr(1, 4) == "ISO-" || mark.substr(1, 4) == "BCR-");
 }
 
-// Some texts begin differently, with a header name a few lines below.
+// Some texts have the header name a few lines below.
 bool is_text_form(const SourceFile& file) {
   if (!file.looks_like_text()) return false;
   LineReader lines(file.text());
@@ -49,16 +68,15 @@ bool recognises_sdf(const SourceFile& file) { return is_version(file.bytes(), 'b
 void check_header(const SourceFile& file, const SdfHeader& header) {
   if (header.compression != 0)
     refuse_file(file, "is a compressed SDF file", "save it again without compression");
-  if (header.type < 0 || header.type >= types)
+  if (header.type >= sdf_numbers.size())
     refuse_file(file, "has the DataType " + std::to_string(header.type), "types 0 to 7 are read");
-  if (!(header.z_scale > 0) || !std::isfinite(header.z_scale))
-    refuse_file(file, "gives " + format_short(header.z_scale) + " as its Zscale");
+  above_zero(file, header.z_scale, "as its Zscale");
   for (const double scale : {header.x_scale, header.y_scale})
     if (!(scale >= 0) || !std::isfinite(scale))
       refuse_file(file, "gives " + format_short(scale) + " as the distance of its points");
 }
 
-// A scale of 0 is unknown: a single profile has no distance to the next.
+// 0 is unknown, as in a single profile.
 HeightMap described(const SdfHeader& header, Field heights) {
   HeightMap map;
   map.heights = std::move(heights);
@@ -67,16 +85,6 @@ HeightMap described(const SdfHeader& header, Field heights) {
   if (header.x_scale > 0) map.size_x = header.x_scale * static_cast<double>(header.points);
   if (header.y_scale > 0 && !map.trace) map.size_y = header.y_scale * static_cast<double>(header.profiles);
   return map;
-}
-
-template <class T>
-Field numbers(std::string_view data, const SdfHeader& header, Monitor& monitor) {
-  const int nx = static_cast<int>(header.points), ny = static_cast<int>(header.profiles);
-  return field_of_numbers<T>(data, nx, ny, monitor, [](T value) {
-    if constexpr (std::is_floating_point_v<T>) return std::isnan(value);
-    if constexpr (sizeof(T) == 1) return false;
-    return value == (std::is_signed_v<T> ? std::numeric_limits<T>::min() : std::numeric_limits<T>::max());
-  });
 }
 
 HeightMap read_binary(const SourceFile& file, Monitor& monitor) {
@@ -94,68 +102,40 @@ HeightMap read_binary(const SourceFile& file, Monitor& monitor) {
   cursor.skip(1);
   check_header(file, header);
   const std::string_view data = file.bytes().substr(cursor.position());
-  const std::uint64_t width = widths[static_cast<std::size_t>(header.type)];
-  require_numbers(file, header.points, header.profiles, width, data.size());
+  const NumberType type = sdf_numbers[header.type].type;
+  const double missing = sdf_numbers[header.type].missing;
+  require_numbers(file, header.points, header.profiles, type.width, data.size());
   // A text trailer may follow the heights.
-  const std::string_view rest = data.substr(header.points * header.profiles * width);
+  const std::string_view rest = data.substr(header.points * header.profiles * type.width);
   const auto is_text = [](char c) {
     return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\x1A' ||
            c == '\0';
   };
   const bool trailer = std::all_of(rest.begin(), rest.end(), is_text) &&
                        std::any_of(rest.begin(), rest.end(), [](char c) { return c >= ' '; });
-  if (!trailer) require_exactly(file, header.points, header.profiles, width, data.size());
-  constexpr std::array readers{numbers<std::uint8_t>, numbers<std::uint16_t>, numbers<std::uint32_t>,
-                               numbers<float>,        numbers<std::int8_t>,   numbers<std::int16_t>,
-                               numbers<std::int32_t>, numbers<double>};
-  return described(header, readers[static_cast<std::size_t>(header.type)](data, header, monitor));
-}
-
-double header_number(const SourceFile& file, std::string_view key, std::string_view text) {
-  const TextCell cell = read_cell(text, Separator::blank);
-  if (cell.kind != CellKind::number)
-    refuse_file(file, "has no number for " + shown(key) + " in its header: " + shown(text));
-  return cell.value;
-}
-
-std::uint64_t header_count(const SourceFile& file, std::string_view key, std::string_view text) {
-  if (const auto count = count_in(text)) return *count;
-  refuse_file(file, "has no count for " + shown(key) + " in its header: " + shown(text));
+  if (!trailer) require_exactly(file, header.points, header.profiles, type.width, data.size());
+  return described(header, field_of_numbers(type, data, header.points, header.profiles, monitor,
+                                            [&](double value) { return value == missing; }));
 }
 
 SdfHeader read_text_header(const SourceFile& file, LineReader& lines) {
-  SdfHeader header;
-  bool ended = false;
-  unsigned found = 0;  // one bit per required entry
+  HeaderEntries entries(file);
   std::string_view line;
   lines.next(line);
-  while (!ended && lines.next(line)) {
+  while (lines.next(line)) {
     const std::string_view plain = trimmed(line);
-    if (plain.starts_with('*')) {
-      ended = true;
-      continue;
-    }
+    if (plain.starts_with('*'))
+      return {entries.count("numpoints"), entries.count("numprofiles"),
+              entries.decimal("xscale"),  entries.decimal("yscale"),
+              entries.decimal("zscale"),  entries.find("compression") ? entries.count("compression") : 0,
+              entries.count("datatype")};
     // Comments begin with a semicolon, also after a value.
     const std::string_view statement = plain.substr(0, plain.find(';'));
     const std::size_t sign = std::min(statement.find('='), statement.size());
-    const std::string key = lower_case(trimmed(statement.substr(0, sign)));
-    const std::string_view value = trimmed(statement.substr(std::min(sign + 1, statement.size())));
-    if (key == "numpoints") header.points = header_count(file, key, value), found |= 1;
-    if (key == "numprofiles") header.profiles = header_count(file, key, value), found |= 2;
-    if (key == "xscale") header.x_scale = header_number(file, key, value), found |= 4;
-    if (key == "yscale") header.y_scale = header_number(file, key, value), found |= 8;
-    if (key == "zscale") header.z_scale = header_number(file, key, value), found |= 16;
-    if (key == "datatype")
-      header.type = static_cast<int>(std::min<std::uint64_t>(header_count(file, key, value), 99)),
-      found |= 32;
-    if (key == "compression") header.compression = header_count(file, key, value) == 0 ? 0 : 1;
+    entries.replace(lower_case(trimmed(statement.substr(0, sign))),
+                    trimmed(statement.substr(std::min(sign + 1, statement.size()))));
   }
-  if (!ended) refuse_file(file, "has no line * after its header", "the file is cut short");
-  constexpr std::array<const char*, 6> names{"NumPoints", "NumProfiles", "Xscale",
-                                             "Yscale",    "Zscale",      "DataType"};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if ((found & (1U << k)) == 0) refuse_file(file, "has no " + std::string(names[k]) + " in its header");
-  return header;
+  refuse_file(file, "has no line * after its header", "the file is cut short");
 }
 
 HeightMap read_text(const SourceFile& file, Monitor& monitor) {
@@ -205,19 +185,55 @@ HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& sdf_format() {
-  static const Format format{
-      "sdf",
-      "aISO-1.0, bISO-1.0 or BCR at the start",
-      {"SDF of ISO 25178-71 and its forerunner, in text or binary, all eight types of number.",
-       "Compressed files.",
-       "A text file of the public test set of SurfaceTopography; binary files of this program are read alike "
-       "by surfalize."},
-      {FirstLine::bottom, "ISO 25178-71 gives coordinates: y is the profile times Yscale."},
-      {"sdf"},
-      recognises_sdf,
-      read_sdf};
-  return format;
+extern constexpr Format sdf_format{
+    "sdf",
+    "aISO-1.0, bISO-1.0 or BCR at the start",
+    {"SDF of ISO 25178-71 and its forerunner, in text or binary, all eight types of number.",
+     "Compressed files.",
+     "A text file of the public test set of SurfaceTopography; binary files of this program are read alike "
+     "by surfalize."},
+    {FirstLine::bottom, "ISO 25178-71 gives coordinates: y is the profile times Yscale."},
+    {"sdf"},
+    recognises_sdf,
+    read_sdf};
+
+// Writes binary SDF (bISO-1.0): heights in metres as doubles, missing points NaN. A size, stored as spacing,
+// may differ in the last digit, and a map of one line reads back as a trace.
+
+namespace {
+
+std::string sdf_header(const Grid& grid) {
+  std::string bytes = "bISO-1.0Asperity  ";
+  // Fixed dates: equal bytes.
+  for (int k = 0; k < 2; ++k) bytes += "010119700000";
+  for (const int number : {grid.nx, grid.ny}) bytes += raw_bytes(static_cast<std::uint16_t>(number));
+  // hx, hy and unit of height in m; a negative resolution means unknown.
+  for (const double number : {grid.hx(), grid.hy(), 1.0, -1.0}) bytes += raw_bytes(number);
+  for (const int number : {0, 7, 0}) bytes += raw_bytes(static_cast<std::uint8_t>(number));
+  return bytes;
+}
+
+}  // namespace
+
+// Throws Error{bad_value} above 65535 points a side, Error{bad_file}.
+void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor) {
+  const Grid& grid = surface.grid();
+  constexpr int most = std::numeric_limits<std::uint16_t>::max();
+  if (grid.nx > most || grid.ny > most)
+    refuse(file_name(path) + " cannot be written: SDF counts " + std::to_string(most) +
+               " points a side, and the surface has " + std::to_string(grid.nx) + " x " +
+               std::to_string(grid.ny),
+           "write .x3p, .h5 or .npy");
+  const Field& heights = surface.measured_heights();
+  AtomicFile file(path, FileWords::data);
+  file.write(sdf_header(grid));
+  Task task(monitor, "writing", grid.ny);
+  for (int j = 0; j < grid.ny; ++j) {
+    const auto row = heights.row(j);
+    file.write({reinterpret_cast<const char*>(row.data()), row.size_bytes()});
+    task.advance();
+  }
+  file.commit();
 }
 
 }  // namespace asperity

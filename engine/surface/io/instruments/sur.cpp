@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SUR of Digital Surf (MountainsMap): header, comment, private zone, then 16- or 32-bit integers, in several
-// pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A missing
-// point is the least number minus 2. Only the first object is read. Layout: the software's reference as
-// restated by Gwyddion's and RosettaSciIO's readers; compression: RosettaSciIO's and surfalize's.
+// pieces of zlib if compressed. Height = number · spacing + offset in the unit of the z axis. A missing point
+// is the least number minus 2. Only the first object is read. Layout: Gwyddion's, RosettaSciIO's and
+// (compression) surfalize's readers.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
 
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
-#include "engine/surface/io/length_unit.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -47,7 +57,7 @@ SurHeader read_header(const SourceFile& file) {
   const int order = cursor.number<std::int16_t>();
   if (order != 0)
     refuse_file(file, "is a SUR file of an Apple computer (format " + std::to_string(order) + ")",
-                "save it again on another");
+                "save it again on another computer");
   header.objects = cursor.number<std::uint16_t>();
   cursor.skip(2);
   header.type = cursor.number<std::int16_t>();
@@ -115,7 +125,7 @@ bool recognises_sur(const SourceFile& file) {
 
 std::uint64_t side(std::int64_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); }
 
-// The next object must start after the heights. `rest`: bytes after the compressed heights.
+// `rest`: bytes after the compressed heights.
 void check_end(const SourceFile& file, const SurHeader& header, std::string_view data,
                std::string_view rest) {
   const std::uint64_t width = static_cast<std::uint64_t>(header.bits) / 8, nx = side(header.nx),
@@ -160,16 +170,16 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
     data = {pieces.bytes.data(), pieces.bytes.size()};
   }
   check_end(file, header, data, pieces.rest);
-  const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
-  const std::int64_t missing = std::int64_t{header.least} - 2;
-  const auto is_hole = [&](auto value) { return header.special && std::int64_t{value} == missing; };
+  const double missing = static_cast<double>(header.least) - 2;
+  const auto is_missing = [&](double value) { return header.special && value == missing; };
 
   const auto& [x, y, z] = header.axes;
   if (!(z.spacing > 0) || !std::isfinite(z.spacing) || !std::isfinite(header.offset))
     refuse_file(file, "gives " + format_short(z.spacing) + " as the height of one step");
   HeightMap map;
-  map.heights = width == 2 ? field_of_numbers<std::int16_t>(data, nx, ny, monitor, is_hole)
-                           : field_of_numbers<std::int32_t>(data, nx, ny, monitor, is_hole);
+  map.heights = field_of_numbers(width == 2 ? number_type<std::int16_t> : number_type<std::int32_t>, data,
+                                 side(header.nx), side(header.ny), monitor, is_missing);
+  const int nx = map.heights.nx(), ny = map.heights.ny();
   for (double& height : map.heights.values()) height = height * z.spacing + header.offset;
   if (!z.unit && !z.word.empty())
     monitor.warn(file_name(file.path()) + " gives its heights in " + shown(z.word) +
@@ -187,20 +197,137 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
 
 }  // namespace
 
-const Format& sur_format() {
-  static const Format format{
-      "sur",
-      "DIGITAL SURF at the start",
-      {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
-       "not.",
-       "Files of Apple computers, binary images and other studiables.",
-       "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
-       "points; compressed: files of surfalize's writer."},
-      {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-      {"sur", "pro"},
-      recognises_sur,
-      read_sur};
-  return format;
+extern constexpr Format sur_format{
+    "sur",
+    "DIGITAL SURF at the start",
+    {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
+     "not.",
+     "Files of Apple computers, binary images and other studiables.",
+     "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
+     "points; compressed: files of surfalize's writer."},
+    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
+    {"sur", "pro"},
+    recognises_sur,
+    read_sur};
+
+// Heights are rounded to steps of (greatest height) / 2^30, or range / 2^31 far from zero; sizes to single
+// precision. A map of one line reads back as a trace.
+
+namespace {
+
+constexpr double millimetre = 1e-3;
+// Half the range of 32 bits.
+constexpr double sur_greatest = 1073741824.0;
+
+// Height = number · step + offset, in millimetres.
+struct SurSteps {
+  float step = 1, offset = 0;
+  std::int32_t number(double height) const {
+    return static_cast<std::int32_t>(
+        std::lround((height / millimetre - static_cast<double>(offset)) / static_cast<double>(step)));
+  }
+};
+
+float single(double value, const std::string& path, const char* what) {
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded))
+    refuse(file_name(path) + " cannot be written: its " + what + " of " + format_short(value) +
+               " mm is more than a SUR file holds",
+           "write .x3p, .h5 or .npy");
+  return rounded;
+}
+
+SurSteps steps_of(const Range& heights, const std::string& path) {
+  // Used only for otherwise coarse steps: some readers ignore the offset.
+  constexpr double far_from_zero = 1000;
+  const double least = heights.min / millimetre, most = heights.max / millimetre;
+  SurSteps steps;
+  double reach = std::max(std::abs(least), std::abs(most));
+  if (reach > far_from_zero * (most - least)) {
+    steps.offset = single(0.5 * least + 0.5 * most, path, "height");
+    reach = std::max(std::abs(least - static_cast<double>(steps.offset)),
+                     std::abs(most - static_cast<double>(steps.offset)));
+  }
+  if (reach == 0) return steps;
+  steps.step = std::max(single(reach / sur_greatest, path, "step"), std::numeric_limits<float>::min());
+  return steps;
+}
+
+template <class T>
+void put(std::string& bytes, T value) {
+  bytes += raw_bytes(value);
+}
+
+void put_text(std::string& bytes, std::string_view text, std::size_t width, char pad) {
+  bytes += text.substr(0, width);
+  bytes.append(width - std::min(width, text.size()), pad);
+}
+
+std::string sur_header(const Surface& surface, const SurSteps& steps, std::int32_t least, std::int32_t most,
+                       const std::string& path) {
+  const Grid& grid = surface.grid();
+  const bool holes = !surface.complete();
+  std::string comment =
+      "Heights are rounded to steps of " + format_short(static_cast<double>(steps.step)) + " mm.";
+  if (holes)
+    comment += " " + std::to_string(grid.nodes() - surface.measured()) + " of " +
+               std::to_string(grid.nodes()) + " points were not measured.";
+  std::string bytes = "DIGITAL SURF";
+  // Little-endian, one object, version 1, surface.
+  for (const int value : {0, 1, 1, 2}) put(bytes, static_cast<std::int16_t>(value));
+  put_text(bytes, "height", 30, ' ');
+  put_text(bytes, "Asperity", 30, ' ');
+  // Material, kind of measurement, range, holes, absolute heights.
+  for (const int value : {0, 0, 0, holes ? 1 : 0, 1}) put(bytes, static_cast<std::int16_t>(value));
+  put_text(bytes, "", 8, '\0');
+  put(bytes, std::int16_t{32});
+  for (const std::int32_t value : {least, most, grid.nx, grid.ny, static_cast<std::int32_t>(grid.nodes())})
+    put(bytes, value);
+  put(bytes, single(grid.hx() / millimetre, path, "spacing"));
+  put(bytes, single(grid.hy() / millimetre, path, "spacing"));
+  put(bytes, steps.step);
+  for (const char* const name : {"X", "Y", "Z"}) put_text(bytes, name, 16, ' ');
+  for (int k = 0; k < 6; ++k) put_text(bytes, "mm", 16, ' ');  // units of spacing, then of length, per axis
+  for (int k = 0; k < 3; ++k) put(bytes, 1.0F);                // unit ratios
+  // Not a replica, not inverted, not levelled.
+  for (const int value : {0, 0, 0}) put(bytes, static_cast<std::int16_t>(value));
+  put_text(bytes, "", 12, '\0');
+  // Fixed date, second to weekday: equal bytes.
+  for (const int value : {0, 0, 0, 1, 1, 1970, 4}) put(bytes, static_cast<std::int16_t>(value));
+  put(bytes, 0.0F);
+  put_text(bytes, "", 10, '\0');
+  put(bytes, static_cast<std::int16_t>(comment.size()));
+  put(bytes, std::int16_t{0});
+  put_text(bytes, "", 128, '\0');
+  for (const float offset : {0.0F, 0.0F, steps.offset}) put(bytes, offset);
+  put_text(bytes, "", 512 - bytes.size(), '\0');
+  return bytes + comment;
+}
+
+}  // namespace
+
+// Throws Error{bad_value} if sizes or heights exceed single precision, Error{bad_file}.
+void write_sur(const Surface& surface, const std::string& path, Monitor& monitor) {
+  const Grid& grid = surface.grid();
+  const Field& heights = surface.measured_heights();
+  if (grid.nodes() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    refuse("a surface of " + std::to_string(grid.nodes()) + " heights does not fit into a SUR file",
+           "write .h5 or .npy");
+  const Range range = surface.height_range();
+  const SurSteps steps = steps_of(range, path);
+  const std::int32_t least = steps.number(range.min), most = steps.number(range.max);
+  AtomicFile file(path, FileWords::data);
+  file.write(sur_header(surface, steps, least, most, path));
+  Task task(monitor, "writing", grid.ny);
+  Array<std::int32_t> row(static_cast<std::size_t>(grid.nx));
+  for (int j = 0; j < grid.ny; ++j) {
+    std::ranges::transform(heights.row(j), row.begin(), [&](double height) {
+      return std::isnan(height) ? least - 2 : steps.number(height);
+    });
+    file.write({reinterpret_cast<const char*>(row.data()), row.size() * sizeof(std::int32_t)});
+    task.advance();
+  }
+  file.commit();
 }
 
 }  // namespace asperity

@@ -2,10 +2,9 @@
 // STP and TOP of WSxM (Nanotec): header lines `key: value`, then double, float or short numbers. Unit of
 // height: `Z Amplitude` / (greatest - least number); the printed unit, if equal to 1e-4 for floating-point
 // numbers (six printed digits). The file begins at the lower right corner. Non-finite numbers are missing
-// points. Layout and orientation: Gwyddion's reader and writer.
+// points. Layout: Gwyddion's reader and writer.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
@@ -21,7 +20,7 @@ constexpr std::string_view wsxm_mark = "WSxM file copyright", wsxm_end = "[Heade
 constexpr std::string_view wsxm_size_key = "Image header size:";
 
 struct WsxmHeader {
-  std::map<std::string, std::string_view> entries;  // "Control::X Amplitude"
+  HeaderEntries entries;  // "Control::X Amplitude"
   std::string_view data;
 };
 
@@ -32,7 +31,7 @@ WsxmHeader wsxm_header(const SourceFile& file) {
   LineReader reader(bytes);
   std::string_view line;
   std::string section;
-  WsxmHeader header;
+  WsxmHeader header{HeaderEntries(file), {}};
   while (reader.next(line)) {
     line = trimmed(line);
     if (reader.number() == 2 && line != "SxM Image file")
@@ -58,34 +57,16 @@ WsxmHeader wsxm_header(const SourceFile& file) {
     if (line.starts_with('[') && line.ends_with(']')) section = line.substr(1, line.size() - 2);
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) continue;
-    header.entries.emplace(section + "::" + std::string(trimmed(line.substr(0, colon))),
-                           trimmed(line.substr(colon + 1)));
+    header.entries.add(section + "::" + std::string(trimmed(line.substr(0, colon))),
+                       trimmed(line.substr(colon + 1)));
   }
   refuse_file(file, "has a header without [Header end]", "the file is cut short");
-}
-
-std::string_view wsxm_entry(const SourceFile& file, const WsxmHeader& header, const std::string& key) {
-  const auto found = header.entries.find(key);
-  if (found == header.entries.end()) refuse_file(file, "has no " + quoted(key) + " in its header");
-  return found->second;
-}
-
-template <class T>
-Field wsxm_numbers(const SourceFile& file, std::string_view data, std::uint64_t nx, std::uint64_t ny,
-                   Monitor& monitor) {
-  require_exactly(file, nx, ny, sizeof(T), data.size());
-  return field_of_numbers<T>(data, static_cast<int>(nx), static_cast<int>(ny), monitor,
-                             [](T value) { return !std::isfinite(static_cast<double>(value)); });
 }
 
 // In metres.
 double wsxm_unit(const SourceFile& file, const Field& numbers, double amplitude, double printed_unit,
                  bool integers) {
-  double least = INFINITY, greatest = -INFINITY;
-  for (const double value : numbers.values()) {
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
-  }
+  const auto [least, greatest] = known_range(numbers.values());
   const double unit = amplitude / (greatest - least);
   if (!(unit > 0) || !std::isfinite(unit))
     refuse_file(file,
@@ -98,11 +79,10 @@ double wsxm_unit(const SourceFile& file, const Field& numbers, double amplitude,
 
 HeightMap read_wsxm(const SourceFile& file, Monitor& monitor) {
   const WsxmHeader header = wsxm_header(file);
-  const auto count = [&](const char* key) {
-    return instrument_count(file, key, wsxm_entry(file, header, std::string("General Info::") + key));
-  };
-  const std::uint64_t nx = count("Number of columns"), ny = count("Number of rows");
-  const std::string_view amplitude_text = wsxm_entry(file, header, "General Info::Z Amplitude");
+  const HeaderEntries& entries = header.entries;
+  const std::uint64_t nx = entries.count("General Info::Number of columns"),
+                      ny = entries.count("General Info::Number of rows");
+  const std::string_view amplitude_text = entries.text("General Info::Z Amplitude");
   const std::size_t blank = amplitude_text.rfind(' ');
   const std::optional<double> printed_unit =
       blank == std::string_view::npos ? std::nullopt : instrument_length_unit(amplitude_text.substr(blank));
@@ -110,24 +90,21 @@ HeightMap read_wsxm(const SourceFile& file, Monitor& monitor) {
     refuse_file(file, "holds a map whose Z Amplitude is " + shown(amplitude_text) + ", which is no length",
                 "maps of heights are read");
   const double amplitude = instrument_length(file, "Z Amplitude", amplitude_text);
-  const auto type = header.entries.find("General Info::Image Data Type");
-  // Early versions omit the type and hold short integers.
-  const std::string kind = type == header.entries.end() ? "short" : std::string(type->second);
-  HeightMap map;
-  Field numbers;
-  if (kind == "double")
-    numbers = wsxm_numbers<double>(file, header.data, nx, ny, monitor);
-  else if (kind == "float")
-    numbers = wsxm_numbers<float>(file, header.data, nx, ny, monitor);
-  else if (kind == "short" || kind == "integer")
-    numbers = wsxm_numbers<std::int16_t>(file, header.data, nx, ny, monitor);
-  else
+  // Early versions hold short integers and omit the type.
+  const std::string_view kind = entries.find("General Info::Image Data Type").value_or("short");
+  const bool integers = kind == "short" || kind == "integer";
+  if (!integers && kind != "double" && kind != "float")
     refuse_file(file, "holds numbers of the type " + shown(kind),
                 "double, float, short and integer are read");
-  map.unit = wsxm_unit(file, numbers, amplitude, *printed_unit, kind == "short" || kind == "integer");
-  map.heights = lines_reversed(numbers);
-  map.size_x = instrument_length(file, "X Amplitude", wsxm_entry(file, header, "Control::X Amplitude"));
-  map.size_y = instrument_length(file, "Y Amplitude", wsxm_entry(file, header, "Control::Y Amplitude"));
+  const NumberType type = integers          ? number_type<std::int16_t>
+                          : kind == "float" ? number_type<float>
+                                            : number_type<double>;
+  HeightMap map;
+  map.heights = exact_field(file, type, header.data, nx, ny, monitor, not_finite);
+  map.unit = wsxm_unit(file, map.heights, amplitude, *printed_unit, integers);
+  for (int j = 0; j < map.heights.ny(); ++j) std::ranges::reverse(map.heights.row(j));
+  map.size_x = instrument_length(file, "X Amplitude", entries.text("Control::X Amplitude"));
+  map.size_y = instrument_length(file, "Y Amplitude", entries.text("Control::Y Amplitude"));
   map.trace = ny == 1;
   return map;
 }
@@ -139,19 +116,16 @@ bool recognises_wsxm(const SourceFile& file) {
 
 }  // namespace
 
-const Format& wsxm_format() {
-  static const Format format{
-      "wsxm",
-      "`WSxM file copyright` and `SxM Image file` at the start",
-      {"STP and TOP of WSxM: the map of heights, of double, float or short numbers.",
-       "Maps of other quantities, spectra, movies, and maps of one height only.",
-       "Two files of the public test set of SurfaceTopography (double, short): heights and sizes, by an "
-       "independent program."},
-      {FirstLine::bottom, "Gwyddion's reader and WSxM's page of formats: lines by ascending y, x falling."},
-      {"stp", "top"},
-      recognises_wsxm,
-      read_wsxm};
-  return format;
-}
+extern constexpr Format wsxm_format{
+    "wsxm",
+    "`WSxM file copyright` and `SxM Image file` at the start",
+    {"STP and TOP of WSxM: the map of heights, of double, float or short numbers.",
+     "Maps of other quantities, spectra, movies, and maps of one height only.",
+     "Two files of the public test set of SurfaceTopography (double, short): heights and sizes, by an "
+     "independent program."},
+    {FirstLine::bottom, "Gwyddion's reader and WSxM's page of formats: lines by ascending y, x falling."},
+    {"stp", "top"},
+    recognises_wsxm,
+    read_wsxm};
 
 }  // namespace asperity

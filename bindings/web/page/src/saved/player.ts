@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only script in a saved run: plays pictures and switches between recorded knob values. Without it, and
-// on paper, all are shown in sequence.
+// The script of a saved run: plays pictures and switches between recorded knob values. Without it, and on
+// paper, all are shown in sequence.
 
-import { h } from '../dom';
+import { slider } from '../dom';
 import { Scrubber } from '../scrub';
-import { nearestTo, placesOf, type Recorded } from './places';
 
 const away = 'away'; // hidden on screen
+
+/** Knob values of a run. */
+type Recorded = Record<string, { value: number; text: string }>;
+
+/** Ascending, without duplicates. */
+function placesOf(runs: Recorded[], name: string): { value: number; text: string }[] {
+  const known = new Map(runs.flatMap((r) => (r[name] ? [[r[name].value, r[name]] as const] : [])));
+  return [...known.values()].sort((a, b) => a.value - b.value);
+}
+
+/** The run for a slider move: the new value, with the fewest steps in other knobs. */
+function nearestTo(runs: Recorded[], from: number, name: string, value: number): number {
+  const others = Object.keys(runs[from]).filter((other) => other !== name);
+  const steps = (k: number): number =>
+    others.reduce((sum, other) => {
+      const places = placesOf(runs, other).map((p) => p.value);
+      const place = (run: Recorded): number => places.indexOf(run[other]?.value);
+      return sum + Math.abs(place(runs[k]) - place(runs[from]));
+    }, 0);
+  let best = from;
+  runs.forEach((run, k) => {
+    if (run[name]?.value !== value) return;
+    if (runs[best][name]?.value !== value || steps(k) < steps(best)) best = k;
+  });
+  return best;
+}
 
 class Frames {
   private readonly figures: HTMLElement[];
@@ -45,32 +70,24 @@ function show(next: number): void {
   sections.forEach((s, k) => s.classList.toggle(away, k !== next));
 }
 
-function slider(name: string): { element: HTMLElement; tell: () => void } {
+function knobSlider(name: string): { element: HTMLElement; tell: () => void } {
   const places = placesOf(recorded, name);
-  const value = h('output', { className: 'factor' });
-  const input = h('input', {
-    type: 'range',
-    min: '0',
-    max: String(places.length - 1),
-    step: '1',
-    'aria-label': name,
-    oninput: () => {
-      show(nearestTo(recorded, shown, name, places[Number(input.value)].value));
-      sliders.forEach((s) => s.tell());
-    },
+  const { element, tell } = slider(name, places.length - 1, (place) => {
+    show(nearestTo(recorded, shown, name, places[place].value));
+    sliders.forEach((s) => s.tell());
   });
-  const tell = (): void => {
-    const at = places.findIndex((p) => p.value === recorded[shown][name]?.value);
-    const text = places[at]?.text ?? '';
-    input.value = String(at);
-    input.setAttribute('aria-valuetext', `${text}, ${at + 1} of ${places.length} that were recorded`);
-    value.textContent = text;
+  return {
+    element,
+    tell: () => {
+      const at = places.findIndex((p) => p.value === recorded[shown][name]?.value);
+      const text = places[at]?.text ?? '';
+      tell(at, text, `${text}, ${at + 1} of ${places.length} that were recorded`);
+    },
   };
-  return { element: h('label', { className: 'choice' }, h('span', {}, name), input, value), tell };
 }
 
 const moved = Object.keys(recorded[0] ?? {}).filter((name) => placesOf(recorded, name).length > 1);
-const sliders = sections.length > 1 ? moved.map(slider) : [];
+const sliders = sections.length > 1 ? moved.map(knobSlider) : [];
 document.querySelector('.sliders')?.append(...sliders.map((s) => s.element));
 if (sliders.length > 0) show(shown);
 sliders.forEach((s) => s.tell());

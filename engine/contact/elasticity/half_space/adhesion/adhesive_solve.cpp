@@ -58,7 +58,7 @@ class AdhesiveDescent {
       longest = std::max(longest, term.range / length_);
     }
     if (!problem.contact.overhangs) return;
-    // Nodes without a counterpart are so deep that contact and attraction are exactly zero: e^−800 is 0.
+    // Contact and attraction are exactly zero without a counterpart: e^−800 is 0.
     constexpr double faded = 800;
     const double pressed = std::abs(asked_pressure) + greatest_ * modulus_;
     deep_ = known_range(drop_).max + std::abs(asked_approach) / length_ + faded * longest +
@@ -79,7 +79,7 @@ class AdhesiveDescent {
     for_nodes(nodes_, [&](std::size_t k) { q_[k] = traction(drop_[k]); });
   }
 
-  // Iterates until the fixed attraction equals the attraction of the gap, to `tolerance`.
+  // Iterates until fixed attraction and attraction of the gap agree to `tolerance`.
   void run(double tolerance);
 
   double approach = 0;         // δ, cells
@@ -164,7 +164,7 @@ double AdhesiveDescent::precondition(bool fixed, double contacts) {
   })[0];
 }
 
-// Halves a step that leaves the bounds until the energy falls. `target`: mean pressure under a load.
+// Halves a step out of bounds until the energy falls. `target`: mean pressure under a load.
 void AdhesiveDescent::step_back(double step, std::optional<double> target) {
   for_nodes(nodes_, [&](std::size_t k) {
     before_[k] = p_[k];
@@ -174,7 +174,7 @@ void AdhesiveDescent::step_back(double step, std::optional<double> target) {
     for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
     if (target) scale_to(*target);
     find_gap();
-    // Quadratic energy: its change is Σ Δp times the mean of both gaps.
+    // The energy changes by Σ Δp times the mean of both gaps.
     const double change = over_nodes<1>(
         nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
     if (change <= 0) break;
@@ -182,8 +182,8 @@ void AdhesiveDescent::step_back(double step, std::optional<double> target) {
 }
 
 // Contact with fixed attraction: p >= 0, g = K (p − q) + d − δ >= 0, p g = 0, to `close` in the gap. Under a
-// load mean p = target and the mean contact gap is 0. Preconditioned projected conjugate gradients (Polonsky
-// & Keer 1999), restarted when the contact set changes.
+// load mean p = target and the mean contact gap is 0. Projected conjugate gradients (Polonsky & Keer 1999),
+// restarted when the contact set changes.
 double AdhesiveDescent::contact(double close, double target) {
   const bool fixed = load.has_value();
   if (fixed) scale_to(target);
@@ -245,13 +245,10 @@ double AdhesiveDescent::contact(double close, double target) {
 }
 
 void AdhesiveDescent::run(double tolerance) {
-  // The certificate measures gaps by the rms height, the attraction by its range.
+  // The certificate measures gaps by the rms height, attraction by its range.
   const double rms = problem_.contact.rms / length_;
   const double tightest = 0.5 * tolerance * (rms > 0 ? std::min(shortest_, rms) : shortest_);
   double loose = 0.1 * shortest_;
-  bool smooth = true;
-  for (const GapTerm& term : problem_.attraction)
-    smooth = smooth && (term.law == GapLaw::exponential || term.edge > 0);
   int since = 0;
   bool fresh = false;
   Array<double> last(nodes_);
@@ -288,7 +285,7 @@ void AdhesiveDescent::run(double tolerance) {
     loose = std::min(0.1, 0.2 * off_) * shortest_;
     // Geometric convergence: extrapolate.
     const bool alike = change[1] > 0.95 * std::sqrt(change[0] * change[2]);
-    if (smooth && ++since > 2 && alike && rate > 0.3 && rate < 0.98 && off_ < 0.3) {
+    if (++since > 2 && alike && rate > 0.3 && rate < 0.98 && off_ < 0.3) {
       const double further = 0.9 * rate / (1 - 0.9 * rate);
       for_nodes(nodes_,
                 [&](std::size_t k) { q_[k] = std::clamp(z_[k] + further * last[k], 0.0, greatest_); });
@@ -332,7 +329,7 @@ AdhesiveAnswer AdhesiveDescent::answer() const {
   return result;
 }
 
-// Certificate of the returned fields; throws above the tolerance.
+// Throws if the certificate is above the tolerance.
 void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optional<double> asked) {
   HalfSpaceAnswer& at = answer.contact;
   double shortest = std::numeric_limits<double>::infinity();
@@ -356,9 +353,9 @@ void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optiona
   if (at.converged || problem.contact.best_effort) return;
   throw Error(ErrorCode::not_converged,
               "the attraction and the gap agree to " + format_short(certificate.worst(), 3) + " after " +
-                  std::to_string(answer.steps) + " tangents, where `tolerance` asks for " +
+                  std::to_string(answer.steps) + " tangents, above the `tolerance` of " +
                   format_short(problem.contact.tolerance, 3),
-              "ask for a larger `tolerance`, or step away from the jump that is near");
+              "give a larger `tolerance`, or press farther from the jump of the contact");
 }
 
 }  // namespace
@@ -373,8 +370,8 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
     if (approach >= most)
       refuse_infeasible("an approach of " + format_quantity(approach, dimension::length) +
                             " cannot be reached: this periodic tile is in full contact at " +
-                            format_quantity(most, dimension::length) + ", and more load brings it no nearer",
-                        "ask for a smaller `approach`, or press by `pressure`");
+                            format_quantity(most, dimension::length),
+                        "give a smaller `approach`, or press by `pressure`");
   }
   AdhesiveDescent descent(problem, 0, approach, monitor);
   if (start != nullptr) descent.begin_from(*start);

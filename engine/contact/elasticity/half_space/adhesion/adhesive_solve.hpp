@@ -22,7 +22,7 @@ struct AdhesiveProblem {
 };
 
 struct AdhesiveAnswer {
-  // mean_pressure is the external load, mean p − mean σ.
+  // mean_pressure: external load, mean p − mean σ.
   HalfSpaceAnswer contact;
   Field attraction;            // σ(g), Pa
   double mean_attraction = 0;  // Pa
@@ -33,13 +33,13 @@ struct AdhesiveAnswer {
   Cost first_contact;
 };
 
-// At an approach of either sign, from separated bodies or from `start`. Typically 80 applications of K, 1800
-// on the hardest of 60 contacts, at most 20 000. Throws Error{not_converged} unless best_effort,
-// {infeasible} on overflow or beyond periodic full contact.
+// At an approach of either sign, from separated bodies or `start`. Typically 80 applications of K, at most
+// 20000. Throws Error{not_converged} unless best_effort, {infeasible} on overflow or beyond periodic full
+// contact.
 AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
                                   const AdhesiveAnswer* start, Monitor& monitor);
 
-// Under an external mean pressure, negative for a pull. Throws Error{infeasible} if the bodies separate.
+// External mean pressure, negative for a pull. Throws Error{infeasible} if the bodies separate.
 AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
                                   const AdhesiveAnswer* start, Monitor& monitor);
 

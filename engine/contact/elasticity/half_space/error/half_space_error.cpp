@@ -25,8 +25,8 @@ double greatest_root(double linear, double rest) {
 // 0 · ∞ = 0.
 double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
-// Error of a slope from difference quotients of a convex function: values exact to `slack`, curvature at
-// most `curvature`, steps at most `room`: min over t of curvature·t/2 + slack/t.
+// Error of a slope from difference quotients of a convex function exact to `slack`, steps at most `room`: min
+// over t of curvature·t/2 + slack/t.
 double slope_slack(double curvature, double slack, double room) {
   if (!(room > 0)) return infinity;
   if (!(slack > 0)) return 0;
@@ -35,7 +35,7 @@ double slope_slack(double curvature, double slack, double room) {
   return curvature > 0 ? 0.5 * curvature * room + slack / room : slack / room;
 }
 
-// Cell units, with a greatest pressure of 1. Sums over nodes.
+// Cell units, greatest pressure 1. Sums over nodes.
 class Bounds {
  public:
   Bounds(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, const Reported& reported)
@@ -44,7 +44,7 @@ class Bounds {
         reported_(reported),
         nodes_(problem.grid.nodes()),
         n_(static_cast<double>(nodes_)),
-        facing_(problem.overhangs ? static_cast<double>(known_count(problem.heights->values())) : n_),
+        facing_(static_cast<double>(known_count(problem.heights->values()))),
         with_mean_(reported.prescribed == Prescribed::approach && uniform_compliance(problem) > 0),
         periodic_(problem.boundary == Boundary::periodic && !with_mean_),
         compression_(with_mean_ ? 0 : uniform_compliance(problem) * answer.mean_pressure),
@@ -109,7 +109,7 @@ class Bounds {
   HalfSpaceCompliance compliance_;
   HalfSpaceCompliance::Spectrum spectrum_;
 
-  Array<double> pressure_;             // the answer's, at exactly the prescribed load
+  Array<double> pressure_;             // at exactly the prescribed load
   double moved_ = 0, moved_most_ = 0;  // change of pressure_: sum, greatest
   Array<double> gap_, work_, image_;   // Kp − h − δ
   double total_ = 0;                   // Σ p
@@ -150,7 +150,7 @@ void Bounds::take_pressures() {
   moved_most_ = -moved[2];
 }
 
-// Fresh gaps; heights count from the highest node.
+// Heights count from the highest node.
 void Bounds::take_gaps() {
   work_ = Array<double>(nodes_);
   gap_ = Array<double>(nodes_);
@@ -169,7 +169,7 @@ void Bounds::take_gaps() {
   for_nodes(nodes_, [&](std::size_t k) {
     gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - approach_) / metre_ : at_.gap[k] / metre_;
   });
-  // Rounding and a remaining load error add to the distance.
+  // Rounding and the remaining load error add to the distance.
   const double miss =
       std::abs(total_ / n_ * pascal_ - at_.mean_pressure) / std::max(at_.mean_pressure, 1e-300);
   distance_ = relative_rounding * std::sqrt(spectrum_.node * sums[1]) + miss * norm_;
@@ -178,7 +178,7 @@ void Bounds::take_gaps() {
 void Bounds::take_residual() {
   const double own = spectrum_.inverse_node > 0 ? 1 / spectrum_.inverse_node : infinity;
   image_ = Array<double>(nodes_);
-  // The part of a gap that the node's own pressure cannot close belongs to `rest_`.
+  // `rest_`: gaps that a node's own pressure cannot close.
   const auto sums = over_nodes<4, 1>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), gap = yielding_gap(k), room = cap_ - p;
     const double most = gap > 0 ? p : room, wrong = std::abs(gap);
@@ -221,7 +221,7 @@ double Bounds::step_norm() {
 }
 
 double Bounds::inverse_norm() {
-  compliance_.apply_period_inverse(work_, image_);
+  compliance_.apply_inverse(work_, image_);
   return spectrum_.least > 0 ? norm_by_image() : infinity;
 }
 
@@ -247,7 +247,7 @@ void Bounds::bracket_approach() {
     above = std::min(above, slope + slope_slack(norm_squared, slack_, room_up));
     below = std::min(below, slope_slack(norm_squared, slack_, room_down) - slope);
   };
-  // Direction: all pressures in proportion; yielding nodes also give way.
+  // Direction: all pressures in proportion; yielding nodes give way.
   const bool at_limit = single[0] > 0;
   if (!at_limit || give_ > 0) {
     const auto sums = over_nodes<3>(nodes_, [&](std::size_t k, double* v) {
@@ -262,7 +262,7 @@ void Bounds::bracket_approach() {
     if (give_ > 0) along(slope, with_give(sums[2]), infinity, 0);
     if (!at_limit) along(slope, elastic / unit, single[3] * total_, 0);
   }
-  // Direction: nodes neither at their limit nor open, weighted by their room.
+  // Direction: nodes below their limit and not open, weighted by their room.
   if (at_limit) {
     const auto room = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
       const double p = pressure(k);
@@ -286,8 +286,8 @@ void Bounds::bracket_approach() {
   approach_error_ = std::max({above, below, 0.0}) + gap_rounding_;
 }
 
-// Load at the requested approach: Σ d <= σ ‖d‖_K if nothing touches outside a set on the whole path between
-// both solutions. This is true if no gap changes by more than the least gap outside.
+// Load at the requested approach: Σ d <= σ ‖d‖_K if nothing touches outside a set between both solutions.
+// Sufficient: no gap changes by more than the least gap outside.
 void Bounds::follow_asked_approach() {
   const double shift = (approach_ - reported_.asked_approach) / metre_;
   approach_error_ = std::abs(shift);
@@ -320,7 +320,7 @@ void Bounds::follow_asked_approach() {
   distance_ = load_error_ = infinity;
 }
 
-// Sums over certain and possible states of nodes.
+// Over certain and possible states of nodes.
 std::array<double, 9> Bounds::states() {
   const bool caps = std::isfinite(cap_), hardens = give_ > 0;
   return over_nodes<9>(nodes_, [&](std::size_t k, double* v) {

@@ -7,7 +7,7 @@
 // ‖d‖_K, from E(p) − E(p*) <= ½‖r‖² + Σ…, and from the approach, the slope of a convex function of the load.
 #pragma once
 
-#include "engine/contact/algebraic_error.hpp"
+#include "engine/contact/certificate.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 
 namespace asperity {
@@ -27,7 +27,7 @@ struct Reported {
 };
 
 // Costs an application of K, one of K⁻¹ and, with yield or a prescribed approach, a few more; five fields.
-// Under an approach Σ d <= ‖f‖_{K⁻¹}‖d‖_K for any f = 1 on both contacts bounds the load; K(0) of a layer
+// Under an approach Σ d <= ‖f‖_{K⁻¹}‖d‖_K bounds the load, for any f = 1 on both contacts; K(0) of a layer
 // enters only there.
 SolutionError half_space_error(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer,
                                const Reported& reported);

@@ -10,7 +10,6 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
@@ -42,7 +41,7 @@ ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean)
 
 namespace {
 
-// Positive nodes of Gauss's rules of 4, 8 and 16 points on [−1, 1].
+// Positive nodes of Gauss's rules on [−1, 1].
 struct Node {
   double at, weight;
 };
@@ -78,8 +77,7 @@ double gauss(const std::array<Node, n>& rule, double x, double half, double y, d
   return sum;
 }
 
-// The integrand is singular only at x = 0. Relative error of Gauss's rule of n points:
-// (2·distance/half)^(−2n).
+// Singular only at x = 0. Relative error of Gauss's rule of n points: (2·distance/half)^(−2n).
 double integrate(double x, double half, double y, double other) {
   const double distance = x / half;
   const double mean = distance < 10    ? gauss(rule_16, x, half, y, other)
@@ -116,8 +114,8 @@ double LoveKernel::operator()(double i, double j) const {
   return integral * std::numbers::inv_pi;
 }
 
-// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n over the
-// rectangle. Next term: (half side / R)^6 < 2e-14.
+// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n. Next term:
+// (half side / R)^6 < 2e-14.
 double LoveKernel::far(double x, double y) const {
   const double xx = x * x, yy = y * y, rr = xx + yy;
   const double s = 1 / rr;
@@ -138,7 +136,7 @@ int padded(int n) { return std::max(2, good_fourier_length(2 * n - 1)); }
 
 int period(int n, Boundary boundary) { return boundary == Boundary::periodic ? n : padded(n); }
 
-// The operator's period if FourierLaneFilter supports it.
+// The period, if FourierLaneFilter supports it.
 int transform_period_x(int n, Boundary boundary) {
   return boundary == Boundary::periodic && n % 2 == 0 && LaneFourier<double>::possible(n) ? n : padded(n);
 }
@@ -160,7 +158,7 @@ void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny,
   if (a == 0) factors[0] = multiplier.uniform;
 }
 
-// Even sequences, given from 0 to period/2, become their real transforms.
+// Even sequences from 0 to period/2 become their real transforms.
 constexpr int sequences_at_once = BatchFourier::rows;
 void transform_even(const BatchFourier& fourier, std::span<double* const> halves) {
   const int period = fourier.length();
@@ -216,7 +214,7 @@ void transform_kernel(int period_x, int period_y, const Coefficient& coefficient
   });
 }
 
-// The periodic tile on a longer period, by its kernel at distances below its sides.
+// A periodic tile on a longer period, by its kernel within its sides.
 void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny, double aspect, int period_x,
                             int period_y, std::span<double> multiplier) {
   const auto half_y = static_cast<std::size_t>(ny / 2 + 1);
@@ -243,7 +241,7 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
 
 }  // namespace
 
-// The inactive filter keeps its multiplier and frees its spectrum.
+// The inactive filter keeps only its multiplier.
 struct HalfSpaceCompliance::Parts {
   int nx, ny;
   int period_x, period_y;
@@ -384,13 +382,6 @@ void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink
 }
 
 void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p, double softer) {
-  if (parts_->boundary == Boundary::free)
-    throw Error(ErrorCode::internal, "a free half-space has no inverse filter");
-  apply_period_inverse(u, p, softer);
-}
-
-void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::span<double> p,
-                                               double softer) {
   Parts& parts = *parts_;
   FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
   filter.apply(u, p, [&](int a, std::span<double> factors) {

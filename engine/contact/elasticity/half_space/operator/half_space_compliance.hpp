@@ -13,9 +13,17 @@
 #include <vector>
 
 #include "engine/contact/scene/boundary.hpp"
-#include "engine/contact/wave_share.hpp"
 
 namespace asperity {
+
+// K(q) = share · 2/(E*|q|), relative to a half-space.
+struct WaveShare {
+  // In [0, 1] at x = |q| length: 0 at 0, 1 at infinity. K(q) falls beyond x = 4.
+  std::function<double(double x)> share;
+  double length = 0;                 // m
+  double uniform = 0;                // K(0) E*/length
+  std::vector<double> parameters{};  // for digests
+};
 
 struct ComplianceMultiplier {
   std::function<double(double x)> share_of{};               // empty: a half-space
@@ -35,26 +43,25 @@ ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean)
 
 class HalfSpaceCompliance {
  public:
-  // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms. `single`: transforms and multiplier
-  // in single precision. `multiplier`: periodic only. Memory: 1.25 grids periodic, three free or padded;
-  // about half in single precision.
+  // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms. `single`: single-precision transforms
+  // and multiplier. `multiplier`: periodic only. Memory: 1.25 grids periodic, three free or padded; half in
+  // single precision.
   HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                       bool single = false, const ComplianceMultiplier& multiplier = {});
   ~HalfSpaceCompliance();
   HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept;
   HalfSpaceCompliance& operator=(HalfSpaceCompliance&&) noexcept;
 
-  // u = K p, nx·ny values row by row; u may be p. Same bits for any number of threads; scaling p by a power
-  // of two scales u exactly. Not thread-safe.
+  // u = K p, nx·ny values row by row; u may be p. Same bits for any number of threads; powers of two scale
+  // exactly. Not thread-safe.
   void apply(std::span<const double> p, std::span<double> u);
 
-  // Single precision: u is exact to about 1e-6 of the greatest u. `unit`: magnitude of the pressures, within
+  // Single precision: exact to about 1e-6 of the greatest u. `unit`: magnitude of the pressures, within
   // twenty powers of ten; initially 1.
   bool single() const;
   void count_pressures_in(double unit);
 
-  // `source` returns rows of p, `sink` receives rows of u, also stored in `u` unless empty. In single
-  // precision p must be near 1.
+  // `source` returns rows of p, `sink` receives rows of u, also stored in `u` unless empty.
   using Source = std::function<const double*(int j, double* scratch)>;
   using Sink = std::function<void(int j, const double* row)>;
   void apply(const Source& source, const Sink& sink, std::span<double> u);
@@ -63,12 +70,9 @@ class HalfSpaceCompliance {
   // Single precision; p must be near 1.
   void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
-  // Periodic only: p = K⁻¹ u (|q|/2), the mean only if K(0) > 0. `softer` >= 0 is added to K at every wave,
-  // like springs. Same cost. Throws Error{internal} on a free boundary.
+  // p = K⁻¹ u (|q|/2), the mean only if K(0) > 0. `softer` >= 0 is added to K at every wave. Same cost. On
+  // the operator's own period: on a free tile Σ u p >= Σ u K⁻¹ u.
   void apply_inverse(std::span<const double> u, std::span<double> p, double softer = 0);
-
-  // K⁻¹ on the operator's own period; if padded, Σ u p >= Σ u K⁻¹ u. Same cost.
-  void apply_period_inverse(std::span<const double> u, std::span<double> p, double softer = 0);
 
   // Over all waves except an immobile mean. O(n).
   struct Spectrum {
@@ -83,12 +87,12 @@ class HalfSpaceCompliance {
 };
 
 // Displacement under a uniformly loaded rectangle 1 × aspect (Love 1929), u(x, y) = 1/(π E*) ∬ dξ dη /
-// √((x−ξ)² + (y−η)²), E* = 1. Love's four logarithms cancel away from the rectangle; elsewhere one integral
-// is closed and one by Gauss's rule, or moments are enough. Relative error below 1e-13.
+// √((x−ξ)² + (y−η)²), E* = 1. Off the rectangle Love's four logarithms cancel: one closed integral and
+// Gauss's rule, or moments. Relative error below 1e-13.
 class LoveKernel {
  public:
   explicit LoveKernel(double aspect);  // > 0
-  // At (i, j·aspect) from the centre, per unit pressure. Even in both. Thread-safe.
+  // At (i, j·aspect) from the centre. Even in both. Thread-safe.
   double operator()(double i, double j) const;
 
  private:

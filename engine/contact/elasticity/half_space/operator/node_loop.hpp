@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loops over grid nodes with sums and minima in fixed lanes and blocks: same bits for any number of threads
 // and vector width. A term may write to its own node: an update and its sums need one pass over memory.
-// Chunks vectorise, and chunks without marked nodes can be skipped. Terms should capture by value (a byte
-// store may alias a reference), read before they decide, and select instead of branch.
+// Chunks vectorise. Terms should capture by value (a byte store may alias a reference), read before they
+// decide, and select instead of branch.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <span>
 
 #include "engine/core/arithmetic/register_vectors.hpp"
 #include "engine/core/memory.hpp"
@@ -34,35 +33,7 @@ void for_node_blocks(std::size_t nodes, Body body) {
 
 namespace node_loop {
 
-struct All {
-  bool operator()(std::size_t, std::size_t) const { return true; }
-};
-
-// Chunks with a nonzero byte.
-struct Marked {
-  const std::uint8_t* marks;
-  bool operator()(std::size_t begin, std::size_t end) const {
-    if (end - begin < nodes_a_chunk) return true;
-    std::uint64_t words[nodes_a_chunk / 8], any = 0;
-    std::memcpy(words, marks + begin, sizeof words);
-    for (const std::uint64_t word : words) any |= word;
-    return any != 0;
-  }
-};
-
-template <class Take, class Body>
-void visit(std::size_t nodes, Take take, const Body& body) {
-  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
-    const Body own = body;
-    std::size_t k = begin;
-    for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
-      if (take(k, k + nodes_a_chunk))
-        for (std::size_t j = 0; j < nodes_a_chunk; ++j) own(k + j);
-    for (; k < end; ++k) own(k);
-  });
-}
-
-// A register contains part of the eight lanes.
+// A register holds part of the lanes.
 using LaneVector = register_vectors::Of<double>::Vector;
 inline constexpr std::size_t lanes_a_part = register_vectors::register_lanes<double>;
 inline constexpr std::size_t parts_a_block = lanes_a_block / lanes_a_part;
@@ -85,7 +56,7 @@ struct Lanes {
     for (std::size_t i = 0; i < size; ++i)
       for (LaneVector& part : lanes[i]) part = LaneVector{} + none(i);
   }
-  // `k`: whole lanes from the start of the block.
+  // `k` counts whole lanes in the block.
   template <class Term>
   void take_chunk(std::size_t k, const Term& term) {
     alignas(64) double values[size][nodes_a_chunk];
@@ -124,18 +95,6 @@ struct Lanes {
   }
 };
 
-// On this thread.
-template <std::size_t sums, std::size_t minima, class Term>
-std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
-  const Term own = term;
-  Lanes<sums, minima> block;
-  std::size_t k = begin;
-  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk) block.take_chunk(k, own);
-  for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
-  return block.total();
-}
-
-// Merges range(begin, end) of all blocks.
 template <std::size_t sums, std::size_t minima, class Range>
 std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& range) {
   using Block = Lanes<sums, minima>;
@@ -153,36 +112,42 @@ std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& 
 
 }  // namespace node_loop
 
-template <class Body>
-void for_nodes(std::size_t nodes, Body body) {
-  node_loop::visit(nodes, node_loop::All{}, body);
-}
-
-// body(k) for each marked node and some others.
-template <class Body>
-void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
-  node_loop::visit(marks.size(), node_loop::Marked{marks.data()}, body);
-}
-
-// term(k, v) sets v[0 … sums) to summands, the rest to candidates for minima; returned in this order. A
-// minimum over nothing is +∞.
-template <std::size_t sums, std::size_t minima = 0, class Term>
-std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
-  return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
-    return node_loop::gather_range<sums, minima>(begin, end, term);
-  });
-}
-
 // On this thread.
 template <class Body>
 void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
   for (std::size_t k = begin; k < end; ++k) own(k);
 }
-template <std::size_t sums, class Term>
-std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
-  return node_loop::gather_range<sums, 0>(begin, end, term);
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
+  const Term own = term;
+  node_loop::Lanes<sums, minima> block;
+  std::size_t k = begin;
+  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk) block.take_chunk(k, own);
+  for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
+  return block.total();
 }
+
+template <class Body>
+void for_nodes(std::size_t nodes, Body body) {
+  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
+    const Body own = body;
+    std::size_t k = begin;
+    for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
+      for (std::size_t j = 0; j < nodes_a_chunk; ++j) own(k + j);
+    for (; k < end; ++k) own(k);
+  });
+}
+
+// term(k, v) sets v[0 … sums) to summands, then candidates for minima; returned in this order. A minimum over
+// nothing is +∞.
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
+  return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
+    return over_stretch<sums, minima>(begin, end, term);
+  });
+}
+
 // Adds in order.
 template <std::size_t sums>
 std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) {
@@ -192,14 +157,11 @@ std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) 
   return total;
 }
 
-// The same bits for the hot loops of a descent, sums in registers. A term is a template of Value: a vector
-// of lanes or, for the last nodes, a double. read() and put() access fields; comparisons select: `a < b ? c
-// : d`.
+// Same bits, for hot loops, sums in registers. A term is a template of Value: a vector of lanes or, for the
+// last nodes, a double. read() and put() access fields; comparisons select: `a < b ? c : d`.
 namespace lane_terms {
 
-using node_loop::lanes_a_part;
 using node_loop::LaneVector;
-using node_loop::parts_a_block;
 
 inline void read(const double* from, double& to) { to = *from; }
 inline void read(const float* from, double& to) { to = static_cast<double>(*from); }
@@ -219,20 +181,24 @@ inline void put(const LaneVector& from, Number* to) {
   register_vectors::write(from, to);
 }
 
-template <std::size_t sums, std::size_t minima, class Term>
-std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
+}  // namespace lane_terms
+
+// As over_nodes, over_stretch, for_nodes, for_stretch; body.operator()<Value>(k).
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over_lanes_of_stretch(std::size_t begin, std::size_t end,
+                                                        const Term& term) {
   const Term own = term;
   node_loop::Lanes<sums, minima> block;
   // A copy: the compiler keeps members in memory.
-  LaneVector lanes[sums + minima][parts_a_block];
+  node_loop::LaneVector lanes[sums + minima][node_loop::parts_a_block];
   std::memcpy(lanes, block.lanes, sizeof lanes);
   std::size_t k = begin;
   for (; k + lanes_a_block <= end; k += lanes_a_block)
-    for (std::size_t part = 0; part < parts_a_block; ++part) {
-      LaneVector v[sums + minima];
-      own(k + part * lanes_a_part, v);
+    for (std::size_t part = 0; part < node_loop::parts_a_block; ++part) {
+      node_loop::LaneVector v[sums + minima];
+      own(k + part * node_loop::lanes_a_part, v);
       for (std::size_t i = 0; i < sums + minima; ++i) {
-        LaneVector& into = lanes[i][part];
+        node_loop::LaneVector& into = lanes[i][part];
         if (i < sums)
           into += v[i];
         else
@@ -245,35 +211,53 @@ std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t en
 }
 
 template <class Body>
-void visit_range(std::size_t begin, std::size_t end, const Body& body) {
+void for_lanes_of_stretch(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
   std::size_t k = begin;
-  for (; k + lanes_a_part <= end; k += lanes_a_part) own.template operator()<LaneVector>(k);
+  for (; k + node_loop::lanes_a_part <= end; k += node_loop::lanes_a_part)
+    own.template operator()<node_loop::LaneVector>(k);
   for (; k < end; ++k) own.template operator()<double>(k);
 }
-
-}  // namespace lane_terms
-
-// As over_nodes and over_stretch.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_lanes(std::size_t nodes, Term term) {
   return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
-    return lane_terms::gather_range<sums, minima>(begin, end, term);
+    return over_lanes_of_stretch<sums, minima>(begin, end, term);
   });
 }
-// As for_nodes and for_stretch; body.operator()<Value>(k).
 template <class Body>
 void for_lanes(std::size_t nodes, Body body) {
-  for_node_blocks(nodes,
-                  [&](std::size_t begin, std::size_t end) { lane_terms::visit_range(begin, end, body); });
+  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) { for_lanes_of_stretch(begin, end, body); });
 }
-template <class Body>
-void for_lanes_of_stretch(std::size_t begin, std::size_t end, const Body& body) {
-  lane_terms::visit_range(begin, end, body);
-}
-template <std::size_t sums, class Term>
-std::array<double, sums> over_lanes_of_stretch(std::size_t begin, std::size_t end, const Term& term) {
-  return lane_terms::gather_range<sums, 0>(begin, end, term);
-}
+
+// All nodes of a grid in one process; SlabLevel: of several processes.
+class AllNodes {
+ public:
+  explicit AllNodes(std::size_t nodes) : nodes_(nodes) {}
+  std::size_t nodes() const { return nodes_; }
+  double all_nodes() const { return static_cast<double>(nodes_); }
+  template <class Body>
+  void each(Body body) const {
+    for_nodes(nodes_, body);
+  }
+  template <std::size_t sums, std::size_t minima = 0, class Term>
+  std::array<double, sums + minima> over(Term term) const {
+    return over_nodes<sums, minima>(nodes_, term);
+  }
+  template <std::size_t sums, std::size_t minima = 0, class Term>
+  std::array<double, sums + minima> in_lanes(Term term) const {
+    return over_lanes<sums, minima>(nodes_, term);
+  }
+  // Local; failures become known in agree().
+  template <class Body>
+  void work(const Body& body) const {
+    body();
+  }
+  void agree() const {}
+  // From the first process with a number; NaN if none.
+  double first_number(double own) const { return own; }
+
+ private:
+  std::size_t nodes_;
+};
 
 }  // namespace asperity

@@ -8,16 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <vector>
 
-#include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/scratch_pool.hpp"
 
 namespace asperity {
 
@@ -25,10 +18,7 @@ namespace {
 
 using namespace edge_rows;
 
-constexpr int tile_width = FreeTiles::width;
-
-// Cells. Measured on 512²: up to three times the transforms with extension at 10 cells, up to twice without
-// at 100.
+// Cells. On 512²: at 10 cells up to three times the transforms with extension, at 100 up to twice without.
 constexpr double thin_layer = 20;
 bool carries_on(const ComplianceMultiplier& multiplier) { return multiplier.length >= thin_layer; }
 
@@ -37,65 +27,8 @@ void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n)
 }
 }  // namespace
 
-class ContactPreconditioner::Parts {
- public:
-  Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight,
-        const ComplianceMultiplier& multiplier);
-  void set_free(std::span<const std::uint8_t> free);
-  double spread(const Residual& r, const Step& step);
-  void gather(const Keep& keep);
-  SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, 0, factor * grow_); }
-  double smooth_sum() const { return grow_ * rest_sum_; }
-  void add_smooth(std::span<double> z) const;
-  std::size_t tiles() const { return tiles_.count(); }
-  std::size_t nodes() const { return tiles_.nodes(); }
-
- private:
-  struct Patch {
-    Array<float> given, now;
-    float sums[2 * tile_width];
-    explicit Patch(std::size_t places) : given(places), now(places) {}
-  };
-  struct Hats {
-    SmoothExtension::Sums free, passed;
-  };
-
-  std::size_t node(int i, int j) const { return tiles_.node(i, j); }
-  ScratchPool<Patch>::Loan borrow() {
-    return patches_.borrow([this] { return std::make_unique<Patch>(tiles_.patch_places()); });
-  }
-  template <class Put>
-  void load(Patch& patch, const FreeTile& tile, const Put& put) const;
-  void extend(const FreeTile& tile, const Residual& scaled);
-  void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  double spread_along_lines(const Residual& scaled, const Step& step);
-  void gather_along_lines(const Keep& keep);
-  void no_smooth_field();
-  double greatest(const Residual& r, const Step& step) const;
-  template <class Add>
-  void add_up_hats(const Add& add, Array<double>& total);
-  void divide(Array<double>& sums) const;
-
-  int nx_, ny_;
-  float share_;  // weight of a neighbour
-  HalfOrderPyramid pyramid_;
-  SmoothExtension smooth_;
-  Array<double> free_hats_, sums_;       // over the free set, of distributed values
-  SmoothExtension::Field<float> level_;  // of the residual
-  SmoothExtension::Field<double> rest_;  // of the result
-  double rest_sum_ = 0;                  // of rest_ over the free set
-  std::span<const float> spread_;        // B Ext r/grow_; empty if r = 0
-  double grow_ = 1;                      // a power of two
-  FreeTiles tiles_;
-  bool tiled_;                          // sweeps and smooth fields
-  std::optional<LineExtension> lines_;  // on long cells
-  UnsetArray<float> gathered_;
-  std::vector<Hats> hats_;
-  ScratchPool<Patch> patches_;
-};
-
-ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps,
-                                    double weight, const ComplianceMultiplier& multiplier)
+ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                             int sweeps, const ComplianceMultiplier& multiplier)
     : nx_(nx),
       ny_(ny),
       share_(nx == 1 || ny == 1 ? 0.5f : 0.25f),
@@ -121,10 +54,9 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
 }
 
 // Calls put(row start, column, node, length) for the parts of a patch on the grid; other places are 0. The
-// rows on either side must be 0 too: a taller tile may have written the last. Sweeps do not reach other old
-// values.
+// next row must be 0 too: a taller tile may have written it. Sweeps reach no other old values.
 template <class Put>
-void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, const Put& put) const {
+void ContactPreconditioner::load(Patch& patch, const FreeTile& tile, const Put& put) const {
   const int height = tiles_.patch_height(tile);
   for (int j = 0; j < height; ++j) {
     const std::size_t place = tiles_.patch_row(j);
@@ -136,7 +68,7 @@ void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, cons
   std::fill_n(patch.now.data() + tiles_.patch_row(height), tiles_.row_places(), 0.0f);
 }
 
-void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
+void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) {
   if (!tiled_) {
     tiles_.set(free, [](std::size_t) {});
     if (lines_) lines_->set_free(free);
@@ -145,7 +77,7 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
   tiles_.set(free, [&](std::size_t number) {
     const FreeTile& tile = tiles_[number];
     SmoothExtension::Sums& hats = hats_[number].free;
-    std::array<double, 2 * tile_width> sums;
+    std::array<double, 2 * FreeTiles::width> sums;
     hats.clear();
     for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j)
       add_marks(tiles_.marks(node(tile.x, j)), static_cast<std::size_t>(tile.width),
@@ -157,7 +89,7 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
 }
 
 template <class Add>
-void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
+void ContactPreconditioner::add_up_hats(const Add& add, Array<double>& total) {
   parallel_for(static_cast<std::int64_t>(tiles_.count()), [&](std::int64_t k) {
     const auto number = static_cast<std::size_t>(k);
     SmoothExtension::Sums& hats = hats_[number].passed;
@@ -170,11 +102,11 @@ void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& to
   for (const Hats& hats : hats_) hats.passed.add_to(total);
 }
 
-void ContactPreconditioner::Parts::divide(Array<double>& sums) const {
+void ContactPreconditioner::divide(Array<double>& sums) const {
   for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= smooth_.divisor(k, free_hats_[k]);
 }
 
-void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& r) {
+void ContactPreconditioner::extend(const FreeTile& tile, const Residual& r) {
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
   if (tile.reaches_free && !tile.swept) {  // all nodes are free
@@ -196,7 +128,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
                level_.row(static_cast<int>(from / nx), from % nx), length, column,
                static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
   });
-  // Step s changes nodes within s steps of the free set.
+  // Step s changes nodes up to s steps away.
   for (int s = 1; s <= tiles_.sweeps(); ++s)
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
@@ -207,9 +139,9 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
   }
 }
 
-// z = (y + N v) on the free set, without the smooth field; adds its source to the hats.
-void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
-                                               const Keep& keep) {
+// z = (y + N v) on the free set without the smooth field, whose source goes to the hats.
+void ContactPreconditioner::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
+                                        const Keep& keep) {
   const FreeTile& tile = tiles_[number];
   SmoothExtension::Sums& hats = hats_[number].passed;
   const auto width = static_cast<std::size_t>(tile.width);
@@ -226,13 +158,12 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
       start_bound(y.data() + from, length, column, static_cast<std::size_t>(tiles_.half()),
                   patch.given.data() + row, patch.now.data() + row);
     });
-    // Farther nodes do not matter.
     for (int s = tiles_.sweeps(); s >= 1; --s)
       for (const int odd : {0, 1})
         sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_,
                           patch.given.data(), patch.now.data());
   }
-  float sum[tile_width];
+  float sum[FreeTiles::width];
   for (int j = 0; j < tile.height; ++j) {
     const std::size_t k = node(tile.x, tile.y + j);
     if (tile.swept) {
@@ -246,13 +177,13 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
   }
 }
 
-void ContactPreconditioner::Parts::no_smooth_field() {
+void ContactPreconditioner::no_smooth_field() {
   std::fill(sums_.begin(), sums_.end(), 0.0);
   rest_.set(sums_);
   rest_sum_ = 0;
 }
 
-double ContactPreconditioner::Parts::spread_along_lines(const Residual& r, const Step& step) {
+double ContactPreconditioner::spread_along_lines(const Residual& r, const Step& step) {
   parallel_for(ny_, [&](std::int64_t j) {
     const std::size_t begin = node(0, static_cast<int>(j));
     take(step, begin, static_cast<std::size_t>(nx_));
@@ -266,7 +197,7 @@ double ContactPreconditioner::Parts::spread_along_lines(const Residual& r, const
   return pyramid_.product() * grow_ * grow_;
 }
 
-void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
+void ContactPreconditioner::gather_along_lines(const Keep& keep) {
   if (lines_) {
     std::copy(spread_.begin(), spread_.end(), gathered_.begin());
     lines_->gather(gathered_);
@@ -282,7 +213,7 @@ void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
 }
 
 // Estimated from a few rows, or all if these are 0.
-double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
+double ContactPreconditioner::greatest(const Residual& r, const Step& step) const {
   constexpr int few = 32;
   const auto width = static_cast<std::size_t>(nx_);
   for (const int stride : {std::max(1, ny_ / few), 1}) {
@@ -302,7 +233,7 @@ double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& ste
   return 0;
 }
 
-double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step) {
+double ContactPreconditioner::spread(const Residual& r, const Step& step) {
   // Exact scaling to near 1: single precision has little range.
   const double most = greatest(r, step);
   spread_ = {};
@@ -339,7 +270,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
   return pyramid_.product() * grow_ * grow_;
 }
 
-void ContactPreconditioner::Parts::gather(const Keep& keep) {
+void ContactPreconditioner::gather(const Keep& keep) {
   if (spread_.empty()) {
     for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
     no_smooth_field();
@@ -357,7 +288,7 @@ void ContactPreconditioner::Parts::gather(const Keep& keep) {
   for (std::size_t k = 0; k < sums_.size(); ++k) rest_sum_ += sums_[k] * free_hats_[k];
 }
 
-void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
+void ContactPreconditioner::add_smooth(std::span<double> z) const {
   parallel_for(ny_, [&](std::int64_t j) {
     const std::size_t begin = node(0, static_cast<int>(j));
     add_free(tiles_.marks(begin), smooth(static_cast<int>(j), 1), static_cast<std::size_t>(nx_),
@@ -365,36 +296,17 @@ void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
   });
 }
 
-ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight,
-                                             int sweeps, const ComplianceMultiplier& multiplier)
-    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, sweeps, weight, multiplier)) {}
-
-ContactPreconditioner::~ContactPreconditioner() = default;
-ContactPreconditioner::ContactPreconditioner(ContactPreconditioner&&) noexcept = default;
-ContactPreconditioner& ContactPreconditioner::operator=(ContactPreconditioner&&) noexcept = default;
-
-void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts_->set_free(free); }
-
 void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
-  if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
+  if (r.size() != tiles_.nodes() || z.size() != tiles_.nodes())
     throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
-  parts_->spread(Residual{r.data()}, {});
-  parts_->gather([&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
+  spread(Residual{r.data()}, {});
+  gather([&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
     if (values)
       convert(values, factor, n, z.data() + first);
     else
       std::fill_n(z.data() + first, n, 0.0);
   });
-  parts_->add_smooth(z);
+  add_smooth(z);
 }
-
-double ContactPreconditioner::spread(const Residual& r, const Step& step) { return parts_->spread(r, step); }
-SmoothRow<double> ContactPreconditioner::smooth(int j, double factor) const {
-  return parts_->smooth(j, factor);
-}
-double ContactPreconditioner::smooth_sum() const { return parts_->smooth_sum(); }
-void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
-
-std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
 }  // namespace asperity

@@ -60,7 +60,7 @@ inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes,
   odd = __builtin_convertvector(little ? high : low, MarkVector);
 }
 
-// Nonzero for nonzero bytes; each step is a single instruction.
+// Nonzero for nonzero bytes; one instruction per step.
 inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, MarkVector& marks) {
   using Words = register_vectors::Of<std::uint16_t, node_lanes>::Vector;
   using Bytes = register_vectors::Of<std::uint8_t, node_lanes>::Anywhere;
@@ -274,7 +274,7 @@ Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
 
 namespace {
 inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
-// Nonzero for the nodes that sweeps change.
+// Nonzero where sweeps change nodes.
 inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
   MarkVector bits_of;
   for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;

@@ -13,13 +13,11 @@
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/contact/scene/boundary.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/scratch_pool.hpp"
 
 namespace asperity {
 
-// Row loops on arrays that do not overlap, without bounds checks. Sweeps alternate between the chessboard
-// colours, in place. A patch row stores the odd columns `half` values after the even ones, so neighbours of
-// eight nodes are contiguous.
+// Loops on disjoint arrays, without bounds checks. Sweeps alternate between the chessboard colours, in place.
+// A patch row stores odd columns `half` values after even ones: neighbours of eight nodes are contiguous.
 namespace edge_rows {
 
 constexpr int group = 8;  // nodes of one colour in a sweep
@@ -32,17 +30,15 @@ bool differ(const std::uint8_t* a, const std::uint8_t* b, std::size_t n);
 void copy_marks(const std::uint8_t* from, std::size_t n, std::uint8_t* to);
 // From `place` to place + n.
 void fill_bits(std::size_t place, std::size_t n, std::uint64_t* words);
-// Sets the four neighbours of every bit.
+// To the four neighbours.
 void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<std::uint64_t>& work);
 
 void add_times(double factor, const double* from, std::size_t n, double* to);
 void convert(const double* from, double factor, double offset, std::size_t n, float* to);
 void convert(const float* from, double scale, std::size_t n, double* to);
-// to += row on the free set.
 void add_free(const std::uint8_t* free, const SmoothRow<double>& from, std::size_t n, double* to);
 void fill(const SmoothRow<float>& from, std::size_t n, float* to);
 
-// Adds a row to sums over hats.
 void add_marks(const std::uint8_t* free, std::size_t n, const SmoothExtension::Sums::Row<double>& to);
 void add_residual(const std::uint8_t* free, const double* values, double slope, double offset, std::size_t n,
                   const SmoothExtension::Sums::Row<float>& to);
@@ -57,7 +53,7 @@ void start_free(const std::uint8_t* free, const double* values, double slope, do
 void start_bound(const float* values, std::size_t n, std::size_t place, std::size_t half, float* given,
                  float* now);
 
-// Place of eight nodes in a patch (below 2^24), and a bit for each that is not free.
+// Place of eight nodes in a patch (below 2^24), a bit for each bound node.
 using Group = std::uint32_t;
 constexpr int start_bits = 24;
 // Every second of sixteen marks from bit `lane`.
@@ -100,7 +96,7 @@ class FreeTiles {
   // Initially no node is free.
   FreeTiles(int nx, int ny, Boundary boundary, int sweeps);
 
-  // Free: free[k] != 0. Calls renewed(tile) for each changed patch, from several threads.
+  // Free: free[k] != 0. Calls renewed(tile) for each changed patch, multithreaded.
   void set(std::span<const std::uint8_t> free, const std::function<void(std::size_t tile)>& renewed);
 
   std::size_t count() const { return tiles_.size(); }
@@ -118,17 +114,16 @@ class FreeTiles {
   // From even to odd columns.
   std::ptrdiff_t half() const { return width / 2 + margin_ + edge_rows::group; }
   std::size_t row_places() const { return 2 * static_cast<std::size_t>(half()); }
-  // Start of patch row j (one extra row on either side), and of tile row j.
+  // Start of row j of the patch (an extra row on either side), of the tile.
   std::size_t patch_row(int j) const { return static_cast<std::size_t>(j + 1) * row_places(); }
   std::size_t core_row(int j) const { return patch_row(j + sweeps_) + static_cast<std::size_t>(margin_ / 2); }
   std::size_t patch_places() const { return patch_row(height + 2 * sweeps_ + 1) + edge_rows::group; }
 
-  // Calls run(column, node, length) for the parts of patch row j on the grid.
+  // Calls run(column, node, length) for row j on the grid.
   template <class Run>
   void each_run(const FreeTile& tile, int j, const Run& run) const;
 
  private:
-  // Free, on the grid but not free, near free.
   struct Bits {
     Array<std::uint64_t> free, bound, near, nearer, found;
     explicit Bits(std::size_t words) : free(words), bound(words), near(words), nearer(words), found(words) {}

@@ -23,8 +23,8 @@ constexpr double squareness = 1.15;
 
 constexpr int coarsest = 16;
 
-// Thickness in cells: the stencil's waves then have |q| t >= 2.4 and a share >= .75, except on nearly
-// incompressible layers. Fewer transforms than with 4.
+// Cells. The stencil's waves then have |q| t >= 2.4 and a share >= .75, except on nearly incompressible
+// layers.
 constexpr double least_thickness = 1.5;
 constexpr int halo = 2;
 
@@ -99,7 +99,6 @@ inline __attribute__((always_inline)) void interpolate(const float* coarse, int 
   to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
 }
 
-// For registers of nodes, then for single nodes.
 template <class Loop>
 inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
   int i = 0;
@@ -111,7 +110,7 @@ struct FiveRows {
   const float *far_below, *below, *here, *above, *far_above;
 };
 
-// Column sums: own column with the coarse part, ±1, ±2.
+// Own column with the coarse part, ±1, ±2.
 void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
   each(n, [=, rows = five]<class Value>(int i) {
     Value far_below, below, here, above, far_above, from_coarse;
@@ -140,7 +139,7 @@ void stencil_rows(const float* c0, const float* c1, const float* c2, int n, floa
   });
 }
 
-// Sums of up to 32 terms in single precision, added in double.
+// Up to 32 terms in single precision, sums in double.
 double product_of_rows(const float* a, const float* b, int n) {
   constexpr int sums = 16, chunk = 32 * sums, parts = sums / lanes;
   double total = 0;
@@ -171,8 +170,8 @@ std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, dou
   const bool wraps = boundary == Boundary::periodic;
   double thickness = multiplier.length;
   while (std::min(levels.back().nx, levels.back().ny) > coarsest && thickness >= least_thickness) {
-    // A coarse node beyond a free rim still feels the last fine node. On odd periodic sides the first and
-    // last coarse nodes are neighbours.
+    // A coarse node beyond a free rim feels the last fine node. On odd periodic sides first and last coarse
+    // nodes are neighbours.
     const auto half = [wraps](int n) { return wraps ? (n + 1) / 2 : n / 2 + 1; };
     levels.push_back({half(levels.back().nx), half(levels.back().ny), {}, {}});
     thickness /= 2;
@@ -257,7 +256,7 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int rows = rows_per_block(nx);
   const std::int64_t blocks = block_count(fine.ny, rows);
   const bool finest = &fine == &levels_.front();
-  // On odd sides W couples the first and last nodes.
+  // Odd sides: W couples first and last nodes.
   const bool seam_x = wraps_ && nx % 2 != 0, seam_y = wraps_ && fine.ny % 2 != 0;
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {

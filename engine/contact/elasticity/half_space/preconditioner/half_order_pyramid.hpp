@@ -19,18 +19,18 @@ namespace asperity {
 
 class HalfOrderPyramid {
  public:
-  // `weight`: of a transform, in transforms of the finest grid.
+  // `weight` as in ContactPreconditioner.
   HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                    const ComplianceMultiplier& multiplier = {});
 
   // nx·ny values row by row; apply() preserves it.
   std::span<float> input() { return levels_.front().in; }
-  // Valid until the next call. Same bits for any number of threads.
+  // Valid until the next call; same bits for any number of threads.
   std::span<const float> apply();
   // a·B a of the last call.
   double product() const { return product_; }
 
-  // Relative to one transform pair on this grid. Counted if above a thousandth.
+  // Relative to a transform pair on this grid. Counted above a thousandth.
   double transform_share() const { return transform_share_; }
 
   static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,

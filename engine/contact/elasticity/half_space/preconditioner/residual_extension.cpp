@@ -8,7 +8,7 @@
 namespace asperity {
 
 namespace {
-// Nodes between points; share of a hat's mass. A factor of two in either changes little.
+// Nodes between points; share of a hat's mass. Factors of two change little.
 constexpr int spacing = 32;
 constexpr double reluctance = 0.03;
 
@@ -49,7 +49,7 @@ HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::per
   end.resize(static_cast<std::size_t>(hats));
   mass.resize(static_cast<std::size_t>(hats));
   for (int k = 0; k < nodes; ++k) {
-    // The free rim is half a cell beyond the last node.
+    // The free rim: half a cell beyond the nodes.
     const double place = (wraps ? k : k + 0.5) * steps / nodes;
     const int hat = std::min(static_cast<int>(place), steps - 1);
     const auto node = static_cast<std::size_t>(k);
@@ -160,7 +160,7 @@ template void SmoothExtension::Sums::finish(std::span<float>);
 template void SmoothExtension::Sums::finish(std::span<double>);
 
 namespace {
-// Lines beat sweeps from this aspect; measured on 96 × 96 cells, aspect 4 to 1000.
+// Lines beat sweeps from here; measured on 96 × 96 cells, aspect 4 to 1000.
 constexpr double long_cells = 25, long_cells_of_free_tile = 50;
 }  // namespace
 

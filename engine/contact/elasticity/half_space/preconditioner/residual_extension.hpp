@@ -46,13 +46,13 @@ class SmoothExtension {
  public:
   SmoothExtension(int nx, int ny, Boundary boundary);
 
-  // Over a rectangle, row by row from the first; rows without contribution may be skipped.
+  // Over a rectangle, row by row; rows without contribution may be skipped.
   class Sums {
    public:
     Sums(const SmoothExtension& hats, int x, int y, int width, int height);
     void clear();
-    // Add low_share times each value of row y to `low`, high_share times to `high`. `work`: 2·width values,
-    // preserved between rows.
+    // Add low_share times row y to `low`, high_share times to `high`. `work`: 2·width values, preserved
+    // between rows.
     template <class Work>
     struct Row {
       Work *low, *high;
@@ -96,8 +96,8 @@ class SmoothExtension {
   };
 
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
-  // Divisor for the hat's sum over the free nodes; `free`: its sum of 1. It exceeds `free`, so a lone
-  // contact is not spread over the surface.
+  // Divisor for the hat's sum over the free nodes; `free`: its sum of 1. Exceeds `free`: a lone contact is
+  // not spread over the surface.
   double divisor(std::size_t hat, double free) const;
 
  private:
@@ -107,9 +107,8 @@ class SmoothExtension {
   HatAxis x_, y_;
 };
 
-// For cells much longer than wide, where only jumps along a line (short side) are expensive. Linear
-// interpolation between the free nodes of a line, then between lines with free nodes. Linear, with its exact
-// transpose.
+// For long cells, where only jumps along a line (short side) are expensive. Linear interpolation between the
+// free nodes of a line, then between lines with free nodes, with its exact transpose.
 class LineExtension {
  public:
   // `along_x`: lines are rows.
@@ -118,13 +117,13 @@ class LineExtension {
   static bool serves(double aspect, Boundary boundary);
 
   void set_free(std::span<const std::uint8_t> free);
-  // From the free nodes to all others. Same bits for any number of threads.
+  // From free nodes to all others. Same bits for any number of threads.
   void extend(std::span<float> field) const;
   // The transpose: sums on the free nodes, 0 elsewhere.
   void gather(std::span<float> field) const;
 
  private:
-  // Nearest lines with free nodes; twice itself, −1 if none.
+  // With free nodes; twice itself, −1 if none.
   struct Beside {
     int low = -1, high = -1;
     float share = 0;  // weight of `high`
@@ -136,7 +135,7 @@ class LineExtension {
     const auto at = static_cast<std::size_t>(line);
     return std::span(free_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
   }
-  // share(k, low, high, t) for each node that is not free, t of the way between two free ones.
+  // share(k, low, high, t) for each other node, t of the way between two free ones.
   template <class Share>
   void each_between(int line, const Share& share) const;
 

@@ -12,27 +12,24 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
-#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 
 namespace asperity {
 
 namespace {
 using namespace descent_rules;
 
-// Applications of K in a pass that settles; fewer if K is expensive or with hardening. A pass without
-// settling takes one: more cost up to two thirds more. With hardening, one stalled three times as many
-// random scenes (6 of 20 000).
+// Applications of K in a settling pass; fewer if K is expensive or with hardening, where one stalled three
+// times as many random scenes (6 of 20 000). Other passes take one: more cost up to two thirds more.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
 // From this tolerance up directions are single: half the memory traffic, mirrored contacts equal to 1e-9.
 constexpr double single_enough = 5e-9;
-constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images of fewer save no time
-// Relative error of the gaps per pass; 1.3e-6 measured for a whole solve on 2048². A settling pass can
-// recompute the gaps at no cost.
+constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; fewer save no time
+// Relative error of the gaps per pass (1.3e-6 in a whole solve on 2048²). Settling can recompute gaps at no
+// cost.
 constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance
-constexpr double load_slack = 1e-6;                               // relative load error left to a later pass
+constexpr double load_slack = 1e-6;                               // relative, left to a later pass
 
 // Row of a direction: stored M r, beta times the previous direction, smooth field; load not balanced.
 template <class Stored>
@@ -52,12 +49,12 @@ struct Along {
   }
 };
 
-// The last two directions and pending steps along them, taken by the next loop over the fields to save a
-// pass over memory. Rounding a direction is harmless: pressures and gaps use the rounded values.
+// Two directions and pending steps, taken by the next loop over the fields to save a pass over memory.
+// Rounding them is harmless: pressures and gaps use rounded values.
 template <class Stored>
 class DescentDirections {
  public:
-  // Takes the oldest pending step; its memory is reused.
+  // Takes the oldest pending step and reuses its memory.
   Stored* next(std::span<double> pressure);
   Stored* last() { return now_.data(); }
   Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
@@ -67,12 +64,12 @@ class DescentDirections {
     return {now_.data(), beta != 0 ? before_.data() : now_.data(), beta, smooth};
   }
 
-  // `image` must persist until the gaps have taken the step.
+  // `image` must persist until the gaps take the step.
   void go(double length, const double* image) {
     step_.along[0].length = step_.gap_length = length;
     step_.image = image;
   }
-  // The last direction and its image may contain NaN; `finite` replaces the image.
+  // The direction and its image may contain NaN; `finite` replaces the image.
   void drop_last(std::span<const double> finite) {
     step_.along[0] = {0, step_.along[1].direction};
     step_.image = finite.data();
@@ -178,7 +175,7 @@ class Descent {
   double surplus_ = 0;   // load of the direction per balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
   double beta_ = 0;
-  double drift_ = 0;  // bound on the rounding of the gaps, as a residual
+  double drift_ = 0;  // bounds the rounding of gaps, as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
@@ -190,8 +187,8 @@ ContactQuality Descent<Limit, Stored>::quality() {
   return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
 }
 
-// target = settled pressures, the elastic interior shifted to the load. If the interior cannot carry the
-// load, all nodes move by their gaps.
+// target = settled pressures, with the elastic interior shifted to the load. Without enough interior, all
+// nodes move by their gaps.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
@@ -213,12 +210,12 @@ void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double>
   project_to_load(target, {}, upper, level_.total_load(), target);
 }
 
-// First of two Newton steps to the shift of project().
+// First of two Newton steps of project().
 double first_shift(const ContactQuality& at, double load) {
   return at.interior > 0 ? (load - at.load) / at.interior : 0.0;
 }
 
-// Shift after two Newton steps; empty if the first leaves an error of 1 % of the load or more.
+// By two Newton steps; empty if the first leaves 1 % of the load or more.
 template <class Limit, class Stored>
 std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
   if (keeps_line_loads_) return {};
@@ -227,16 +224,16 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// Sets the direction from M r, r = mean gap − gap on the free nodes. Returns r·M r.
+// Direction from M r, r = mean gap − gap on the free nodes. Returns r·M r.
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
   const double shrink = 1 / level_.pressure_unit();
   Stored* const direction = directions_.next(f_.pressure);
-  // r carries no load, so r·M r needs no balance.
+  // r has no load: r·M r needs no balance.
   double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
-    for_marked_nodes(f_.free, [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
+    for_nodes(nodes(), [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
       const double all = mean - n.total_gap(k);
       to[k] = n.moves(k) ? all : 0.0;
     });
@@ -288,7 +285,7 @@ Along<Stored> Descent<Limit, Stored>::along(int j) const {
   return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
-// Settled nodes yield from now on. Returns the sum of the balancing gaps.
+// Settled nodes yield from now on. Returns the balancing gaps' sum.
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::yield_settled() {
   for (std::uint8_t& kind : f_.free)
@@ -302,8 +299,8 @@ double Descent<Limit, Stored>::yield_settled() {
   })[0];
 }
 
-// Settling (and a fixed step if K is expensive) with one application, which updates the gaps or recomputes
-// them in double.
+// One application for settling and, if K is expensive, a fixed step; updates the gaps or recomputes them in
+// double.
 template <class Limit, class Stored>
 void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) {
   const std::optional<double> shift = shift_to_load(at);
@@ -319,7 +316,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
                            std::size_t k, double along, double target) {
     const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
     const double descent = richardson_step * unit * z, next = target + (n.moves(k) ? descent : 0.0);
-    n.pressure[k] = next;  // exactly at the bound if it does not move
+    n.pressure[k] = next;  // unmoved: exactly at the bound
     return (next - (afresh ? immobile : p)) * shrink;
   };
   const auto move = [&](int j, double* to, const auto& target) {
@@ -349,7 +346,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
       move(j, to, [from = f_.image.data()](std::size_t k) { return from[k]; });
     return step;
   };
-  // Nodes that yield after settling do not balance.
+  // Nodes yielding after settling do not balance.
   const Freedom balances = set_.balancing();
   Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
   const auto sink = [&](int j, const double* image) {
@@ -358,14 +355,14 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
     rows[static_cast<std::size_t>(j)] = take_image(view(), begin, begin + nx, image, unit, balances);
   };
   if (afresh)
-    level_.apply_in_double(source, sink, f_.image);  // in place: row j is read before it is written
+    level_.apply_in_double(source, sink, f_.image);  // in place: row j is read before written
   else
     level_.apply(source, sink, rounds_);
   const double gaps = set_.settling_count > 0 ? yield_settled() : added_up(rows)[0];
   mean_gap_ = gaps / set_.balancing_count();
 }
 
-// `steps` were taken already. Returns false without any step.
+// After `steps` steps. False without any step.
 template <class Limit, class Stored>
 bool Descent<Limit, Stored>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
@@ -405,7 +402,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
       directions_.drop_last(f_.gap);
       break;
     }
-    // Without hardening r·M r is known in single precision only.
+    // Without hardening r·M r is single precision only.
     const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
     mean_gap_ += length * (sums[1] / set_.balancing_count());
     directions_.go(length, f_.image.data());
@@ -423,11 +420,11 @@ bool Descent<Limit, Stored>::run() {
   f_.old_free.assign(nodes(), 255);
   for (;;) {
     ContactQuality at = quality();
-    if (level_.report) level_.report(at.residual);
+    level_.report_pass(at.residual);
     if (at.residual < tolerance_) {
       const bool loaded = std::abs(at.load - level_.total_load()) < tolerance_ * level_.total_load();
       if (!exact_ || (at.within && fresh_ && loaded)) return true;
-      if (++renewals > most_renewals) {  // feasible pressures are worse again each time
+      if (++renewals > most_renewals) {  // pressures are worse again each time
         project(at, f_.pressure);
         return false;
       }
@@ -462,7 +459,7 @@ bool Descent<Limit, Stored>::run() {
     if (afresh) drift_ = 0;
     if (rounds_) drift_ += rounding;
     if (settles) settle_step(at, afresh);
-    if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
+    if (!descend(settles ? 1 : 0)) {  // free nodes balance to the last bit
       project(at, f_.pressure);
       return false;
     }
@@ -470,18 +467,35 @@ bool Descent<Limit, Stored>::run() {
     std::swap(f_.free, f_.old_free);
   }
 }
-}  // namespace
 
-bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
-                        bool exact) {
+// Returns whether residual < tolerance; pressures are feasible before and after failure. `exact`: also after
+// success, with a fresh gap.
+bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, bool exact) {
   const auto run = [&]<class Stored>(const auto& limit, Stored) {
-    return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
-                                                                 most_applications, exact)
+    return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance, quick,
+                                                                 exact)
         .run();
   };
   if (const auto* hardening = std::get_if<LinearHardening>(&level.limit)) return run(*hardening, double{});
   const PressureCap& cap = std::get<PressureCap>(level.limit);
   return tolerance >= single_enough ? run(cap, float{}) : run(cap, double{});
+}
+}  // namespace
+
+DescentEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort) {
+  const auto descend = [&] {
+    return active_set_descent(level, fields, tolerance, effort != ChainEffort::start);
+  };
+  const auto shake = [&](int most) {
+    Array<double> direction(level.nodes()), image(level.nodes());
+    return std::visit(
+        [&](const auto& limit) {
+          return spectral_gradient(level, limit, fields.pressure, fields.gap, direction, image, tolerance,
+                                   most);
+        },
+        level.limit);
+  };
+  return run_stages(effort, descend, shake);
 }
 
 }  // namespace asperity

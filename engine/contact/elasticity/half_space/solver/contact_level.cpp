@@ -24,7 +24,7 @@ double compliance_of_long_waves(const LevelShape& shape) {
                                    : longest / std::numbers::pi;
 }
 
-// Of the preconditioner. With four, one random scene in 2000 with weak hardening stalled.
+// With four, one random scene in 2000 with weak hardening stalled.
 int sweeps_under(const PressureLimit& limit) {
   return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
 }
@@ -33,7 +33,8 @@ int sweeps_under(const PressureLimit& limit) {
 ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
                            double height_origin, double height_factor, PressureLimit pressure_limit,
                            double mean)
-    : shape(level_shape),
+    : AllNodes(level_shape.nodes()),
+      shape(level_shape),
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
       compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single,
@@ -55,13 +56,7 @@ void ContactLevel::unpressed_gap(std::size_t first, std::size_t n, double* g) co
   });
 }
 
-void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
-  gap_beside(p, immobile_pressure(), g);
-}
-
-void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) { gap_beside(p, 0, g); }
-
-void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<double> g) {
+void ContactLevel::gap_beside(double mean, std::span<const double> p, std::span<double> g) {
   ++applications;
   const auto nx = static_cast<std::size_t>(shape.nx);
   const auto source = [=](int j, double* row) -> const double* {
@@ -81,12 +76,12 @@ void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<
 namespace {
 constexpr int least_side = 32;
 
-// Even if possible, so that nesting can continue.
+// Even if possible, for further nesting.
 int coarser_side(int n, Boundary boundary) {
   if (n < 2 * least_side) return n;
   if (n % 2 == 0) return n / 2;
   if (boundary == Boundary::free) return (n + 1) / 2;
-  // A multiple of four, for further nesting and fast transforms.
+  // A multiple of four, for nesting and fast transforms.
   return (n / 2 + 3) / 4 * 4;
 }
 
@@ -105,7 +100,7 @@ std::optional<CoarserGrid> coarser(const LevelShape& fine) {
   const int nx = coarser_side(fine.nx, fine.boundary), ny = coarser_side(fine.ny, fine.boundary);
   if (nx == fine.nx && ny == fine.ny) return {};
   CoarserGrid coarse;
-  // A free tile keeps every other node; a periodic one must close.
+  // A free tile keeps every other node; periodic tiles must close.
   auto pitch = [&](int n, int m) {
     if (n == m) return 1.0;
     return fine.boundary == Boundary::free ? 2.0 : static_cast<double>(n) / m;

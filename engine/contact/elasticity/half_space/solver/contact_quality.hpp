@@ -4,24 +4,24 @@
 // Pressures outside their bounds count as settled; the load is not judged.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 struct ContactQuality {
-  double residual = 0;  // greatest entry
-  double penetration = 0, complementarity = 0;
+  double residual = 0;      // greatest entry
   double offset = 0;        // δ of the residual
-  double interior_gap = 0;  // mean g of the elastic interior, or a substitute
+  double interior_gap = 0;  // mean over the elastic interior, or a substitute
   double interior = 0;      // elastic nodes
-  double yielded = 0;       // nodes past their yield pressure
   double load = 0;          // Σ p, settled
-  double settled = 0;       // settled nodes
-  bool within = true;
+  bool within = true;       // nothing settled
 };
 
 // Pending steps: p += Σ length · direction, g += gap_length · image.
@@ -51,12 +51,110 @@ struct PressureStep {
   }
 };
 
-// One pass over the nodes, two with a cap. `balance` as in PressureLimit::settle.
+// Without hardening. `level`: ContactLevel or SlabLevel.
+namespace contact_measures {
+
+// Complementarity averages over the load. If yielding nodes carry nearly all load, the few others fix offset
+// and plastic volume.
+constexpr double open_weight = 0.125;
+
+// At a node or a vector of nodes.
+struct AsStored {
+  const double *p, *g;
+  template <class Value>
+  void operator()(std::size_t k, Value& pressure, Value& gap) const {
+    lane_terms::read(p + k, pressure);
+    lane_terms::read(g + k, gap);
+  }
+};
+
+template <class Level, class Take>
+ContactQuality measure_uncapped(Level& level, Take take) {
+  const auto found = level.template in_lanes<5, 1>([=]<class Value>(std::size_t k, Value* v) {
+    Value p, g;
+    take(k, p, g);
+    const Value none = {}, one = none + 1.0, q = p <= none ? none : p;
+    v[0] = p <= none ? none : one;
+    v[1] = p <= none ? none : g;
+    v[2] = q;
+    v[3] = q * g;
+    v[4] = p < none ? one : none;
+    v[5] = g;
+  });
+  ContactQuality quality;
+  quality.interior = found[0];
+  quality.load = found[2];
+  quality.within = found[4] == 0;
+  quality.interior_gap = found[0] > 0 ? found[1] / found[0] : found[5];
+  const double weighted = found[3] / found[2];
+  quality.offset = weighted;
+  quality.residual = std::max(0.0, weighted - found[5]) / level.length;
+  if (std::isnan(weighted - found[5])) quality.residual = infinity;
+  return quality;
+}
+
+// Without an elastic interior.
+inline double middle(double least_open, double greatest_saturated) {
+  if (std::isfinite(least_open) && std::isfinite(greatest_saturated))
+    return 0.5 * (least_open + greatest_saturated);
+  return std::isfinite(least_open) ? least_open : greatest_saturated;
+}
+
+template <class Level, class Take>
+ContactQuality measure_capped(Level& level, double upper, AsStored stored, Take take) {
+  const auto found = level.template in_lanes<4, 2>([=]<class Value>(std::size_t k, Value* v) {
+    Value p, g;
+    take(k, p, g);
+    const Value none = {}, one = none + 1.0, never = none + infinity, most = none + upper;
+    const Value positive = p > none ? p : none;
+    const Value inside = p < most ? one : none, interior = p > none ? inside : none;
+    v[0] = interior;
+    v[1] = interior > none ? g : none;
+    v[2] = p < most ? positive : most;
+    const Value too_large = p > most ? one : none;
+    v[3] = p < none ? one : too_large;
+    v[4] = p <= none ? g : never;
+    v[5] = p >= most ? -g : never;
+  });
+  ContactQuality quality;
+  quality.interior = found[0];
+  quality.load = found[2];
+  quality.within = found[3] == 0;
+  quality.interior_gap = found[0] > 0 ? found[1] / found[0] : middle(found[4], -found[5]);
+  const double offset = quality.offset = quality.interior_gap;
+  const auto apart = level.template in_lanes<1, 2>([=]<class Value>(std::size_t k, Value* v) {
+    Value pressure, gap;
+    stored(k, pressure, gap);
+    gap -= offset;
+    const Value none = {}, most = none + upper, never = none + infinity;
+    const Value positive = pressure > none ? pressure : none, q = positive < most ? positive : most;
+    const Value lacking = q - most;
+    v[0] = (gap > none ? q : lacking) * gap;
+    v[1] = q < most ? gap : never;
+    v[2] = q > none ? -gap : never;
+  });
+  const double complementarity = apart[0] / (quality.load * level.length);
+  const double penetration = std::isfinite(apart[1]) ? std::max(0.0, -apart[1]) / level.length : 0.0;
+  const double open = std::isfinite(apart[2]) ? std::max(0.0, -apart[2]) / level.length : 0.0;
+  quality.residual = std::max({complementarity, penetration, open_weight * open});
+  if (std::isnan(quality.residual)) quality.residual = infinity;
+  return quality;
+}
+
+// `take`: as AsStored, after pending steps.
+template <class Level, class Take>
+ContactQuality measure_bounded(Level& level, double upper, AsStored stored, Take take) {
+  return std::isfinite(upper) ? measure_capped(level, upper, stored, take) : measure_uncapped(level, take);
+}
+
+}  // namespace contact_measures
+
+// One pass, two with a cap. `balance` as in PressureLimit::settle.
 ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p,
                                std::span<const double> g,
                                double balance = std::numeric_limits<double>::quiet_NaN());
 
-// After `step`, taken in the same pass.
+// After `step`, in the same pass.
 template <class Stored>
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
                                const PressureStep<Stored>& step, double balance);

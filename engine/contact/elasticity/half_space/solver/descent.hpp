@@ -4,11 +4,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
@@ -37,14 +42,14 @@ struct DescentFields {
   }
 };
 
-// Shared by the serial and the distributed descent.
 namespace descent_rules {
 
 inline constexpr double richardson_step = 0.65;  // of the preconditioner
 inline constexpr int passes_without_gain = 4;
 inline constexpr int most_renewals = 50;
+inline constexpr int quick = 300;  // applications of the quick stage
 
-// Whether a descent still gains, and whether a few nodes alternate between two passes.
+// Detects lack of gain, and few nodes alternating between two passes.
 class Watch {
  public:
   void take(double residual) {
@@ -58,7 +63,7 @@ class Watch {
   int without_gain() const { return without_gain_; }
 
   enum class Advice { go_on, remember_pass, average_passes };
-  // If the next pass also reverses, its result is averaged with the stored one.
+  // If the next pass also reverses, it is averaged with the stored one.
   Advice advice() {
     if (remembers_ && goes_back(0)) {
       slow_ones_ = jumps_ = 0;
@@ -91,30 +96,115 @@ struct DescentEnd {
   std::string stage;
 };
 
-// From feasible pressures. Returns whether residual < tolerance; if not, pressures are feasible. `exact`:
-// converged pressures are feasible too, with a fresh gap.
-bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
-                        bool exact);
-
 // Spectral projected gradients (Birgin, Martínez & Raydan 2000, SIAM J. Optim. 10, 1196): alternating
 // Barzilai–Borwein steps, exact projection, nonmonotone over a window. Slow, feasible, convergent in theory:
-// last resort, and shaker of the free set. Returns whether residual < tolerance, gap fresh.
-bool spectral_gradient(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications);
+// last resort, and shaker of the free set. Returns whether residual < tolerance, gap fresh. `level`:
+// ContactLevel or SlabLevel; `d`, `image`: work.
+template <class Level, class Limit>
+bool spectral_gradient(Level& level, const Limit& law, std::span<double> p, std::span<double> g,
+                       std::span<double> d, std::span<double> image, double tolerance,
+                       int most_applications) {
+  constexpr std::size_t window = 8;
+  constexpr int renewals = 20;  // steps between fresh gaps
+  const double load = level.total_load(), upper = law.upper();
+  const int last = level.applications + most_applications;
+  const auto project = [&](std::span<double> x) {
+    project_to_load(level, x.data(), nullptr, upper, load, Level::resolves_shifts, x.data());
+  };
+  const auto opening_slope = [=, p = p.data()](std::size_t k) {
+    return law.opening(k, p[k]) > 0 ? law.yielding_slope() : 0.0;
+  };
+  const auto total_gap = [=, p = p.data(), g = g.data()](std::size_t k) {
+    return g[k] + law.opening(k, p[k]);
+  };
+
+  level.gap(p, g);
+  bool fresh = true;
+  std::array<double, window> energies;
+  energies.fill(-std::numeric_limits<double>::infinity());
+  double energy = 0, pace = 0.5;
+  energies[0] = energy;
+  for (int step = 0;; ++step) {
+    const ContactQuality at = contact_quality(level, p, g);
+    level.report_pass(at.residual);
+    if (at.residual < tolerance) {
+      if (fresh) return true;
+      level.gap(p, g);
+      fresh = true;
+      continue;
+    }
+    if (level.applications >= last || !std::isfinite(at.residual)) return false;
+
+    const double middle = at.interior_gap;
+    level.each([=](std::size_t k) {
+      const double stiff = 1 + pace * opening_slope(k);
+      d[k] = p[k] - pace / stiff * (total_gap(k) - middle);
+    });
+    project(d);
+    level.each([=](std::size_t k) { d[k] -= p[k]; });
+    level.apply(std::span<const double>(d), image);
+    const auto sums = level.template over<4>([=](std::size_t k, double* v) {
+      const double bent = image[k] + opening_slope(k) * d[k];
+      v[0] = (total_gap(k) - middle) * d[k];
+      v[1] = d[k] * bent;
+      v[2] = bent * bent;
+      v[3] = d[k] * d[k];
+    });
+    const double slope = sums[0], curvature = sums[1];
+    if (!(curvature > 0)) return false;
+    const double highest = *std::max_element(energies.begin(), energies.end());
+    const double t = energy + slope + 0.5 * curvature > highest ? std::min(1.0, -slope / curvature) : 1.0;
+    level.each([=](std::size_t k) {
+      p[k] = t == 1 ? p[k] + d[k] : std::min(std::max(p[k] + t * d[k], 0.0), upper);
+      g[k] += t * image[k];
+    });
+    energy += t * slope + 0.5 * t * t * curvature;
+    energies[static_cast<std::size_t>(step + 1) % window] = energy;
+    fresh = false;
+    pace = step % 2 == 0 ? sums[3] / curvature : curvature / sums[2];
+    if (step % renewals == renewals - 1) {
+      project(p);
+      level.gap(p, g);
+      fresh = true;
+    }
+  }
+}
 
 enum class ChainEffort {
-  start,  // start of a finer grid: pressures may leave their bounds
+  start,  // for a finer grid: pressures may leave their bounds
   brief,  // without the last resort
   quick,  // at an offset: the same with a fresh gap
-  less,   // at an offset: fewer downhill passes
+  less,   // fewer downhill passes at an offset
   full    // up to thousands of projected gradients
 };
 
-// Stages in turn until one converges, the quick one first.
+// Stages until one converges, the quick one first. `descend()` and `shake(most_applications)` return whether
+// they converged.
+template <class Descend, class Shake>
+DescentEnd run_stages(ChainEffort effort, const Descend& descend, const Shake& shake) {
+  constexpr int a_few = 12, last_resort = 3000;
+  DescentEnd end;
+  for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
+    if (stage == 4) {
+      end.converged = shake(last_resort);
+      end.stage = "spectral projected gradients, after the descents stalled";
+    } else if (stage % 2 == 1) {
+      end.converged = shake(a_few);
+      end.stage = "spectral projected gradients";
+    } else {
+      end.converged = descend();
+      end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
+    }
+  }
+  return end;
+}
+
+// active_set_descent.cpp.
 DescentEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort);
 
 // offset_descent.cpp. `gap_known`: fields.gap is K p − h and pressures may be infeasible. Ends with feasible
-// pressures and, if converged, a fresh (full), updated (brief) or unsettled (start) gap. The residual is
-// relative to level.length. Elastic full contact of a periodic tile does not converge.
+// pressures and, if converged, a fresh (full), updated (brief) or unsettled (start) gap. Residuals are
+// relative to level.length. Periodic elastic full contact does not converge.
 DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
                             ChainEffort effort, bool gap_known);
 

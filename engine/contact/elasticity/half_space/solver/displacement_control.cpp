@@ -44,25 +44,24 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
 
 namespace {
 
-// Pressures so large that the height terms vanish in rounding are rejected.
+// Rejects pressures whose rounding hides the heights.
 void check_approach(const HalfSpaceProblem& problem, double approach) {
   if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
     refuse("`approach` is " + format_short(approach) +
-               " m, less than 1e-280 of the tile: no double holds the pressures it takes",
-           "give a larger approach, or none");
+               " m, less than 1e-280 of the tile: its pressures are too small for doubles",
+           "give a larger approach, or 0");
   if (problem.boundary != Boundary::periodic) return;
   const auto heights = problem.heights->values();
   const Range span = range(heights);
   const YieldLaw& law = problem.yield;
   const double full = approach_of_full_contact(problem), uniform = uniform_compliance(problem);
   if (uniform > 0) {
-    // A layer is compressed further, up to its hardness.
+    // A layer goes further, up to its hardness.
     const double most = span.span() + uniform * law.cap;
     if (!law.caps() || approach < most) return;
     refuse_infeasible("an approach of " + metres(approach) +
-                          " cannot be reached: all of this tile is at its hardness at " + metres(most) +
-                          ", and carries no more",
-                      "ask for a smaller `approach`, or press by `pressure`");
+                          " cannot be reached: the whole tile is at its hardness at " + metres(most),
+                      "give a smaller `approach`, or press by `pressure`");
   }
   if (law.hardens()) {
     constexpr double greatest_ratio = 1e12;
@@ -72,19 +71,18 @@ void check_approach(const HalfSpaceProblem& problem, double approach) {
     if (needed <= held || approach <= full) return;
     refuse_infeasible("an approach of " + metres(approach) +
                           " cannot be reached: this periodic tile is in full contact at " + metres(full) +
-                          ", and past it `hardening` would take a mean pressure of " +
+                          ", and more would need a mean pressure of " +
                           format_quantity(needed, dimension::pressure),
-                      "ask for a smaller `approach`, or give a smaller `hardening`");
+                      "give a smaller `approach`, or a smaller `hardening`");
   }
   const double most = law.caps() ? span.span() : full;
   if (approach >= most)
     refuse_infeasible("an approach of " + metres(approach) +
-                          " cannot be reached: this periodic tile is in full contact at " + metres(most) +
-                          ", and more load brings it no nearer",
-                      "ask for a smaller `approach`, or press by `pressure`");
+                          " cannot be reached: this periodic tile is in full contact at " + metres(most),
+                      "give a smaller `approach`, or press by `pressure`");
 }
 
-// Beyond full contact a layer is linear. Empty below full contact, with yield, and on a half-space.
+// Beyond full contact a layer is linear. Empty below full contact, with yield, on a half-space.
 std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem, double approach) {
   const double uniform = uniform_compliance(problem);
   const double compression = approach - approach_of_full_contact(problem);
@@ -99,7 +97,7 @@ std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
     refuse("`approach` is " + metres(approach),
-           "an approach is finite and not negative, measured from first touch");
+           "give a finite length from zero up, measured from first touch");
   if (approach == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   check_approach(problem, approach);
   if (const auto pressure = pressure_past_full_contact(problem, approach)) {
@@ -107,7 +105,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     answer.approach = approach;  // exact up to rounding
     return answer;
   }
-  // At full contact up to rounding: all loads from the least on have this approach.
+  // Full contact up to rounding: all loads from the least on.
   const double full = approach_of_full_contact(problem);
   const double apart = std::abs(approach - full) / std::min(full, problem.rms);
   const bool rough = known_range(problem.heights->values()).span() > 0;

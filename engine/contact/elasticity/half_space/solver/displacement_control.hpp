@@ -13,28 +13,27 @@
 namespace asperity {
 
 // approach in m from first touch, >= 0. Throws as solve_at_pressure, and Error{infeasible} with every node at
-// the cap or beyond periodic full contact: max h − mean h without yield; with hardening, where pressures hide
-// the heights in rounding.
+// the cap or beyond periodic full contact: max h − mean h without yield; with hardening, where rounding hides
+// the heights.
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
 // `fraction`: share of the peak-to-valley pressed away, 0 … 1: 1 − span(h − u − w)/span(h). At 1: the least
-// load of full contact (slightly more, as `solver` reports, if a large hardness hides full contact in
-// rounding). With hardening or on a free tile: any sufficient load.
+// load of full contact (slightly more, as `solver` reports, if a large hardness hides it in rounding). With
+// hardening or on a free tile: any sufficient load.
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor);
 
-// The flattened share; 0 for flat heights. O(n), or one application if the approach is below 1e-4 of the
-// heights.
+// 0 for flat heights. O(n), or one application for approaches below 1e-4 of the heights.
 double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer);
 
-// max h − mean h, m; a layer's compression is excluded.
+// max h − mean h, m; without a layer's compression.
 double approach_of_full_contact(const HalfSpaceProblem& problem);
 
-// Least mean pressure [Pa] of periodic full contact without yield; empty if there is none. One application.
+// Least mean pressure [Pa] of periodic full contact without yield, or empty. One application.
 std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem);
 
-// A load [Pa] that flattens a periodic tile completely, ignoring a cap: the load of elastic full contact or,
-// if smaller, the least with yield at all nodes, (K + 1/K_h) p = h + Y/K_h + δ. An estimate on a free tile.
-// Empty if there is none. One or two applications.
+// A load [Pa] that flattens a periodic tile completely, ignoring a cap: elastic full contact or, if smaller,
+// the least load with yield at all nodes, (K + 1/K_h) p = h + Y/K_h + δ. Estimated on a free tile. Empty if
+// none. One or two applications.
 std::optional<double> load_of_all(const HalfSpaceProblem& problem);
 
 }  // namespace asperity

@@ -28,7 +28,7 @@ double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t 
   return law.hardens() ? std::max(0.0, answer.pressure[k] - law.yields_at(k)) / law.hardening : 0.0;
 }
 
-// Flattened height, m, from u itself: for light loads all terms are small. One application.
+// Flattened height, m, from u itself: all terms are small. One application.
 double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, double approach,
                     Range span) {
   const Field& h = *problem.heights;
@@ -55,10 +55,10 @@ double depth(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, std
   return capped ? std::max(0.0, answer.gap[k]) : answer.gap[k] + hardened(problem.yield, answer, k);
 }
 
-// The approach is so small that gaps have too few digits.
+// At small approaches gaps have too few digits.
 bool presses_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
   constexpr double few_digits = 1e-4;
-  // Uniform compression of a layer flattens nothing.
+  // A layer's uniform compression flattens nothing.
   const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
   return approach < few_digits * span.span();
 }
@@ -115,8 +115,7 @@ std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
 
 namespace {
 
-// Multiple of the difference from the second answer to the first at which the line has the wanted
-// flattening. The greatest of linear depths is convex: secants converge from one side.
+// As SoughtByLoad::on_the_line. The greatest of linear depths is convex: secants converge from one side.
 std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
                                             const HalfSpaceAnswer& before, double wanted) {
   constexpr int most_looks = 8;
@@ -173,8 +172,8 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
   return result;
 }
 
-// Extrapolates pressures and gaps beyond the first answer by `steps` times its difference from the second,
-// in the memory of the second. Too far: the fields of the first.
+// Extrapolates pressures and gaps beyond the first answer by `steps` differences, in the memory of the
+// second. Too far: the first.
 HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
   constexpr double furthest_guess = 2;
   if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
@@ -192,25 +191,24 @@ HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer befor
   return before;
 }
 
-// Near elastic full contact of a periodic tile the approach hardly affects gaps.
+// Near periodic elastic full contact the approach hardly affects gaps.
 bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   return problem.boundary == Boundary::periodic && 2 * answer.yielded < answer.contacts &&
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
-// Complete flattening continues beyond full contact: aim just below it.
+// Complete flattening continues beyond full contact: aim just below.
 double wanted_share(double fraction, double accuracy) {
   return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
 }
 
-// Searches the approach that flattens a share, to `accuracy`. Returns an unconverged answer if the load is
-// the better variable. `met`: receives the nearest loads on both sides. `alone`: never switch.
+// Searches the approach that flattens a share, to `accuracy`; unconverged if the load is the better variable.
+// `met`: the nearest loads on both sides. `alone`: never switch.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor, bool alone = false) {
   constexpr int most_solves = 60;
-  // The search continues in the load after this many solves, few if the error exceeds `far`, or
-  // applications.
+  // Solves (few if the error exceeds `far`) or applications before the search continues in the load.
   constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
   constexpr double far = 1e-2, decades = 1e2;
   constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
@@ -283,7 +281,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
     if (near_enough && !too_far) continue;
-    // Decades of the load within a small change of approach.
+    // Decades of load for little approach.
     const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
                        std::abs(approach / before.approach - 1) < near;
     const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
@@ -292,7 +290,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
-    if (!next) {  // a loose solve gave the wrong side
+    if (!next) {  // a loose solve chose the wrong side
       now.tolerance = std::max(tightest, 0.01 * now.tolerance);
       root = bracket;
     }
@@ -316,7 +314,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
-// Solves at `approach`, halving the step from `answer` on failure.
+// Halves the step from `answer` on failure.
 HalfSpaceAnswer solve_nearer(const HalfSpaceProblem& now, const HalfSpaceAnswer& answer, double wanted,
                              double& approach, int& stalls, int& applications, int most_applications,
                              Monitor& monitor) {
@@ -334,15 +332,15 @@ HalfSpaceAnswer solve_nearer(const HalfSpaceProblem& now, const HalfSpaceAnswer&
   }
 }
 
-// Continues in the approach from a solved contact, in steps of at most `furthest`, halved on failure. With
-// yield on long cells such solves take a few passes, while solves at a load need the last resort. Failure:
-// the last converged contact, marked unconverged.
+// Continues in the approach from a solved contact, in steps up to `furthest`, halved on failure. With yield
+// on long cells this takes a few passes, a solve at a load the last resort. Failure: the last converged
+// contact, marked unconverged.
 HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
                                      int most_applications, Monitor& monitor) {
   constexpr int most_solves = 40;
   constexpr double furthest = 0.3;  // greatest relative step
-  constexpr double more = 4;        // growth of steps until both sides are known
-  constexpr double good = 0.1;      // greatest certificate of a useful start
+  constexpr double more = 4;        // growth until both sides are known
+  constexpr double good = 0.1;      // certificate of a useful start
   constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
   constexpr double cautious = 20;
   if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
@@ -380,7 +378,7 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     }
     if (below && above) reach = furthest;
     now.tolerance = std::clamp(next_error * error, tightest, now.tolerance);
-    // Repeat with a tighter tolerance if the side is unclear or the error small enough.
+    // Tighter tolerance if the side is unclear or the error small enough.
     const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
     if (!(next > 0)) break;
     double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
@@ -416,23 +414,23 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   return solve_by_load(problem, sought, std::move(begun), monitor);
 }
 
-// A first load near elastic full contact of a periodic tile; empty if the approach is as good a variable.
+// First load near periodic elastic full contact; empty if the approach serves as well.
 std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
   constexpr double mostly = 0.6, on_long_cells = 0.3;
   const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
   if (problem.boundary != Boundary::periodic || fraction < (long_cells ? on_long_cells : mostly)) return {};
   const auto full = pressure_of_full_contact(problem);
-  // The remaining height falls about as the square of the missing load.
+  // The remaining height varies about as the square of the missing load.
   return full ? std::optional(*full * (1 - std::sqrt(1 - fraction))) : std::nullopt;
 }
 
-// Complete flattening with hardening or on a free tile: any sufficient load is a solution, and more load
-// solves more easily. Empty if no try converges.
+// Complete flattening by any sufficient load, with hardening or on a free tile; more load solves more easily.
+// Empty if no try converges.
 std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, double fraction,
                                               Monitor& monitor) {
   constexpr int tries = 3;
-  constexpr double more = 4;      // factor of the load in the next try
-  constexpr double to_a_rim = 2;  // half the mean pressure is at the centre of a punch
+  constexpr double more = 4;      // factor of the next load
+  constexpr double to_a_rim = 2;  // a punch has half the mean pressure at its centre
   if (problem.yield.caps()) return {};
   auto pressure = load_of_all(problem);
   if (!pressure) return {};
@@ -455,7 +453,7 @@ std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, d
 
 struct FlatteningGuess {
   std::optional<double> approach;  // m
-  std::optional<double> pressure;  // Pa, if the load is the better variable
+  std::optional<double> pressure;  // Pa, if the better variable
 };
 
 FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fraction) {
@@ -475,7 +473,7 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
   const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
   if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
   if (by_load && there.converged) return {{}, there.mean_pressure};
-  // Coarser grids miss the highest node.
+  // Coarser grids miss the top.
   const double higher =
       known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
   if (!(there.approach > 2 * higher)) return {};
@@ -514,7 +512,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.iterations += before;
   }
   if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
-  // With nearly all nodes at the cap one load belongs to many approaches.
+  // With nearly all nodes at the cap one load has many approaches.
   if (!answer.converged && problem.yield.caps() && 2 * answer.yielded > answer.contacts) {
     const int before = answer.iterations;
     answer = flatten_by_approach(problem, fraction, answer.approach, problem.tolerance, loads, monitor, true);

@@ -22,19 +22,19 @@ enum Freedom : std::uint8_t {
   fixed = 0,
   elastic = 1,
   yielding = 2,
-  settling = 3,  // passed its yield pressure: settle first, then yielding
+  settling = 3,  // settle first, then yield
 };
 
 struct FreeSet {
   double elastic_count = 0, yielding_count = 0, settling_count = 0;
   double elastic_gap = 0, yielding_gap = 0;  // Σ total gap
   bool changed = true;
-  double yielding_worth = 0;  // load balance relative to an elastic node
-  // After a trial shift of the settled elastic interior: load, count of nodes not stopped at a bound.
+  double yielding_worth = 0;  // load balance per elastic node
+  // After a trial shift of the elastic interior; count of nodes within bounds.
   double shifted_load = 0, shifted_count = 0;
 
   double count() const { return elastic_count + yielding_count; }
-  // A few elastic nodes would take too much of the load.
+  // Else few elastic nodes would take too much load.
   bool elastic_balance() const {
     return elastic_count > 0 && elastic_count >= yielding_worth * yielding_count;
   }
@@ -46,11 +46,10 @@ struct FreeSet {
 // Count, gaps, changed marks, shifted load and count.
 inline constexpr std::size_t free_sums = 5;
 
-template <bool capped>
-std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
-                                           std::span<const double> p, std::span<const double> g,
-                                           std::span<const std::uint8_t> before,
-                                           std::span<std::uint8_t> free) {
+inline std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
+                                                  std::span<const double> p, std::span<const double> g,
+                                                  std::span<const std::uint8_t> before,
+                                                  std::span<std::uint8_t> free) {
   return over_lanes<free_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                           free = free.data()]<class Value>(std::size_t k, Value* v) {
     Value pressure, gap, old;
@@ -59,24 +58,13 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
     lane_terms::read(before + k, old);
     const Value none = {}, one = none + 1.0, at = none + offset;
     const Value below = gap < at ? one : none, opens = pressure >= none ? below : none;
-    Value kind, inside, moved;
-    if constexpr (capped) {
-      const Value most = none + upper, above = gap > at ? one : none;
-      const Value leaves = pressure <= most ? above : none, not_full = pressure < most ? one : leaves;
-      kind = pressure > none ? not_full : opens;
-      const Value within = pressure < most ? one : none;
-      inside = pressure > none ? within : none;
-      moved = pressure + inside * shift;
-      const Value positive = moved > none ? moved : none, stays = moved > none ? inside : none;
-      v[3] = moved < most ? positive : most;
-      v[4] = moved < most ? stays : none;
-    } else {
-      kind = pressure > none ? one : opens;
-      inside = pressure > none ? one : none;
-      moved = pressure + inside * shift;
-      v[3] = moved > none ? moved : none;
-      v[4] = moved > none ? inside : none;
-    }
+    const Value most = none + upper, above = gap > at ? one : none;
+    const Value leaves = pressure <= most ? above : none, not_full = pressure < most ? one : leaves;
+    const Value kind = pressure > none ? not_full : opens, within = pressure < most ? one : none;
+    const Value inside = pressure > none ? within : none, moved = pressure + inside * shift;
+    const Value positive = moved > none ? moved : none, stays = moved > none ? inside : none;
+    v[3] = moved < most ? positive : most;
+    v[4] = moved < most ? stays : none;
     lane_terms::put(kind, free + k);
     v[0] = kind;
     v[1] = kind > none ? gap : none;
@@ -84,18 +72,16 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
   });
 }
 
-// Sets `free`. Gaps below `offset` pull nodes off zero pressure.
+// Sets `free`. Gaps below `offset` leave zero pressure.
 template <class Limit>
 FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
                    std::span<const double> g, std::span<const std::uint8_t> before,
                    std::span<std::uint8_t> free) {
   std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
   if constexpr (!Limit::hardens)
-    sums = std::isfinite(limit.upper())
-               ? mark_elastic<true>(limit.upper(), offset, shift, p, g, before, free)
-               : mark_elastic<false>(limit.upper(), offset, shift, p, g, before, free);
+    sums = mark_elastic(limit.upper(), offset, shift, p, g, before, free);
   else
-    // By value: a byte store may alias a reference.
+    // By value: byte stores may alias references.
     sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                                 free = free.data(), limit = limit](std::size_t k, double* v) {
       const double q = limit.settle(k, p[k], g[k], balance);
@@ -132,7 +118,7 @@ FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shi
   return set;
 }
 
-// The same about the interior gap. Frees at least two nodes: the nearest to leaving their bounds.
+// About the interior gap. Frees at least the two nodes nearest to leaving their bounds.
 template <class Limit>
 FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
                       std::span<const double> p, std::span<const double> g,
@@ -156,7 +142,7 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
   return set;
 }
 
-// Plain pointers and the pressure law, copied into each loop.
+// Plain pointers and the law, copied into each loop.
 template <class Limit>
 struct DescentNodes {
   double *pressure, *gap;
@@ -165,7 +151,7 @@ struct DescentNodes {
   double balance;
 
   double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
-  // With the opening of a node marked as yielding.
+  // With the opening of yielding nodes.
   double total_gap(std::size_t k) const {
     const double elastic_gap = gap[k];
     if constexpr (Limit::hardens) {
@@ -181,16 +167,16 @@ struct DescentNodes {
     else
       return free[k] != fixed;
   }
-  // Whether q, settled, is in the elastic interior.
+  // Whether settled q is in the elastic interior.
   bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
     if constexpr (Limit::hardens)
       return q > 0 && (q < limit.yields_at(k) || !any_interior);
-    else  // same result from p as from q, available earlier
+    else  // as from q, but available earlier
       return (pressure[k] > 0) & (pressure[k] < limit.upper());
   }
 };
 
-// gap += unit · image from `begin` on. Returns the sum of total gaps of the balancing nodes.
+// gap += unit · image from `begin` on. Returns total gaps of the balancing nodes.
 template <class Limit>
 std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
                                  const double* image, double unit, Freedom balancing) {
@@ -214,9 +200,8 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
     });
 }
 
-// For the nodes from `begin` on: copies `image` = K·direction to `to`. Returns Σ direction · image (with the
-// opening of yielding nodes), Σ image over balancing nodes and, without hardening, Σ direction · (mean −
-// gap).
+// Copies `image` = K·direction from `begin` on to `to`. Returns Σ direction · image (with the opening of
+// yielding nodes), Σ image over balancing nodes and, without hardening, Σ direction · (mean − gap).
 template <class Limit, class Stored>
 std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
                                   Freedom balancing, double mean, const Stored* direction,
@@ -243,15 +228,14 @@ std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t 
   });
 }
 
-// Restricted |q|/2 on elastic nodes. Soft yielding nodes are independent; stiff ones join the restricted
-// |q|/2, scaled.
+// Restricted |q|/2 on elastic nodes. Soft yielding nodes are independent; stiff ones join, scaled.
 template <class Limit>
 class SetPreconditioner {
  public:
   SetPreconditioner(ContactLevel& level, const Limit& limit) : level_(level) {
     if constexpr (Limit::hardens) {
       slope_ = limit.yielding_slope();
-      // A line along the short side moves as one.
+      // Lines along the short side move as one.
       own_ = Limit::own_compliance * std::max(1.0, level.shape.aspect);
       apart_ = slope_ > stiff_slope * std::sqrt(level.shape.aspect);
       scale_ = std::sqrt(1 / (1 + slope_ / own_));
@@ -297,7 +281,7 @@ class SetPreconditioner {
   }
 
  private:
-  // dw/dp in cell units; measured by the number of steps.
+  // dw/dp in cell units; chosen by steps.
   static constexpr double stiff_slope = 3;
 
   ContactLevel& level_;

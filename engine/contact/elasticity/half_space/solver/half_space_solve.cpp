@@ -24,20 +24,16 @@ double rounding_residual(double lengths, double rms, double weight) {
 
 std::string unconverged_hint(const Grid& grid, double reached, double rounding) {
   if (reached < rounding)
-    return "gaps are differences of lengths so much greater than the heights that double precision may hold "
-           "no "
-           "less than " +
-           format_short(rounding, 2) +
-           " here: ask for a larger `tolerance`, or accept the best reached with `on_failure = \"best\"`";
+    return "rounding of the gaps may leave a residual of " + format_short(rounding, 2) +
+           " here: give a larger `tolerance`, or accept the best result with on_failure=\"best\"";
   constexpr double much_longer = 4;
   const double aspect = std::max(grid.hx(), grid.hy()) / std::min(grid.hx(), grid.hy());
   if (aspect >= much_longer)
     return "the cells are " + format_short(aspect, 3) +
-           " times longer than wide: ask for cells nearer to square, a larger `tolerance`, or accept the "
-           "best "
-           "reached with `on_failure = \"best\"`";
-  return "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached with "
-         "`on_failure = \"best\"`";
+           " times longer than wide: give cells nearer to square or a larger `tolerance`, or accept the best "
+           "result with on_failure=\"best\"";
+  return "give a larger `tolerance` or more `cells` for the same surface, or accept the best result with "
+         "on_failure=\"best\"";
 }
 
 void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance, int applications,
@@ -45,7 +41,7 @@ void throw_unconverged(double mean_pressure, const Certificate& reached, double 
   throw Error(ErrorCode::not_converged,
               "the contact at " + format_quantity(mean_pressure, dimension::pressure) +
                   " reached a residual of " + format_short(reached.worst(), 3) +
-                  " where `tolerance` asks for " + format_short(tolerance, 3) + ", after " +
+                  ", above the `tolerance` of " + format_short(tolerance, 3) + ", after " +
                   std::to_string(applications) + " applications of the half-space",
               unconverged_hint(grid, reached.worst(), rounding));
 }
@@ -54,31 +50,19 @@ namespace {
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 
-double facing_share(const HalfSpaceProblem& problem) {
-  if (!problem.overhangs) return 1;
-  return static_cast<double>(known_count(problem.heights->values())) /
-         static_cast<double>(problem.grid.nodes());
-}
-
-void check_fields(const HalfSpaceProblem& problem) {
-  check(problem.yield, problem.grid.nx, problem.grid.ny);
-  if (!problem.heights || problem.heights->size() != problem.grid.nodes())
-    throw Error(ErrorCode::internal, "the heights are not on the grid of the contact");
-}
-
 void check(const HalfSpaceProblem& problem, double mean_pressure) {
-  check_fields(problem);
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
     refuse("`pressure` is " + pascals(mean_pressure),
-           "a mean pressure is finite and not negative: nothing here pulls");
+           "give a finite pressure from zero up: nothing here attracts the bodies");
   if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
     refuse("`pressure` is " + format_short(mean_pressure) +
-               " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
-           "give a larger pressure, or none");
+               " Pa, less than 1e-280 of the contact modulus: too small for doubles",
+           "give a larger pressure, or 0");
   const YieldLaw& law = problem.yield;
-  const double facing = facing_share(problem);
+  const double facing =
+      static_cast<double>(known_count(problem.heights->values())) / static_cast<double>(problem.grid.nodes());
   if (law.caps() && mean_pressure >= law.cap * facing) {
-    // All digits if the short forms are equal.
+    // All digits for equal short forms.
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     if (facing < 1)
@@ -87,12 +71,12 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
                             format_short(100 * facing, 3) + " % of the tile",
                         "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
     refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
-                          shown(law.cap) + ", and every node would have to carry as much or more",
+                          shown(law.cap) + ", the most that any node carries",
                       "press with less than the hardness, or give `hardening`");
   }
 }
 
-// Length scale of gaps for flat heights: about the displacement of the tile as one punch.
+// Length of gaps for flat heights: displacement of the tile as a punch.
 double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   const double length = mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
   if (!problem.share) return length;
@@ -100,22 +84,13 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   return 0.5 * longest * multiplier_of(problem).greatest_from(longest) * length;
 }
 
-// Whether the heights differ by more than rounding. On a free tile, rounding of the pressures hides
-// roughness below a millionth of the approach.
+// Beyond rounding. On a free tile, rounding of pressures hides roughness below a millionth of the approach.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   const auto heights = problem.heights->values();
-  if (!(problem.rms > 0)) return false;
-  if (problem.overhangs) {
-    if (known_range(heights).span() == 0) return false;
-  } else {
-    const auto differs = [first = heights.front()](double h) { return h != first; };
-    if (std::none_of(heights.begin(), heights.end(), differs)) return false;
-  }
-  // An incompressible layer is stiff for long waves: its heights may matter at any pressure.
-  if (problem.share) {
-    const Range ends = known_range(heights);
-    return problem.rms > 1e-14 * std::max(std::abs(ends.min), std::abs(ends.max));
-  }
+  const Range ends = known_range(heights);
+  if (!(problem.rms > 0) || ends.min == ends.max) return false;
+  // An incompressible layer is stiff for long waves: heights may matter at any pressure.
+  if (problem.share) return problem.rms > 1e-14 * std::max(std::abs(ends.min), std::abs(ends.max));
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   return problem.rms > least * punch_length(problem, mean_pressure);
 }
@@ -128,7 +103,7 @@ struct CellUnits {
 
 CellUnits cell_units(const HalfSpaceProblem& problem, double mean_pressure, bool flat) {
   CellUnits units;
-  units.origin = problem.overhangs ? known_mean(problem.heights->values()) : mean(problem.heights->values());
+  units.origin = known_mean(problem.heights->values());
   units.height = flat ? mean_pressure / problem.modulus * problem.grid.hx() : problem.rms;
   units.pressure = problem.modulus * (units.height / problem.grid.hx());
   return units;
@@ -164,16 +139,11 @@ double rough_slope(const HalfSpaceProblem& problem) {
   return std::sqrt(added_up(rows)[0] / static_cast<double>(h.size()));
 }
 
-double peak_of(const HalfSpaceProblem& problem) {
-  return (problem.overhangs ? known_range : range)(problem.heights->values()).max;
-}
-
-// Returns the heights with missing nodes set to `there`; `asked` names the input in the error.
+// Missing nodes are set to `there`; `asked` names the input in the error.
 Field with_missing_ground_at(const HalfSpaceProblem& problem, double there, const std::string& asked) {
   Field heights = *problem.heights;
   if (!std::isfinite(there))
-    refuse(asked + ", so large that the numbers of the solution leave the range of a double",
-           "check its unit");
+    refuse(asked + ", too large: the results leave the range of a double", "check its unit");
   for (double& h : heights.values())
     if (std::isnan(h)) h = there;
   return heights;
@@ -217,23 +187,12 @@ ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_me
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
   const Grid& grid = problem.grid;
-  // Love's kernel at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
+  // Love's kernel in its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
   const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
   const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
   const double most = mean_pressure * static_cast<double>(grid.nodes());
   const double height = known_range(problem.heights->values()).span();
   return 2 * (height + most * (own + give)) + problem.rms;
-}
-
-Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure) {
-  const Grid& grid = problem.grid;
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1, false,
-                                 multiplier_of(problem, true));
-  Field u(grid.nx, grid.ny);
-  compliance.apply(pressure.values(), u.values());
-  const double length = grid.hx() / problem.modulus;  // per pressure in cell units
-  for (double& value : u.values()) value *= length;
-  return u;
 }
 
 Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length) {
@@ -282,7 +241,7 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
                                v[1] = pressure > 0 ? 1.0 : 0.0;
                                v[2] = pressure >= cap ? 1.0 : 0.0;
                                v[3] = pressure * gap;
-                               v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // used only with a cap
+                               v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // for a cap only
                                v[5] = gap;
                                v[6] = pressure < cap ? gap : infinity;
                                v[7] = pressure;
@@ -305,10 +264,9 @@ namespace {
 HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   HalfSpaceAnswer answer;
   answer.pressure = Field(problem.grid.nx, problem.grid.ny);
-  const double peak = peak_of(problem);
-  answer.gap = problem.overhangs
-                   ? with_ground_out_of_reach(problem, known_range(problem.heights->values()).min, 0)
-                   : *problem.heights;
+  const Range ends = known_range(problem.heights->values());
+  const double peak = ends.max;
+  answer.gap = problem.overhangs ? with_ground_out_of_reach(problem, ends.min, 0) : *problem.heights;
   for (double& g : answer.gap.values()) g = peak - g;
   answer.offset = -peak;
   answer.solver = "first touch";
@@ -316,7 +274,7 @@ HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   return answer;
 }
 
-// A flat on a whole periodic tile without yield.
+// A periodic flat without yield.
 bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
          (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
@@ -355,13 +313,13 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
     pressure[k] = p >= cell_cap ? cap : within;
     gap[k] = (gap[k] - offset) * units.height;
   });
-  // Passes may leave rounding at nodes without a counterpart.
+  // Rounding at nodes without a counterpart.
   if (problem.overhangs)
     for (std::size_t k = 0; k < answer.pressure.size(); ++k)
       if (!problem.faces(k)) answer.pressure[k] = 0;
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
-  const double peak = peak_of(problem);
+  const double peak = known_range(problem.heights->values()).max;
   answer.approach = cell.from_peak ? offset : (peak - units.origin) + offset;
   answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
   add_uniform_compression(problem, answer);
@@ -373,7 +331,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   return answer;
 }
 
-// The caller replaces heights that are NaN.
+// The caller replaces NaN heights.
 CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
                              bool flat) {
   CellProblem cell;
@@ -384,32 +342,33 @@ CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& u
   cell.limit = cell_limit(problem.yield, units);
   cell.mean_pressure = mean_pressure / units.pressure;
   if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
-  // Slightly tighter: conversion to pascals adds rounding.
+  // Conversion to pascals adds rounding.
   cell.tolerance = 0.99 * problem.tolerance;
   cell.effort = problem.brief ? ChainEffort::brief : ChainEffort::full;
   return cell;
 }
 
-struct Start {
-  int nx = 0, ny = 0;
-  Array<double> pressure, gap;
-};
+Array<double> in_units(const Field& values, double unit) {
+  Array<double> result(values.size());
+  for_nodes(result.size(), [&](std::size_t k) { result[k] = values[k] / unit; });
+  return result;
+}
 
-Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
-  Start start{from.pressure.nx(), from.pressure.ny(), Array<double>(from.pressure.size()),
-              Array<double>(from.pressure.size())};
-  for_nodes(start.pressure.size(), [&](std::size_t k) {
-    start.pressure[k] = from.pressure[k] / units.pressure;
-    start.gap[k] = from.gap[k] / units.height;
-  });
-  return start;
+// Retries in double precision, without a start.
+CellAnswer descend(CellProblem& cell, const CellStart& start, Monitor& monitor) {
+  CellAnswer found = nested_descent(cell, start, monitor);
+  if (!found.single || found.converged) return found;
+  const int before = found.applications;
+  cell.shape.single = false;
+  found = nested_descent(cell, {}, monitor);
+  found.applications += before;
+  return found;
 }
 
 }  // namespace
 
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
                                 HalfSpaceAnswer* start, ChainEffort effort, Monitor& monitor) {
-  check_fields(problem);
   const Grid& grid = problem.grid;
   const Range ends = known_range(problem.heights->values());
   CellUnits units;
@@ -423,7 +382,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.shape = level_shape(problem, true);
   Field out_of_the_way;
   if (problem.overhangs) {
-    // Pressure lifts no node of a free tile, so deeper nodes never touch.
+    // On a free tile deeper nodes never touch.
     cell.lowest = ends.min;
     out_of_the_way = with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
                                             "the approach is " + metres(approach));
@@ -448,13 +407,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
     begun.pressure = pressures;
     begun.gap = gaps;
   }
-  CellAnswer found = nested_descent(cell, begun, monitor);
-  if (found.single && !found.converged) {  // double precision may converge
-    const int before = found.applications;
-    cell.shape.single = false;
-    found = nested_descent(cell, {}, monitor);
-    found.applications += before;
-  }
+  CellAnswer found = descend(cell, begun, monitor);
   const bool converged = found.converged;
   HalfSpaceAnswer answer = in_si(problem, units, 0, std::move(found));
   answer.approach = approach;
@@ -466,8 +419,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 
 namespace {
 
-// Solves at an approach; each failure multiplies the approach by 0.3. Returns the last in `approach`. Only
-// the first solve uses `start`.
+// Each failure multiplies `approach` by 0.3. Only the first solve uses `start`.
 HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
                                    Monitor& monitor) {
   constexpr double less = 0.3;
@@ -484,8 +436,8 @@ HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& appr
   return answer;
 }
 
-// For soft hardening, where no descent balances the load: searches the approach of the load. Empty if a
-// solve fails. `begun`: the unconverged answer.
+// For soft hardening, where no descent balances the load: searches its approach. Empty if a solve fails.
+// `begun`: the unconverged answer.
 std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
                                                   const HalfSpaceAnswer& begun, Monitor& monitor) {
   constexpr int most_solves = 80, most_applications = 2000;
@@ -547,18 +499,17 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   const bool may_be_full = problem.boundary == Boundary::periodic &&
                            (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(problem));
   if (may_be_full) found = full_contact(cell, monitor);
-  int before = found.applications;
   if (!found.converged) {
-    Start warm;
-    if (start && !start->pressure.empty() && start->mean_pressure > 0) warm = start_in_cells(units, *start);
-    found = nested_descent(cell, {warm.nx, warm.ny, warm.pressure, warm.gap}, monitor);
-    found.applications += before;
-    if (found.single && !found.converged) {  // double precision may converge
-      before = found.applications;
-      cell.shape.single = false;
-      found = nested_descent(cell, {}, monitor);
-      found.applications += before;
+    const int before = found.applications;
+    CellStart warm;
+    Array<double> pressure, gap;
+    if (start && !start->pressure.empty() && start->mean_pressure > 0) {
+      pressure = in_units(start->pressure, units.pressure);
+      gap = in_units(start->gap, units.height);
+      warm = {start->pressure.nx(), start->pressure.ny(), pressure, gap};
     }
+    found = descend(cell, warm, monitor);
+    found.applications += before;
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
   if (!answer.converged && problem.yield.hardens() && !problem.brief)

@@ -33,8 +33,7 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
 
 namespace {
 
-// Full contact by the exact filter: multiplies the least load by ten until the filter converges, then
-// bisects to within a factor of two.
+// By the exact filter: multiplies the least load by ten until it converges, then bisects to a factor of two.
 HalfSpaceAnswer full_under_more(const HalfSpaceProblem& problem, double least, Monitor& monitor) {
   constexpr int tries = 3;
   constexpr double more = 10, near = 2;
@@ -71,7 +70,7 @@ HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double me
     applications += found.iterations;
     return found;
   };
-  // The certificate multiplies rounding of the gaps by hardness / load: more load helps, a descent does not.
+  // The certificate multiplies rounding of gaps by hardness / load: more load helps, descents do not.
   HalfSpaceAnswer answer;
   if (problem.yield.caps()) {
     answer = counted(solve_if_full(problem, mean_pressure, monitor));
@@ -91,13 +90,13 @@ HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double me
 
 HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
   if (const auto most = most_at_the_cap(problem, answer))
-    refuse_infeasible(what + " is not reached: all of the " + (problem.overhangs ? "overlap" : "tile") +
-                          " is at its hardness at " + metres(*most) + ", and no more can be had",
-                      "ask for less, or press by `pressure`");
+    refuse_infeasible(what + " is not reached: the whole " + (problem.overhangs ? "overlap" : "tile") +
+                          " is at its hardness at " + metres(*most),
+                      "give less, or press by `pressure`");
   if (answer.converged || problem.best_effort) return answer;
   throw Error(ErrorCode::not_converged,
-              what + " was sought to a residual of " + format_short(answer.certificate.worst(), 3) +
-                  " where `tolerance` asks for " + format_short(problem.tolerance, 3) + ", in " +
+              what + " has a residual of " + format_short(answer.certificate.worst(), 3) +
+                  ", above the `tolerance` of " + format_short(problem.tolerance, 3) + ", after " +
                   std::to_string(answer.iterations) + " applications of the half-space",
               unconverged_hint(problem.grid, answer.certificate.worst(), rounding_residual(problem, answer)));
 }
@@ -109,14 +108,14 @@ BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtBy
   if (problem.yield.caps()) {
     const double facing = static_cast<double>(known_count(problem.heights->values()));
     const double cap = problem.yield.cap * (1 - 1e-12) * (facing / static_cast<double>(problem.grid.nodes()));
-    // If the target is below half of the maximum, the value at the upper end misleads the secant.
+    // Targets below half of the maximum: the upper value misleads the secant.
     constexpr double far = 0.5;
     if (!(end.at < cap)) end = {cap, sought.wanted < far * sought.most ? infinity : sought.most};
   }
   return end;
 }
 
-// A tenth of the load of the tile as one punch.
+// A tenth of the load of the tile as a punch.
 double small_load(const HalfSpaceProblem& problem, double length) {
   return 0.1 * problem.modulus * length / std::max(problem.grid.size_x, problem.grid.size_y);
 }
@@ -146,31 +145,31 @@ class LoadSearch {
 
  private:
   static constexpr int most_solves = 60, most_applications = 6000;
-  // Applications before the other way; its budget as a multiple; its last budget.
+  // Applications before the other way; its budget as a multiple; last budget.
   static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
   static constexpr int most_doubts = 4;
-  static constexpr double good_start = 0.1;  // greatest certificate of a warm start
-  static constexpr double near_start = 0.3;  // greatest relative change of load for a warm start
-  static constexpr double near_if_easy = 2;  // the same after an easy solve
+  static constexpr double good_start = 0.1;  // certificate of a warm start
+  static constexpr double near_start = 0.3;  // relative change of load for a warm start
+  static constexpr double near_if_easy = 2;  // after an easy solve
   static constexpr int few_applications = 40;
   static constexpr double loosest = 5e-3;
-  static constexpr double next_error = 2e-3;  // tolerance per present error
-  // Complementarity averages over the load, and penetration ignores open nodes. Seen: 20.
+  static constexpr double next_error = 2e-3;  // next tolerance per present error
+  // Complementarity averages over the load; penetration ignores open nodes. Seen: 20.
   static constexpr double gap_per_residual = 20;
-  // A smaller step relative to the error means a false bracket.
+  // Smaller steps relative to the error: a false bracket.
   static constexpr double least_step = 0.01;
-  // Factors below the requested tolerance for a rough measure.
+  // Below the requested tolerance for a rough measure.
   static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
   static constexpr double same_contact = 0.1;
   static constexpr double furthest_along = 3;  // in steps between the answers
-  static constexpr double enough_gain = 0.5;   // ratio of errors after a step on the line
+  static constexpr double enough_gain = 0.5;   // ratio of errors after a step
 
   struct Measured {
     double pressure = 0, found = 0, certificate = infinity;
     std::int64_t contacts = 0, yielded = 0;
   };
 
-  // The two greatest loads below complete contact, extrapolated to complete contact.
+  // Below complete contact, extrapolated to complete contact.
   struct ShortOfAll {
     BracketedSecant::Point last{}, before{};
     void take(BracketedSecant::Point found) {
@@ -220,13 +219,13 @@ class LoadSearch {
   int applications_;
   const bool long_cells_;
   bool easy_ = false, hard_ = false;  // few applications; last resort
-  // The last measure was too rough; the next replaces it.
+  // The next measure replaces a rough one.
   bool rough_ = false, in_place_ = false;
   bool went_the_other_way_ = false;
 };
 
 double LoadSearch::first_load() {
-  // A stalled descent at the approach gives the order of the load.
+  // A stalled descent gives the order of the load.
   double pressure = std::max(answer_.mean_pressure, small_load(problem_, sought_.length));
   for (const auto& met : {sought_.met.below, sought_.met.above})
     if (met && met->at < end_.at) {
@@ -243,14 +242,14 @@ void LoadSearch::set_unit() {
   unit_ = (answer_.approach < light * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
 }
 
-// A solve was on the wrong side: rebuilds the bracket from the certain points.
+// After a solve on the wrong side: bracket from the certain points.
 void LoadSearch::doubt(BracketedSecant::Point found) {
   root_ = bracket_;
   for (const Told& before : told_) root_.take(before.point, before.certainly);
   root_.take(found, false);
 }
 
-// Moved out of the last answer or the one before.
+// Moved out of the last two answers.
 HalfSpaceAnswer LoadSearch::beginning(double pressure) {
   in_place_ = false;
   if (!sought_.on_the_line) return std::move(answer_);
@@ -290,13 +289,13 @@ void LoadSearch::solve(double pressure) {
     before_ = {};
     in_place_ = rough_;
   }
-  // On long cells brief solves often fail and would repeat the descent.
+  // On long cells brief solves often fail and repeat the descent.
   const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells_;
   const bool tight = now_.tolerance < problem_.tolerance;
   now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
   applications_ += answer_.iterations;
-  // The start may have failed. An unconverged answer is enough if its side is clear.
+  // The start may have failed. Unconverged answers are enough if the side is clear.
   set_unit();
   const auto will_do = [&] {
     const double residual = answer_.certificate.worst();
@@ -315,7 +314,7 @@ void LoadSearch::solve(double pressure) {
            answer_.yielded};
 }
 
-// Empty if the contact areas differ.
+// Empty for different contact areas.
 std::optional<double> LoadSearch::along_the_line() const {
   const auto alike = [](std::int64_t a, std::int64_t b) {
     return static_cast<double>(std::abs(a - b)) <= same_contact * static_cast<double>(std::max(a, b));
@@ -346,7 +345,7 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
   return std::move(answer_);
 }
 
-// On success `answer_` is the result, otherwise the next start.
+// Success: `answer_` is the result; otherwise the next start.
 bool LoadSearch::go_the_other_way(int most) {
   before_ = {};
   answer_ = sought_.other_way(std::move(answer_), most);
@@ -378,14 +377,14 @@ HalfSpaceAnswer LoadSearch::run() {
     const bool kept = !sought_.on_the_line || no_tighter;
     const bool sure = told || (tightest && kept && answer_.converged);
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
-    // Beyond full contact the measure is constant.
+    // Constant beyond full contact.
     const bool nothing_more =
         found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
     const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
     if (near_enough) continue;
-    // On long cells a wrong step is expensive: repeat until the side is clear.
+    // On long cells wrong steps are expensive: repeat until the side is clear.
     if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
     const bool line_fails = by_line && error > enough_gain * error_before;
     std::optional<double> next;
@@ -402,7 +401,7 @@ HalfSpaceAnswer LoadSearch::run() {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;
       if (tightest && !kept) least_ = std::max(floor(), tighter * least_);
       now_.tolerance = std::max(least_, least_step * now_.tolerance);
-      if (doubts > 1) told_.clear();  // even certain points were false
+      if (doubts > 1) told_.clear();  // certain points were false
       doubt({pressure, found});
     } else if (!in_place_) {
       told_.push_back({{pressure, nothing_more ? infinity : found},

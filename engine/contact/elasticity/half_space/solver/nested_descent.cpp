@@ -31,112 +31,15 @@ std::function<void(double)> DescentProgress::next_grid(double weight, double all
 
 namespace {
 
-double greatest(std::span<const double> values) {
-  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
-}
-
-// Contacts so light, or surfaces so soft, that a residual relative to the rms height is too coarse. Gaps
-// count from the decisive height (sums of small terms) and are measured by the displacement there.
-class LightContact {
- public:
-  LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
-      : level_(level), fields_(fields), problem_(problem) {}
-
-  // Needs feasible pressures and gaps in `fields`; keeps them if no round converges. Recomputes `gap`.
-  // Returns whether gaps count from the highest node: the offset is then the approach.
-  bool refine(DescentEnd& end);
-
- private:
-  static constexpr double light = 0.01;  // greatest approach, per unit of gaps
-  static constexpr double soft = 1e-3;   // displacement of a node at the cap, same unit
-
-  // On failure restores the pressures.
-  bool again(double length, DescentEnd& end);
-  void by_approach(double approach, DescentEnd& end);
-  void at_the_cap(double cap, DescentEnd& end);
-  double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // Displacement of a single node under `p`.
-  double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
-
-  ContactLevel& level_;
-  DescentFields& fields_;
-  const CellProblem& problem_;
-};
-
-bool LightContact::again(double length, DescentEnd& end) {
-  level_.length = length;
-  const UnsetArray<double> before = fields_.pressure;
-  const DescentEnd finer = run_chain(level_, fields_, problem_.tolerance, ChainEffort::brief);
-  if (finer.converged)
-    end = finer;
-  else
-    fields_.pressure = before;
-  return finer.converged;
-}
-
-void LightContact::by_approach(double approach, DescentEnd& end) {
-  constexpr double right = 0.5;  // ratio of the approach to the unit of gaps
-  constexpr int most_rounds = 60;
-  // Upper bound without a pressure limit. The first approach may be a residual of the tolerance.
-  const double alone = sunk(level_.total_load());
-  const bool elastic =
-      !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
-  if (!(approach > 0) || elastic) approach = std::min(approach > 0 ? approach : alone, alone);
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!again(approach, end)) return;
-    approach = offset();
-    if (!(approach > 0) || approach > right * level_.length) return;
-  }
-}
-
-// Nodes above some height are at the cap, lower ones open; nodes at this height share the rest.
-void LightContact::at_the_cap(double cap, DescentEnd& end) {
-  const UnsetArray<double>& p = fields_.pressure;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    if (p[k] > 0 && p[k] < cap) {
-      level_.count_from(problem_.heights[k]);
-      again(sunk(cap), end);
-      return;
-    }
-}
-
-bool LightContact::refine(DescentEnd& end) {
-  const double highest = greatest(problem_.heights), length = level_.length;
-  const double cap = greatest_pressure(level_.limit);
-  const double approach = (highest - problem_.origin) * problem_.factor + offset();
-  const bool from_peak = approach < light * length;
-  if (from_peak) {
-    level_.count_from(highest);
-    by_approach(approach, end);
-  }
-  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
-  if (is_soft) {
-    at_the_cap(cap, end);
-    level_.count_from(from_peak ? highest : problem_.origin);
-  }
-  if (from_peak || is_soft) level_.gap(fields_.pressure, fields_.gap);
-  level_.length = length;
-  return from_peak;
-}
-
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
-
-struct Step {
-  std::optional<CoarserGrid> from;  // from the finer grid
-  LevelShape shape;
-  Array<double> heights;  // empty on the finest grid, which uses the caller's
-  Array<double> yield;
-  double pitch = 1;          // hx in cells of the finest grid
-  double mean_pressure = 0;  // cell units
-};
 
 double work(const LevelShape& shape) {
   const double n = static_cast<double>(shape.nodes());
   return n * elementary::log(std::max(n, 2.0));
 }
 
-PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
+PressureLimit limit_on(const PressureLimit& finest, const NestedGrid& step) {
   if (const auto* cap = std::get_if<PressureCap>(&finest)) return PressureCap{cap->cap * step.pitch};
   LinearHardening limit = std::get<LinearHardening>(finest);
   if (!step.yield.empty()) limit.yield = step.yield.data();
@@ -146,65 +49,18 @@ PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
   return limit;
 }
 
-void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
-                  std::span<double> p) {
-  for_nodes(p.size(), [&](std::size_t k) { p[k] = level_set(p[k], upper, stiffness * (gap[k] - offset)); });
-}
-
 void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
   const LevelShape& shape = level.shape;
   CoarserGrid from{shape, static_cast<double>(shape.nx) / start.nx, static_cast<double>(shape.ny) / start.ny};
   from.shape.nx = start.nx;
   from.shape.ny = start.ny;
   UnsetArray<double> carried(start.pressure.begin(), start.pressure.end());
-  to_level_set(upper, level.short_wave_stiffness / from.pitch_x, 0, start.gap, carried);
+  to_level_set(AllNodes(carried.size()), upper, level.short_wave_stiffness / from.pitch_x, 0, start.gap,
+               carried);
   prolong(from, carried, 1, shape, p);
 }
 
-std::vector<Step> nest(const CellProblem& problem, bool alone) {
-  std::vector<Step> steps(1);
-  steps[0].shape = problem.shape;
-  steps[0].mean_pressure = problem.mean_pressure;
-  const auto* hardening = std::get_if<LinearHardening>(&problem.limit);
-  while (!alone) {
-    const Step& fine = steps.back();
-    const auto next = coarser(fine.shape);
-    if (!next) break;
-    Step step;
-    step.from = next;
-    step.shape = next->shape;
-    step.shape.weight = problem.shape.weight * (work(step.shape) / work(problem.shape));
-    step.pitch = fine.pitch * next->pitch_x;
-    const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
-    step.mean_pressure =
-        fine.mean_pressure * next->pitch_x * (static_cast<double>(fine.shape.nodes()) / cells);
-    step.heights = restrict_to(
-        fine.shape, *next, fine.heights.empty() ? problem.heights : std::span<const double>(fine.heights));
-    if (hardening && hardening->yield)
-      step.yield =
-          restrict_to(fine.shape, *next,
-                      fine.yield.empty() ? std::span<const double>(hardening->yield, problem.shape.nodes())
-                                         : std::span<const double>(fine.yield));
-    steps.push_back(std::move(step));
-  }
-  return steps;
-}
-
-// Off the bound by rounding, a pressure would count as free and could alone fix the offset. Under a light
-// load all pressures are small compared with the bound.
-void snap_to_bounds(double upper, std::span<double> p) {
-  const double rounding =
-      std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
-  const double least = rounding * std::min(upper, greatest(p));
-  for_nodes(p.size(), [&](std::size_t k) {
-    if (p[k] < least)
-      p[k] = 0;
-    else if (p[k] > upper * (1 - rounding))
-      p[k] = upper;
-  });
-}
-
-// Descends from the pressures in `fields`, at the offset or under the load. `gap`: of a start, or empty.
+// From the pressures in `fields`, at the offset or under the load. `gap`: of a start, or empty.
 DescentEnd descend_on_grid(const CellProblem& problem, std::span<const double> heights,
                            std::span<const double> gap, bool finest, double tolerance, ContactLevel& level,
                            DescentFields& fields, ContactQuality& at, bool& from_peak) {
@@ -224,7 +80,7 @@ DescentEnd descend_on_grid(const CellProblem& problem, std::span<const double> h
     from_peak = true;
     return end;
   }
-  if (!gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, gap, p);
+  if (!gap.empty()) to_level_set(level, upper, level.short_wave_stiffness, 0, gap, p);
   if (std::isfinite(lowest)) {
     // Below any shift to the load.
     for (std::size_t k = 0; k < p.size(); ++k)
@@ -235,10 +91,10 @@ DescentEnd descend_on_grid(const CellProblem& problem, std::span<const double> h
   if (!end.converged) level.gap(p, fields.gap);
   from_peak = finest && LightContact(level, fields, problem).refine(end);
   for (int round = 0;; ++round) {
-    if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+    if (finest && std::isfinite(upper)) snap_to_bounds(level, upper, p);
     at = contact_quality(level, p, fields.gap);
     if (!finest || from_peak || !end.converged || at.residual <= tolerance) return end;
-    // Snapped nodes no longer balance the load.
+    // Snapped nodes unbalance the load.
     end.converged = round < most_snaps;
     if (!end.converged) return end;
     end = run_chain(level, fields, tolerance, problem.effort);
@@ -250,16 +106,18 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   const bool begun = !start.pressure.empty();
   const bool elsewhere = begun && (start.nx != problem.shape.nx || start.ny != problem.shape.ny);
   const bool gap_known = !start.gap.empty() && !elsewhere;
-  std::vector<Step> steps = nest(problem, begun);
+  const auto restricted = [](const LevelShape& fine, const CoarserGrid& coarse,
+                             std::span<const double> field) { return restrict_to(fine, coarse, field); };
+  std::vector<NestedGrid> steps = nested_grids(problem, begun, restricted);
   DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   UnsetArray<double> carried;  // level-set field of the coarser grid
   double all_work = 0;
-  for (const Step& step : steps) all_work += step.shape.weight;
+  for (const NestedGrid& step : steps) all_work += step.shape.weight;
 
   for (std::size_t l = steps.size(); l-- > 0;) {
-    Step& step = steps[l];
+    NestedGrid& step = steps[l];
     const bool finest = l == 0;
     const PressureLimit limit = limit_on(problem.limit, step);
     const double upper = greatest_pressure(limit);
@@ -294,7 +152,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
       answer.stage = end.stage;
       answer.single = level.compliance.single();
     } else {
-      to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
+      to_level_set(level, upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
       carried = std::move(p);
       step.heights = Array<double>();
     }
@@ -302,7 +160,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
   return answer;
 }
 
-// Power of two (exact) that keeps squares and products of tiny pressures in the range of a double.
+// Exact power of two against underflow of squares and products.
 int power_within_range(const CellProblem& problem) {
   constexpr double least = 1e-100;
   const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
@@ -332,8 +190,37 @@ UnsetArray<double> times_power_of_two(std::span<const double> values, int power)
 
 }  // namespace
 
+std::vector<NestedGrid> nested_grids(const CellProblem& problem, bool alone, const Restrict& restricted) {
+  std::vector<NestedGrid> steps(1);
+  steps[0].shape = problem.shape;
+  steps[0].mean_pressure = problem.mean_pressure;
+  const auto* hardening = std::get_if<LinearHardening>(&problem.limit);
+  while (!alone) {
+    const NestedGrid& fine = steps.back();
+    const auto next = coarser(fine.shape);
+    if (!next) break;
+    const bool finest = steps.size() == 1;
+    NestedGrid step;
+    step.from = next;
+    step.shape = next->shape;
+    step.shape.weight = problem.shape.weight * (work(step.shape) / work(problem.shape));
+    step.pitch = fine.pitch * next->pitch_x;
+    const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
+    step.mean_pressure =
+        fine.mean_pressure * next->pitch_x * (static_cast<double>(fine.shape.nodes()) / cells);
+    step.heights =
+        restricted(fine.shape, *next, finest ? problem.heights : std::span<const double>(fine.heights));
+    if (hardening && hardening->yield)
+      step.yield = restricted(fine.shape, *next,
+                              finest ? std::span<const double>(hardening->yield, problem.shape.nodes())
+                                     : std::span<const double>(fine.yield));
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
 CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
-  // At an offset, heights and pressures are near 1 already.
+  // At an offset, heights and pressures are near 1.
   const int power = problem.offset ? 0 : power_within_range(problem);
   if (power == 0) return descend_nest(problem, start, monitor);
   const UnsetArray<double> pressure = times_power_of_two(start.pressure, power),
@@ -347,35 +234,10 @@ CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Mo
 }
 
 CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
-  DescentProgress progress(monitor, "contact");
-  const std::size_t nodes = problem.shape.nodes();
   ContactLevel level(problem.shape, problem.heights, problem.origin, problem.factor, problem.limit,
                      problem.mean_pressure);
-  level.length = problem.length;
-  CellAnswer answer;
-  answer.stage = "exact filter (full contact)";
-  answer.pressure.resize(nodes);
-  UnsetArray<double>& p = answer.pressure;
-  for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
-  level.compliance.apply_inverse(p, p);
-  answer.applications = 1;
-  // The mean moves nothing but can cost pressures their precision.
-  answer.gap = p;
-  const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
-    p[k] += problem.mean_pressure;
-    v[0] = std::visit(
-        [&](const auto& law) { return p[k] >= law.upper() || law.opening(k, p[k]) > 0 ? 1.0 : 0.0; },
-        problem.limit);
-    v[1] = p[k];
-  });
-  progress.report(0, 1, 1, 0.5);
-  if (!(found[0] == 0 && found[1] > 0)) return answer;
-  level.gap_beside_mean(answer.gap, answer.gap);
-  answer.applications = 2;
-  const ContactQuality at = contact_quality(level, p, answer.gap);
-  answer.offset = at.offset;
-  answer.converged = at.residual <= problem.tolerance;
-  return answer;
+  DescentProgress progress(monitor, "contact");
+  return full_contact_on(level, problem, progress);
 }
 
 }  // namespace asperity

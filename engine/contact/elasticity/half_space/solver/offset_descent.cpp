@@ -16,10 +16,10 @@ namespace asperity {
 
 namespace {
 
-// Steps of a pass: quick, with an expensive K, downhill.
+// Per pass: quick, with an expensive K, downhill.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
 constexpr double careful_gain = 0.03;            // relative residual that ends a pass
-constexpr int careful_passes_without_gain = 40;  // the energy falls, the residual may not
+constexpr int careful_passes_without_gain = 40;  // the residual may rise while the energy falls
 // As in contact_quality.cpp.
 constexpr double touching_weight = 0.125;
 
@@ -96,7 +96,7 @@ class OffsetDescent {
   double residual_ = infinity;
 };
 
-// A periodic mean moves nothing but can cost p its precision: it is subtracted first.
+// The immobile periodic mean can cost p precision: subtracted first.
 template <class Limit>
 void OffsetDescent<Limit>::find_gap() {
   double mean = 0;
@@ -132,13 +132,13 @@ OffsetQuality OffsetDescent<Limit>::quality() const {
   return at;
 }
 
-// work_ = M r, r = target − gap on the free nodes. Returns r·M r.
+// work_ = M r, r = target − gap when free. Returns r·M r.
 template <class Limit>
 double OffsetDescent<Limit>::turn(double target) {
   const auto lack = [n = view(), target](std::size_t k) {
     return n.moves(k) ? target - n.total_gap(k) : 0.0;
   };
-  // Nodes whose constant the preconditioner does not see.
+  // The preconditioner does not see their constant.
   const bool full = set_.count() == static_cast<double>(nodes());
   const bool all_that_moves = full || (Limit::hardens && !preconditioner_.apart());
   const auto counts = [n = view(), all_that_moves](std::size_t k) {
@@ -151,12 +151,12 @@ double OffsetDescent<Limit>::turn(double target) {
     v[1] = counts(k) ? 1.0 : 0.0;
   });
   preconditioner_.apply(f_.free, work_);
-  // On a periodic tile the preconditioner ignores a constant. Its stiffness comes from the longest wave,
-  // yielding nodes and K(0). With all nodes free a constant moves only yielding nodes (on a layer all).
+  // The preconditioner ignores a periodic constant: stiffness from the longest wave, yielding nodes and K(0).
+  // With all nodes free a constant moves only yielding nodes (on a layer all).
   double level = 0;
   if (periodic_ && sums[1] > 0) {
     const double all = static_cast<double>(nodes()), others = all - sums[1];
-    // A constant on nearly all nodes acts as its negative on the others.
+    // A constant on nearly all nodes: its negative on the others.
     const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
     const double elastically = std::min(level_.greatest_compliance * sums[1], lacking);
     const double yields = all_that_moves ? limit_.yielding_slope() * set_.yielding_count : 0.0;
@@ -182,7 +182,7 @@ void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
   keep_line_loads(level_.shape, f_.pressure, where, limit_.upper(), target);
 }
 
-// Settling and, if K is expensive, a fixed preconditioned step, with one application.
+// One application for settling and, if K is expensive, a fixed step.
 template <class Limit>
 void OffsetDescent<Limit>::settle_step() {
   const bool steps = dear_ && !all_free();
@@ -206,8 +206,8 @@ void OffsetDescent<Limit>::settle_step() {
   }
 }
 
-// Periodic full contact: a uniform pressure moves nothing. Shifts down until the first node opens, or up
-// until the first yields, and a little further.
+// In periodic full contact a uniform pressure moves nothing. Shifts a little past the first opening (down) or
+// yield (up).
 template <class Limit>
 void OffsetDescent<Limit>::shift_all() {
   const double upper = limit_.upper();
@@ -279,7 +279,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
   return any;
 }
 
-// Change of the energy ½ p·Kp − (h + δ)·p with yield.
+// In the energy ½ p·Kp − (h + δ)·p with yield.
 template <class Limit>
 typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const {
   const auto sums = over_nodes<2>(nodes(), [n = view(), offset = offset_, p0 = f_.old_pressure.data(),
@@ -429,7 +429,7 @@ DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double o
   end.stage = "preconditioned descent at a given approach";
   end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.converged || effort == ChainEffort::start) return end;
-  // On long cells a search of the load is quicker.
+  // On long cells load searches are quicker.
   if (effort != ChainEffort::full && effort != ChainEffort::less && keeps_line_loads(level.shape.aspect))
     return end;
   end.stage = "preconditioned descent at a given approach, downhill";

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/api/answers.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+#include "bindings/lua/editor/completion.hpp"
+#include "bindings/web/sandbox/plain_files.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr double check_seconds = 3;
+
+std::optional<std::int64_t> line_in(const std::string& reached) {
+  const std::string lead = "to line ";
+  if (!reached.starts_with(lead)) return {};
+  const std::int64_t line = std::strtoll(reached.c_str() + lead.size(), nullptr, 10);
+  return line > 0 ? std::optional(line) : std::nullopt;
+}
+
+Json mark(const char* severity, const std::string& message, const Json* line) {
+  return Json::object(
+      {{"line", line == nullptr ? Json(1) : *line}, {"severity", severity}, {"message", message}});
+}
+
+// UTF-16 units; 0 for a continuation byte.
+std::size_t units_of(char byte) {
+  const auto bits = static_cast<unsigned char>(byte);
+  return (bits & 0xC0) == 0x80 ? 0 : bits >= 0xF0 ? 2 : 1;
+}
+
+// Also in strings and comments. The parser recurses with brackets on a thread's finite stack.
+std::size_t deepest_bracket(const std::string& text) {
+  std::size_t depth = 0, deepest = 0;
+  for (const char c : text) {
+    if (c == '(' || c == '{' || c == '[') deepest = std::max(deepest, ++depth);
+    if ((c == ')' || c == '}' || c == ']') && depth > 0) --depth;
+  }
+  return deepest;
+}
+
+HttpResponse file_stream(OpenFile file, std::string type, bool as_download) {
+  auto reader = std::make_shared<Descriptor>(file.descriptor);
+  HttpResponse response;
+  response.type = std::move(type);
+  response.headers = {{"Cache-Control", "no-store"}};
+  if (as_download) response.headers.emplace_back("Content-Disposition", "attachment");
+  response.stream = [reader, left = file.bytes](std::string& piece) mutable {
+    piece.resize(static_cast<std::size_t>(std::min<std::int64_t>(left, std::int64_t{64} << 10)));
+    const ssize_t got = piece.empty() ? 0 : ::read(reader->get(), piece.data(), piece.size());
+    piece.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    left -= static_cast<std::int64_t>(piece.size());
+    return !piece.empty() && left > 0;
+  };
+  return response;
+}
+
+}  // namespace
+
+HttpResponse json_answer(const Json& json, int status) {
+  return {.status = status,
+          .headers = {{"Cache-Control", "no-store"}},
+          .type = "application/json",
+          .body = json.text() + "\n"};
+}
+
+HttpResponse problem_answer(int status, const std::string& message, const std::string& hint) {
+  Json problem = Json::object({{"message", message}});
+  if (!hint.empty()) problem.set("hint", hint);
+  return json_answer(Json::object({{"error", problem}}), status);
+}
+
+Json body_of(const HttpRequest& request) {
+  Json body = Json::parse(request.body, "the body of the request");
+  if (!body.is_object()) throw Error(ErrorCode::bad_value, "the body of the request is no object");
+  return body;
+}
+
+std::string text_member(const Json& body, const std::string& key, std::size_t longest) {
+  const Json* found = body.find(key);
+  if (found == nullptr) throw Error(ErrorCode::bad_value, "the request has no " + asperity::quoted(key));
+  if (!found->is_string()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no text");
+  const std::string& text = found->string();
+  if (text.size() > longest)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(key) + " has " + std::to_string(text.size()) + " bytes",
+                "give at most " + std::to_string(longest));
+  return text;
+}
+
+std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t otherwise) {
+  const Json* found = body.find(key);
+  if (found == nullptr || found->is_null()) return otherwise;
+  const double number = found->number();
+  if (!(number >= 0 && number <= 1e15) || number != std::floor(number))
+    throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is " + format_short(number),
+                "give a whole number from 0 on");
+  return static_cast<std::int64_t>(number);
+}
+
+GivenKnobs knobs_member(const Json& body, const std::string& key) {
+  constexpr std::size_t most = 100, longest = 100;
+  const Json* found = body.find(key);
+  if (found == nullptr || found->is_null()) return {};
+  if (!found->is_object()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no object");
+  const Json::Members& members = found->members();
+  if (members.size() > most)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(key) + " has " + std::to_string(members.size()) + " members",
+                "give at most " + std::to_string(most));
+  GivenKnobs knobs;
+  for (const auto& [name, value] : members) {
+    if (!value.is_string())
+      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is no text",
+                  "give a number with its unit in quotes, such as \"50 MPa\"");
+    if (value.string().size() > longest)
+      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is too long");
+    give_knob(knobs, name, value.string());
+  }
+  return knobs;
+}
+
+bool flag_member(const Json& body, const std::string& key) {
+  const Json* found = body.find(key);
+  return found != nullptr && !found->is_null() && found->boolean();
+}
+
+HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request) {
+  std::int64_t after = 0;
+  if (const auto given = request.parameters.find("after"); given != request.parameters.end()) {
+    const auto number = count_in(given->second);
+    if (!number) return problem_answer(400, "`after` is the number of an event");
+    after = static_cast<std::int64_t>(std::min<std::uint64_t>(*number, INT64_MAX));
+  }
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+  HttpResponse response;
+  response.type = "application/x-ndjson";
+  response.headers = {{"Cache-Control", "no-store"}};
+  response.stream = [run, after, until](std::string& piece) mutable {
+    bool more = true;
+    piece = run->events.after(after, std::chrono::milliseconds(500), more);
+    return more && std::chrono::steady_clock::now() < until;
+  };
+  return response;
+}
+
+HttpResponse file_answer(const PageRun& run, const std::string& name) {
+  const bool hidden = name.starts_with('.') || name.find("/.") != std::string::npos;
+  const auto file = hidden ? std::nullopt : open_plain_file(run.directory, name);
+  if (!file) return problem_answer(404, "the run has no such file");
+  // A script's file must not act as a page of this server.
+  const std::string type = media_type(name);
+  const bool harmless = type.starts_with("text/plain") || type.starts_with("text/csv") || type == "image/png";
+  return file_stream(*file,
+                     type.starts_with("text/html") || type.starts_with("text/javascript")
+                         ? "text/plain; charset=utf-8"
+                         : type,
+                     !harmless);
+}
+
+HttpResponse view_answer(const PageRun& run, const std::string& name) {
+  const bool plain = !name.empty() && name.size() < 64 && std::ranges::all_of(name, [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+  const auto file = plain ? open_plain_file(run.directory, ".views/" + name + ".json") : std::nullopt;
+  if (!file) return problem_answer(404, "the run has no such view");
+  return file_stream(*file, "application/json", false);
+}
+
+Json check_script(const std::string& script, const std::filesystem::path& scratch,
+                  const std::vector<std::string>& barriers) {
+  const TemporaryFolder folder("check", scratch);
+
+  ConfinedRequest request{.work = Work::check, .confinement = {}};
+  request.confinement.memory_bytes = std::int64_t{512} << 20;
+  request.confinement.file_bytes = 1 << 16;
+  request.confinement.processor_seconds = static_cast<std::int64_t>(check_seconds) + 2;
+  request.script = script;
+  request.name = "script.lua";
+  request.seconds = check_seconds;
+  request.barriers = barriers;
+  const Finished done =
+      run_confined(request, folder.path().string(), check_seconds + 3, std::size_t{1} << 20);
+
+  Json::List marks, charts;
+  Json answer = Json::object();
+  bool ended = false;
+  std::istringstream lines(done.events);
+  for (std::string line; std::getline(lines, line);) {
+    try {
+      const Json event = Json::parse(line, "an event");
+      const Json *type = event.find("type"), *message = event.find("message"), *why = event.find("why");
+      if (type == nullptr) continue;
+      if (type->string() == "error" && message != nullptr)
+        marks.push_back(mark("error", message->string(), event.find("line")));
+      if (type->string() == "chart") charts.push_back(event);
+      if (const Json* knobs = event.find("knobs"); knobs != nullptr && !knobs->members().empty())
+        answer.set("knobs", *knobs);
+      if (type->string() != "ended" || why == nullptr) continue;
+      ended = true;
+      if (const auto reached = line_in(why->string())) answer.set("checked_to", *reached);
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  if (!ended && marks.empty()) {
+    if (done.status == 2) throw Error(ErrorCode::bad_state, "the script could not be checked: " + done.error);
+    marks.push_back(mark("note", "the check did not come to an end", nullptr));
+  }
+  if (!charts.empty()) answer.set("charts", std::move(charts));
+  answer.set("marks", std::move(marks));
+  return answer;
+}
+
+std::size_t byte_of_unit(std::string_view text, std::size_t unit) {
+  std::size_t before = 0, begin = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const std::size_t units = units_of(text[k]);
+    if (units == 0) continue;
+    begin = k;
+    if (before + units > unit) return begin;
+    before += units;
+  }
+  return text.size();
+}
+
+std::size_t unit_of_byte(std::string_view text, std::size_t byte) {
+  std::size_t units = 0;
+  for (std::size_t k = 0; k < std::min(byte, text.size()); ++k) units += units_of(text[k]);
+  return units;
+}
+
+Json completion_of(const std::string& text, std::size_t unit) {
+  std::size_t from = byte_of_unit(text, unit);
+  Json::List candidates;
+  constexpr std::size_t longest = std::size_t{256} << 10;
+  constexpr std::size_t deepest = 500;
+  if (text.size() > longest || deepest_bracket(text) > deepest)
+    return Json::object({{"from", unit}, {"candidates", candidates}});
+  const lua::Completion completion = lua::complete(text, from);
+  from = completion.from;
+  for (const lua::Candidate& candidate : completion.candidates)
+    candidates.push_back(Json::object({{"text", candidate.text},
+                                       {"kind", candidate.kind},
+                                       {"detail", candidate.detail},
+                                       {"help", candidate.help}}));
+  return Json::object({{"from", unit_of_byte(text, from)}, {"candidates", std::move(candidates)}});
+}
+
+}  // namespace asperity::web
