@@ -65,7 +65,7 @@ step() {
   echo
   echo "You have a machine with Debian 12 and nothing else, and you have read the README. \`tests/package/newcomer.sh\` recorded this"
   echo "page, without the messages of package tools and compilers."
-  step "./lab demo" 3
+  step "./lab demo" 2
   printf '\nYour own script, `first.lua`:\n\n```lua\n'
   cat "$clone/first.lua"
   printf '```\n'
