@@ -18,7 +18,7 @@ namespace asperity::lua {
 
 // Keys of the metatables of placeholders, results and iterators in Lua's registry. `native_key` marks native
 // metatables; the registry has their maker there.
-inline constexpr char unknown_key = 0, record_key = 0, iterator_key = 0, native_key = 0;
+inline constexpr char unknown_key = 0, record_key = 0, iterator_key = 0, native_key = 0, list_units_key = 0;
 
 // Null if not native.
 Object* native_at(lua_State* L, int index);

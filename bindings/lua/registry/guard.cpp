@@ -61,6 +61,7 @@ struct Pusher {
     }
     push_fields(v->named);
     if (v->rows) set_row_methods(L, v->units);
+    if (!v->unit.empty()) set_list_unit(L, v->unit);
   }
   void operator()(const std::shared_ptr<Map>& v) const {
     lua_createtable(L, 0, clipped(v->items.size()));
@@ -111,6 +112,32 @@ struct Pusher {
 void push(lua_State* L, const Value& value) {
   luaL_checkstack(L, 8, "too many nested results");
   std::visit(Pusher{L}, value.data);
+}
+
+// Units of lists stand in a table with weak keys: a metatable would keep the list out of ensembles.
+void set_list_unit(lua_State* L, const std::string& unit) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &list_units_key) == LUA_TNIL) {
+    lua_pop(L, 1);
+    lua_newtable(L);
+    lua_newtable(L);
+    lua_pushliteral(L, "k");
+    lua_setfield(L, -2, "__mode");
+    lua_setmetatable(L, -2);
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &list_units_key);
+  }
+  lua_pushvalue(L, -2);
+  lua_pushlstring(L, unit.data(), unit.size());
+  lua_rawset(L, -3);
+  lua_pop(L, 1);
+}
+
+std::string list_unit(lua_State* L, int index) {
+  const Argument::StackGuard guard(L);
+  index = lua_absindex(L, index);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &list_units_key) != LUA_TTABLE) return {};
+  lua_pushvalue(L, index);
+  return lua_rawget(L, -2) == LUA_TSTRING ? lua_tostring(L, -1) : "";
 }
 
 void push_checked(lua_State* L, const Value& value, const std::string& what) {

@@ -27,6 +27,9 @@ void push(lua_State* L, const Value& value);
 // Gives the list on top the methods of a Table, with display units (run/row_list.cpp). A number under "Ra
 // [um]" becomes one in SI under `Ra`. Raises on lack of memory.
 void set_row_methods(lua_State* L, const std::vector<std::pair<std::string, std::string>>& units);
+// The unit in which print shows the numbers of a list; "" without. The first raises on lack of memory.
+void set_list_unit(lua_State* L, const std::string& unit);  // of the list on top
+std::string list_unit(lua_State* L, int index);
 // Pushes a value; throws Error{out_of_memory}, which names `what`, with Lua's error on the stack.
 void push_checked(lua_State* L, const Value& value, const std::string& what);
 // Number of results; -1 with the error on the stack if memory runs out.

@@ -64,6 +64,7 @@ struct List {
   std::vector<std::pair<std::string, Value>> named;
   bool rows = false;
   std::vector<std::pair<std::string, std::string>> units{};  // of columns of rows, for display
+  std::string unit{};                                        // of numbers in SI, for print
   List();
   List(Values values);
 };

@@ -49,15 +49,15 @@ Values cells_of_column(Call& call) {
     numbers = numbers && (is_number(cell) || is_empty(cell));
     whole = whole && std::holds_alternative<std::int64_t>(cell);
   }
-  if (numbers && !whole) {
-    auto values = std::make_shared<Array<double>>();
-    for (std::size_t row = 0; row < table->rows(); ++row)
-      values->push_back(number_in(table->cell(row, k)).value_or(std::numeric_limits<double>::quiet_NaN()));
-    return {Value::Numbers(std::move(values))};
-  }
   List list;
+  if (numbers) list.unit = table->columns()[k].unit;
   for (std::size_t row = 0; row < table->rows(); ++row) {
-    Value value = value_of(table->cell(row, k), table->columns()[k]);
+    const Cell& cell = table->cell(row, k);
+    if (numbers && !whole) {
+      list.items.emplace_back(number_in(cell).value_or(std::numeric_limits<double>::quiet_NaN()));
+      continue;
+    }
+    Value value = value_of(cell, table->columns()[k]);
     list.items.push_back(value.is_nil() ? Value("") : std::move(value));
   }
   return {std::move(list)};
@@ -117,8 +117,9 @@ std::vector<Function> table_methods() {
        .unknown_when_dry = true},
       {.name = "column",
        .body = cells_of_column,
-       .sentence = "The cells of a column as a list: numbers, nan where a cell is empty; or texts, \"\" "
-                   "where one is.",
+       .sentence =
+           "The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, \"\" "
+           "where one is. print shows the numbers in the column's unit.",
        .parameters = {{"column", "string", "its name"}},
        .returns = "any[]",
        .example = "local mu = book:column \"mu\"",

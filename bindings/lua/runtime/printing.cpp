@@ -12,6 +12,7 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -49,14 +50,22 @@ std::string key_text(const Argument& key) {
   return "[" + line_of(key.state(), key.index(), deepest) + "]";
 }
 
+std::string item_line(lua_State* L, int index, int depth, const std::string& unit) {
+  const Argument item(L, index);
+  if (unit.empty() || !item.is_number()) return line_of(L, index, depth);
+  return format_short(in_unit(item.number(), unit));
+}
+
 std::string table_line(lua_State* L, int index, int depth) {
   const Argument table(L, index);
+  const std::string unit = list_unit(L, index);
   const std::int64_t length = table.length();
   std::vector<std::string> parts;
   std::size_t items = static_cast<std::size_t>(length);
   if (depth >= deepest) return length > 0 ? "{ " + std::to_string(length) + " values }" : "{ ... }";
   for (std::int64_t k = 1; k <= length && parts.size() < most_items; ++k)
-    table.element(k, [&](const Argument& value) { parts.push_back(line_of(L, value.index(), depth + 1)); });
+    table.element(
+        k, [&](const Argument& value) { parts.push_back(item_line(L, value.index(), depth + 1, unit)); });
   std::vector<std::string> named;
   table.each([&](const Argument& key, const Argument& value) {
     const auto whole = key.is_number() ? key.integer() : std::optional<std::int64_t>();
@@ -68,9 +77,9 @@ std::string table_line(lua_State* L, int index, int depth) {
   for (std::string& part : named)
     if (parts.size() < most_items) parts.push_back(std::move(part));
   if (parts.size() < items) parts.push_back("... (" + std::to_string(items) + " in all)");
-  const std::string line = joined(parts, ", ");
-  if (depth == 0 && line.size() > longest_line) return "{ " + joined(parts, ",\n  ") + " }";
-  return parts.empty() ? "{}" : "{ " + line + " }";
+  const std::string line = joined(parts, ", "), behind = unit.empty() ? "" : " " + unit;
+  if (depth == 0 && line.size() > longest_line) return "{ " + joined(parts, ",\n  ") + " }" + behind;
+  return parts.empty() ? "{}" : "{ " + line + " }" + behind;
 }
 
 std::string line_of(lua_State* L, int index, int depth) {
