@@ -884,6 +884,20 @@ test('Messages, NoTokenAndAWrongOne', async () => {
   await wrong.done();
 });
 
+for (const key of ['%', 'testtok%4'])
+  test(`Messages, ADamagedAddressSaysSo ${key}`, async () => {
+    const page = await on.openPage(browser, `${mock.address}/#${key}`);
+    await page.waitForSelector('#banner:not([hidden])');
+    assert.match(await on.text(page, '#banner'), /address of this page is damaged.*Open the whole address/);
+    assert.equal(page.url(), `${mock.address}/`);
+    // The whole address in the same tab opens the page.
+    await page.goto(mock.url);
+    await on.ready(page);
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+    await on.assertQuiet(page);
+    await page.done();
+  });
+
 test('Messages, RunsAtTheirLimitAndARunThatReachedOne', () =>
   visit({}, async (page) => {
     const others = [];
@@ -920,6 +934,23 @@ test('Messages, RunsAtTheirLimitAndARunThatReachedOne', () =>
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
     assert.match(await on.text(page, '.end'), /the run took longer than 30 s/);
   }));
+
+test('Messages, OfANewServerTheOldRunIsNotAsked', async () => {
+  const old = await startMock(on.pageFolder, { token: 'before' });
+  const page = await on.openPage(browser, old.url);
+  await on.ready(page);
+  await on.run(page, 'print "old"\n');
+  await on.finished(page);
+  await old.close();
+  const renewed = await startMock(on.pageFolder, { token: 'after', port: Number(new URL(old.address).port) });
+  await page.goto(renewed.url);
+  await on.until(page, () => document.querySelector('#results-of').textContent === 'No run yet', 'the old run should go');
+  await on.ready(page);
+  assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+  assert.equal((await on.editorText(page)).trim(), 'print "old"');
+  await page.done();
+  await renewed.close();
+});
 
 test('Messages, TheServerIsGoneAndComesBack', async () => {
   const other = await startMock(on.pageFolder);

@@ -141,21 +141,38 @@ export class ApiError extends Error {
 }
 
 const tokenKey = 'asperity.token';
+/** The tab's last run, in the session storage. */
+export const runKey = 'asperity.run';
+
+/** Null if a percent sign begins no character. */
+function decoded(text: string): string | null {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return null;
+  }
+}
 
 export class Api {
-  private token: string;
+  /** Null if the address is damaged. */
+  private readonly token: string | null;
 
   constructor() {
-    const given = decodeURIComponent(location.hash.slice(1));
-    if (given) {
-      sessionStorage.setItem(tokenKey, given);
-      history.replaceState(null, '', location.pathname);
-    }
-    this.token = given || sessionStorage.getItem(tokenKey) || '';
+    const given = decoded(location.hash.slice(1));
+    const before = sessionStorage.getItem(tokenKey);
+    if (given) sessionStorage.setItem(tokenKey, given);
+    if (given && given !== before) sessionStorage.removeItem(runKey); // a run of another server or person
+    if (location.hash) history.replaceState(null, '', location.pathname);
+    this.token = given === '' ? (before ?? '') : given;
+    addEventListener('hashchange', () => location.reload()); // another address in the same tab
   }
 
   get hasToken(): boolean {
-    return this.token !== '';
+    return Boolean(this.token);
+  }
+
+  get addressDamaged(): boolean {
+    return this.token === null;
   }
 
   about = (): Promise<About> => this.json('GET', '/api/about');
@@ -265,7 +282,7 @@ export class Api {
   }
 
   private async request(method: string, path: string, body?: unknown, more: RequestInit = {}): Promise<Response> {
-    const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
+    const headers: Record<string, string> = { Authorization: `Bearer ${this.token ?? ''}` };
     if (body !== undefined) headers['Content-Type'] = 'application/json';
     let answer: Response;
     try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `asperity serve`: connects the panes, which know only their run and the server's interface.
 
-import { Api, ApiError, tokenHint, type About, type EventOf, type Mark } from './api';
+import { Api, ApiError, runKey, tokenHint, type About, type EventOf, type Mark } from './api';
 import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
@@ -304,7 +304,7 @@ function follow(next: Run, key: string, quietly = false): void {
   listening?.abort();
   const mine = (listening = new AbortController());
   const { id, name, script, began } = next;
-  sessionStorage.setItem('asperity.run', JSON.stringify({ id, name, script, began, key }));
+  sessionStorage.setItem(runKey, JSON.stringify({ id, name, script, began, key }));
   announced = Date.now();
   if (quietly) {
     recording = next;
@@ -439,7 +439,12 @@ function limits(a: About): string {
 /** Repeated after a failure. */
 async function greet(): Promise<void> {
   if (!api.hasToken) {
-    messages.tell('This page was opened without its token.', tokenHint);
+    messages.tell(
+      api.addressDamaged
+        ? 'The address of this page is damaged: after its # a percent sign begins no character.'
+        : 'This page was opened without its token.',
+      tokenHint,
+    );
     return;
   }
   try {
@@ -468,10 +473,10 @@ async function firstLessons(): Promise<void> {
 /** After a reload. */
 function resume(): void {
   try {
-    const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as (Run & { key: string }) | null;
+    const last = JSON.parse(sessionStorage.getItem(runKey) ?? 'null') as (Run & { key: string }) | null;
     if (last && api.hasToken) follow(new Run(last.id, last.name, last.script, last.began), last.key);
   } catch {
-    sessionStorage.removeItem('asperity.run');
+    sessionStorage.removeItem(runKey);
   }
 }
 
