@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Who may ask, and what paths lead to.
+import gzip
 import json
 import os
 import tempfile
@@ -85,6 +86,27 @@ def test_every_answer_is_guarded_by_its_headers():
             assert b"<script>" not in page.body and page.headers["Content-Type"] == "text/html; charset=utf-8"
             again = server.ask("GET", "/", headers={"If-None-Match": page.headers["ETag"]})
             assert again.status == 304 and again.body == b""
+
+
+def test_page_files_are_packed_for_clients_of_gzip():
+    with Server(runner.program) as server:
+        plain = server.ask("GET", "/", token="")
+        if plain.status == 503:
+            return
+        assert plain.headers["Content-Encoding"] is None
+        def asked(accepted, **more):
+            return server.ask("GET", "/", token="", headers={"Accept-Encoding": accepted, **more})
+        for accepted in ("gzip", "br, gzip;q=0.5", "deflate,gzip ; q=1"):
+            answer = asked(accepted)
+            assert answer.headers["Content-Encoding"] == "gzip" and answer.headers["Vary"] == "Accept-Encoding", accepted
+            assert len(answer.body) < len(plain.body) and gzip.decompress(answer.body) == plain.body, accepted
+            again = asked(accepted, **{"If-None-Match": answer.headers["ETag"]})
+            assert again.status == 304 and again.body == b"" and again.headers["Content-Encoding"] is None
+        for accepted in ("identity", "br", "gzip;q=0", "x-gzip", "", "gzip;q=x"):
+            answer = asked(accepted)
+            assert answer.headers["Content-Encoding"] is None and answer.body == plain.body, accepted
+        about = server.ask("GET", "/api/about", headers={"Accept-Encoding": "gzip"})
+        assert about.headers["Content-Encoding"] is None and about.json()["version"]
 
 
 def test_a_refused_request_is_never_read_as_another():

@@ -2,13 +2,16 @@
 #include "bindings/web/api/api.hpp"
 
 #include <sha2.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "bindings/lua/editor/lessons.hpp"
@@ -81,6 +84,37 @@ void add_inline_scripts(std::string_view page, std::set<std::string>& digests) {
   }
 }
 
+// As a gzip file (RFC 1952); "" if this saves nothing.
+std::string packed(const std::string& content) {
+  constexpr int with_gzip_head = MAX_WBITS + 16, most_memory = 8;
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, with_gzip_head, most_memory,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    return {};
+  std::string result(content.size(), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(result.data());
+  stream.avail_out = static_cast<uInt>(result.size());
+  const bool whole = deflate(&stream, Z_FINISH) == Z_STREAM_END;
+  result.resize(whole ? stream.total_out : 0);
+  deflateEnd(&stream);
+  return result;
+}
+
+// By Accept-Encoding (RFC 9110): listed, and not with a weight of zero.
+bool takes_gzip(const HttpRequest& request) {
+  const std::string* accepted = request.header("accept-encoding");
+  std::istringstream codings(accepted == nullptr ? std::string() : *accepted);
+  const std::string weighted = "gzip;q=";
+  for (std::string coding; std::getline(codings, coding, ',');) {
+    std::erase(coding, ' ');
+    if (coding == "gzip") return true;
+    if (coding.starts_with(weighted)) return std::strtod(coding.c_str() + weighted.size(), nullptr) > 0;
+  }
+  return false;
+}
+
 constexpr const char* documents_need =
     "the site of the documents is missing: `./lab docs` builds it in build/site of the source folder, and an "
     "installed program looks in share/asperity/site; start the server again after that";
@@ -103,8 +137,10 @@ PageFiles::PageFiles(const std::optional<std::filesystem::path>& folder, std::st
     auto content = read_plain_file(*folder, file.name, largest);
     if (!content) continue;
     if (file.name.ends_with(".html")) add_inline_scripts(*content, inline_scripts);
-    const std::string tag = "\"" + Digester().add(*content).hex() + "\"";
-    files_[root_ + file.name] = {*std::move(content), media_type(file.name), tag};
+    // Weak: packed or not.
+    const std::string tag = "W/\"" + Digester().add(*content).hex() + "\"";
+    std::string small = packed(*content);
+    files_[root_ + file.name] = {*std::move(content), std::move(small), media_type(file.name), tag};
   }
   for (const std::string& script : inline_scripts) inline_scripts_ += " '" + script + "'";
   if (!files_.contains(root_ + "index.html")) files_.clear();
@@ -115,12 +151,17 @@ HttpResponse PageFiles::answer(const HttpRequest& request) const {
   const auto found = files_.find(request.path == root_ ? root_ + "index.html" : request.path);
   if (found == files_.end()) return {.status = 404, .body = "there is no such page\n"};
   const File& file = found->second;
-  HttpResponse response{.headers = {{"ETag", file.tag}, {"Cache-Control", "no-cache"}}, .type = file.type};
+  HttpResponse response{
+      .headers = {{"ETag", file.tag}, {"Cache-Control", "no-cache"}, {"Vary", "Accept-Encoding"}},
+      .type = file.type};
   const std::string* known = request.header("if-none-match");
-  if (known != nullptr && *known == file.tag)
+  if (known != nullptr && *known == file.tag) {
     response.status = 304;
-  else
-    response.body = file.content;
+    return response;
+  }
+  const bool small = !file.packed.empty() && takes_gzip(request);
+  if (small) response.headers.emplace_back("Content-Encoding", "gzip");
+  response.body = small ? file.packed : file.content;
   return response;
 }
 

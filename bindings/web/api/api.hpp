@@ -23,7 +23,7 @@
 
 namespace asperity::web {
 
-// Read once at server start: no request reads the disk.
+// Read and packed once at server start: no request reads the disk.
 class PageFiles {
  public:
   // `folder`: none if not built; `needs` then explains the build. `root`: address of the folder, "/".
@@ -35,7 +35,7 @@ class PageFiles {
 
  private:
   struct File {
-    std::string content, type, tag;
+    std::string content, packed, type, tag;
   };
   std::map<std::string, File> files_;  // by path: "/index.html"
   std::string root_, needs_, inline_scripts_;

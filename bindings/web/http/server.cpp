@@ -138,6 +138,7 @@ class ConnectionThreads final : public httplib::TaskQueue {
 struct Here {
   Connections::Waiting* waiting = nullptr;
   bool close = false;
+  std::string encodings{};  // Accept-Encoding, hidden from the library
 };
 thread_local Here here;
 
@@ -153,6 +154,7 @@ HttpRequest head_of(const httplib::Request& from) {
   request.path = from.path;
   for (const auto& [name, value] : from.params) request.parameters.emplace(name, value);
   for (const auto& [name, value] : from.headers) request.headers.emplace(lower(name), value);
+  if (!here.encodings.empty()) request.headers.emplace("accept-encoding", here.encodings);
   return request;
 }
 
@@ -283,10 +285,11 @@ bool Server::process_and_close_socket(int socket) {
       refuse_head(stream, "400 Bad Request", problem);
       break;
     }
-    here = {&waiting, false};
+    here = {&waiting};
     bool closed = false;
     const bool good = process_request(stream, k + 1 == most_requests, closed, [&](httplib::Request& request) {
       stream.head_is_read();
+      here.encodings = request.get_header_value("Accept-Encoding");
       request.headers.erase("Accept-Encoding");
       request.headers.erase("Range");
       request.ranges.clear();
