@@ -102,20 +102,46 @@ def test_the_teacher_sees_predictions_and_who_needs_help():
 
 def test_scripts_that_are_checked_for_long_keep_nobody_from_theirs():
     with Server(runner.program, "--classroom", "127.0.0.1", "--students", "6") as server:
-        over, long = threading.Event(), set()
+        over, long, said = threading.Event(), set(), []
         def loop(token):
             while not over.is_set():
-                server.ask("POST", "/api/check", {"script": "while true do end"}, token=token)
+                said.append(server.ask("POST", "/api/check", {"script": "while true do end"}, token=token).body)
                 long.add(token)
         loops = [threading.Thread(target=loop, args=(server.tokens[f"student {k}"],)) for k in range(1, 6)]
         for thread in loops:
             thread.start()
         until(lambda: len(long) == len(loops), "each should be known to take long")
+        until(lambda: any(b"because others wait" in answer for answer in said), "a long check should end for others")
         answer = server.ask("POST", "/api/check", {"script": "print(1)"}, token=server.tokens["student 6"])
         over.set()
         for thread in loops:
             thread.join()
         assert answer.status == 200, answer.status
+
+
+def test_completions_of_one_student_take_turns():
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "2") as server:
+        long = json.dumps({"text": "local s = lab.surface.flat{ cells=8, size=1 }\n" * 5000, "position": 0}).encode()
+        over, answered = threading.Event(), []
+        def complete(body):
+            answer = server.ask("POST", "/api/complete", body, token=server.tokens["student 1"])
+            assert answer.status == 200, answer.status
+        def repeat():
+            while not over.is_set():
+                complete(long)
+                answered.append(1)
+        threads = [threading.Thread(target=repeat) for _ in range(24)]
+        for thread in threads:
+            thread.start()
+        until(lambda: len(answered) > 24, "the long ones should be answered")
+        before = len(answered)
+        complete({"text": "lab.sur", "position": 7})
+        overtaken = len(answered) - before
+        over.set()
+        for thread in threads:
+            thread.join()
+        # In turn it comes after the waiting ones; side by side it would overtake nearly all.
+        assert overtaken >= 8, overtaken
 
 
 def test_one_student_cannot_take_every_answer():

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,9 +33,10 @@ HttpResponse file_answer(const PageRun& run, const std::string& name);
 HttpResponse view_answer(const PageRun& run, const std::string& name);
 
 // `asperity check` as a confined dry run: {marks: [{line, severity, message}], checked_to?, knobs?}; `knobs`
-// as in a manifest, up to the point reached. `scratch`: parent of a temporary folder.
+// as in a manifest, up to the point reached. `scratch`: parent of a temporary folder. After one second the
+// check ends as soon as others wait.
 Json check_script(const std::string& script, const std::filesystem::path& scratch,
-                  const std::vector<std::string>& barriers);
+                  const std::vector<std::string>& barriers, const std::function<bool()>& others_wait);
 
 // {from, candidates: [{text, kind, detail, help}]}, in UTF-16 units.
 Json completion_of(const std::string& text, std::size_t unit);

@@ -28,6 +28,7 @@ namespace asperity::web {
 namespace {
 
 constexpr std::size_t longest_script = std::size_t{1} << 20, longest_name = 200;
+constexpr std::chrono::seconds longest_wait{8};
 
 Json facts_of(const PageRun& run) {
   return Json::object({{"id", run.id}, {"name", run.request.name}, {"state", name(run.state())}});
@@ -289,7 +290,7 @@ HttpResponse Api::route(const HttpRequest& request) {
   const std::string path = request.path.substr(5);
   const bool get = request.method == "GET", post = request.method == "POST";
   if (path == "about" && get) return about(*person);
-  if (path == "complete" && post) return complete(request);
+  if (path == "complete" && post) return complete(*person, request);
   if (path == "check" && post) return check(*person, request);
   if (path == "lessons" && get) return lessons();
   if (path.starts_with("lessons/") && get) return lesson(path.substr(8));
@@ -323,7 +324,9 @@ HttpResponse Api::about(std::size_t person) const {
                                    {"teacher", is_teacher(person)}}));
 }
 
-HttpResponse Api::complete(const HttpRequest& request) const {
+HttpResponse Api::complete(std::size_t person, const HttpRequest& request) {
+  const auto share = completions_.take(person, longest_wait);
+  if (share == nullptr) return problem_answer(503, "the scripts of others are being completed", "try again");
   const Json body = body_of(request);
   const std::string text = text_member(body, "text", longest_script);
   const std::int64_t position = whole_member(body, "position", 0);
@@ -332,9 +335,10 @@ HttpResponse Api::complete(const HttpRequest& request) const {
 
 HttpResponse Api::check(std::size_t person, const HttpRequest& request) {
   const std::string script = text_member(body_of(request), "script", longest_script);
-  const auto share = checks_.take(person, std::chrono::seconds(8));
+  const auto share = checks_.take(person, longest_wait);
   if (share == nullptr) return problem_answer(503, "other scripts are being checked", "try again");
-  return json_answer(check_script(script, setup_.scratch, setup_.barriers));
+  return json_answer(
+      check_script(script, setup_.scratch, setup_.barriers, [this] { return checks_.waiting() > 0; }));
 }
 
 // {script, tab, seed?}

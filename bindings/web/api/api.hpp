@@ -88,7 +88,7 @@ class Api final : public HttpHandler {
   HttpResponse route(const HttpRequest& request);
   bool is_teacher(std::size_t person) const { return setup_.classroom && person == 0; }
   HttpResponse about(std::size_t person) const;
-  HttpResponse complete(const HttpRequest& request) const;
+  HttpResponse complete(std::size_t person, const HttpRequest& request);
   HttpResponse check(std::size_t person, const HttpRequest& request);
   HttpResponse begin_run(std::size_t person, const HttpRequest& request);
   HttpResponse begin_live(std::size_t person, const HttpRequest& request);
@@ -111,6 +111,7 @@ class Api final : public HttpHandler {
   const PageFiles documents_;
   RoomBoard board_;
   Turns checks_{{.places = 4, .for_quick = 2}};  // two for quick checks
+  Turns completions_{{.places = 4}};             // one per person
   Turns streams_;                                // long-lived answers
 };
 

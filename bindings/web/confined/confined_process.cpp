@@ -131,8 +131,8 @@ GnuplotResult draw(const std::vector<std::string>& request, const std::vector<st
       barriers, [](const std::string& barrier) { return barrier.starts_with("Landlock"); });
   for (const std::string& barrier : barriers)
     if (!landlock || barrier != own_root_barrier) work.barriers.push_back(barrier);
-  const Finished done =
-      run_confined(work, folder.path().string(), drawing_seconds, std::size_t{1} << 16, &given_up);
+  const Finished done = run_confined(work, folder.path().string(), drawing_seconds, std::size_t{1} << 16,
+                                     [&] { return given_up.load(); });
   std::string picture = read_plain_file(folder.path(), "picture", most_picture_bytes).value_or("");
   if (done.status != 0 || picture.empty())
     throw Error(ErrorCode::bad_state,
@@ -291,17 +291,17 @@ std::string death_text(int signal) {
 }
 
 Finished run_confined(const ConfinedRequest& request, const std::string& folder, double patience,
-                      std::size_t most_bytes, const std::atomic<bool>* given_up) {
+                      std::size_t most_bytes, const std::function<bool()>& given_up) {
   class Collector final : public Follower {
    public:
     Collector(const ConfinedRequest& request, const std::string& folder, double patience,
-              std::size_t most_bytes, const std::atomic<bool>* given_up)
+              std::size_t most_bytes, const std::function<bool()>& given_up)
         : Follower(request, folder, {.seconds = patience, .grace = 0, .to_end = {}}),
           most_bytes_(most_bytes),
           given_up_(given_up) {}
     Finished finished() {
       const int status = follow();
-      done_.late = !ended_for_.empty();
+      done_.late = !ended_for_.empty() && !done_.given_up;
       if (WIFEXITED(status)) done_.status = WEXITSTATUS(status);
       return std::move(done_);
     }
@@ -314,11 +314,11 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
       if (text.size() < most_bytes_) text += piece;
     }
     void look(Clock::time_point) override {
-      if (given_up_ != nullptr && given_up_->load()) end("it was given up");
+      if (given_up_ && !done_.given_up && given_up_()) done_.given_up = end("it was given up");
     }
 
     const std::size_t most_bytes_;
-    const std::atomic<bool>* const given_up_;
+    const std::function<bool()>& given_up_;
     Finished done_;
   };
   return Collector(request, folder, patience, most_bytes, given_up).finished();

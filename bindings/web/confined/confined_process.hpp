@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -112,11 +113,12 @@ std::string death_text(int signal);
 struct Finished {
   int status = -1;                    // exit status; -1 after a signal
   bool late = false;                  // killed at the time limit
+  bool given_up = false;              // killed for the caller
   std::string output, error, events;  // each cut at `most_bytes`
 };
-// Runs a process to its end; kills it as late at the time limit or when `given_up` (may be null) is true.
+// Runs a process to its end; kills it at the time limit or when `given_up` (may be empty) returns true.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder, double patience,
-                      std::size_t most_bytes, const std::atomic<bool>* given_up = nullptr);
+                      std::size_t most_bytes, const std::function<bool()>& given_up = {});
 
 // This machine's barriers, tested by a confined process that tries every way out.
 struct BarrierReport {
