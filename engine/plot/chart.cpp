@@ -303,7 +303,7 @@ std::string look_commands(const LineChart& chart, const Axes& axes, const Conten
     if (drawable(label.x, chart.x) && drawable(label.y, chart.y))
       script += "set label " + gnuplot_text(label.text) + " at " + gnuplot_number(label.x / axes.x.factor) +
                 "," + gnuplot_number(label.y / axes.y.factor) + " center front offset 0," +
-                (label.below ? "-1.4" : "0.8") + " font ',13' textcolor rgb '#202020'\n";
+                (label.below ? "-1.4" : "1.4") + " font ',13' textcolor rgb '#202020'\n";
   return script;
 }
 

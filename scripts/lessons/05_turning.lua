@@ -102,8 +102,13 @@ means:show{ "ground", "contacts", "left", "law", digits=2 }
 means:chart{ x="contacts", y={ "left", "law" }, file="slopes.svg",
   where={ ground={ "eight, 1 x", "eight, 2 x", "eight, 3 x" } },
   y_label="slope", title="Slope left after so many contacts" }
-on_quartz:chart{ x="step", y="area", one_line_per="case", spread=true,
-  title="Harder (stress / 20 MPa) or again?", file="on_quartz.svg" }
+on_quartz:chart{ x="step", y="area", where={ case="harder" },
+  x_label="stress / 20 MPa", y_label="real area over the first",
+  spread=true, title="Pressed harder", file="harder.svg" }
+on_quartz:chart{ x="step", y="area", one_line_per="case",
+  where={ case={ "turned", "tops yield" } }, x_label="presses",
+  y_label="real area over the first", spread=true, title="Pressed again",
+  file="on_quartz.svg" }
 
 -- 3. Expectations, and the reason.
 local areas = on_quartz:mean("area", { by={ "case", "step" } })

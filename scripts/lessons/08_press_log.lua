@@ -86,7 +86,34 @@ local function follow(way, protocol)
 end
 local p = record("press.csv", turned_at)
 print(p)
-p:chart("press.svg", { title="The record of the press (synthetic)" })
+
+-- A chart of the record: a line for each press that was found.
+local log = lab.notebook("log", { units={ time="min", load="kN" } })
+local function draw(part, time, load)
+  log:write{ part=part, ["time [s]"]=time, ["load [N]"]=load }
+end
+for _, row in ipairs(lab.table.read "press.csv":rows()) do
+  local part, press = "at rest", 0
+  for _, event in ipairs(p:events()) do
+    if event.kind == "press" then
+      press = press + 1
+      local since = row.time - event.time
+      local during = since >= -10 and since <= event.dwell + 10
+      part = during and "press " .. press or part
+    end
+  end
+  draw(part, row.time, row.load)
+end
+for _, event in ipairs(p:events()) do
+  if event.kind == "rotate" then
+    for k = -1, 1 do
+      draw("turn", event.time + 10 * k, k == 0 and 2e4 or 0)
+    end
+  end
+end
+log:chart{ x="time", y="load", one_line_per="part", points=false,
+  title="The record of the press (synthetic)", file="press.svg" }
+
 local bench = follow("as recorded", p)
 follow("without the turn", record("lying.csv", math.huge))
 book:show{ "way", "press", "pressure [MPa]", "volume [um^3]", "share",

@@ -158,7 +158,7 @@ function chartsIn(script) {
 }
 
 /** Lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
-    `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
+    `mock.flood`, `mock.alike`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
     `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs, mock) {
   const lines = script.split('\n');
@@ -200,6 +200,10 @@ function* eventsOf(script, knobs, mock) {
     const rows = Number(/mock\.rows (\d+)/.exec(line)?.[1] ?? 0);
     for (let i = 1; i <= rows; ++i)
       yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
+    if (/mock\.alike/.test(line))
+      for (const way of ['one', 'two'])
+        for (let i = 1; i <= 4; ++i)
+          yield { type: 'row', notebook: 'ways', row: { i, v: i < 4 ? i * i : way === 'one' ? 3 : 1, way } };
     if (/os\.exit\(3\)/.test(line)) {
       yield { type: 'finished', status: 'failed', exit: 3, seconds: 0.1, reason: 'os.exit(3)' };
       return;

@@ -382,6 +382,19 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
     assert.equal((await shown(loop)).caption, 'level against v [µm]: 9 points.');
   }));
 
+test('Chart, LinesOnEachOtherAreBothSeen', () =>
+  visit({}, async (page) => {
+    await tab(page, 'chart');
+    const dashed = () => page.$$eval('.chart svg .line path', (all) => all.map((e) => getComputedStyle(e).strokeDasharray !== 'none'));
+    await on.run(page, '-- mock.alike\n');
+    await on.finished(page);
+    assert.match(await on.text(page, '.charts .caption'), /8 points, 2 lines, one per way/);
+    assert.deepEqual(await dashed(), [false, true]);
+    await on.run(page, 'for N = 1, 8 do end\n');
+    await on.finished(page);
+    assert.deepEqual(await dashed(), [false, false]);
+  }));
+
 test('Chart, ManyPointsDoNotHideTheirLine', async () => {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
   const blue = [11, 95, 165];

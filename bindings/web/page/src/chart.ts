@@ -13,6 +13,7 @@ import { greatestOf, label, numberText, scaleFor, shareOf, type Scale } from './
 const fontSize = 15; // px
 const lineHeight = 24; // px
 const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
+const dashes = ['9 6', '12 5 3 5', '3 5', '6 4 12 4']; // px
 const mostNamed = 16;
 
 export interface Drawn {
@@ -60,14 +61,16 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   const kinds = lines.map((l, k): Marks =>
     choice.points === false && !named ? 'none' : marksFor(places[k], !named && l.means.length === l.points.length),
   );
+  const over = liesOver(lines.map((l) => l.means.map(place)));
   const drawn = lines.flatMap((l, k): Markish[] => {
     const stroke = ink.series[k % ink.series.length];
     const kind = kinds[k] === 'large' && kinds.some((m) => m !== 'large') ? 'small' : kinds[k];
+    const strokeDasharray = over[k] ? dashes[k % dashes.length] : 'none';
     const title = (p: Point): string => pointText(l, p, choice, scaleX, scaleY, names);
     return [
       ruleX(bars[k].filter((bar) => bar.y2 > bar.y1), { x: 'x', y1: 'y1', y2: 'y2', stroke, strokeWidth: 1.5 }),
-      ...(named ? [] : [line(l.means, { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
-      ...dotsOf(l.points, places[k], kind, k, ink, title),
+      ...(named ? [] : [line(l.means, { x: 'x', y: 'y', stroke, strokeWidth: 2, strokeDasharray })]),
+      ...dotsOf(l.points, places[k], kind, k, over[k], ink, title),
     ];
   });
   const words = { fontSize, fill: ink.text };
@@ -154,15 +157,17 @@ function dotsOf(
   places: Point[],
   kind: Marks,
   index: number,
+  over: boolean,
   ink: Ink,
   title: (p: Point) => string,
 ): Markish[] {
   if (kind === 'none') return [];
   const close = crowded(places, 2 * radii[kind]);
+  const r = radii[kind] * (over ? 0.65 : 1);
   const fill = ink.series[index % ink.series.length];
-  const look = { x: 'x', y: 'y', r: radii[kind], symbol: symbols[index % symbols.length], fill, title };
+  const look = { x: 'x', y: 'y', r, symbol: symbols[index % symbols.length], fill, title };
   const fillOpacity = share(close) > 0.5 ? 0.5 : 1; // the line must remain visible in a dense cloud
-  const outlined = (k: number): boolean => kind === 'large' && !close[k];
+  const outlined = (k: number): boolean => kind === 'large' && !close[k] && !over;
   return [
     dot(points.filter((_, k) => outlined(k)), { ...look, fillOpacity, stroke: ink.paper }),
     dot(points.filter((_, k) => !outlined(k)), { ...look, fillOpacity, stroke: 'none' }),
@@ -306,6 +311,17 @@ function crowded(places: Point[], size: number): boolean[] {
     }
   });
   return tenths.map((p) => known.get(`${p.x} ${p.y}`)!.close);
+}
+
+/** Lines with two or more points of earlier lines; these are dashed and have small marks, to hide nothing. */
+function liesOver(lines: Point[][]): boolean[] {
+  const taken = new Set<string>();
+  return lines.map((places) => {
+    const names = places.map((p) => `${Math.round(p.x)} ${Math.round(p.y)}`);
+    const alike = names.filter((n) => taken.has(n)).length;
+    names.forEach((n) => taken.add(n));
+    return alike > 1;
+  });
 }
 
 function share(of: boolean[]): number {
