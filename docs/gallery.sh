@@ -37,7 +37,8 @@ budget_of_fig7:rises.svg
 06_tilt:angles.svg
 07_accuracy:ways.svg
 08_press_log:volume.svg
-09_same_numbers:touching.svg'
+09_same_numbers:touching.svg
+10_own_data:D.svg'
 
 scripts() { find examples scripts/lessons -name '*.lua' ! -path 'examples/accuracy/*' ! -path 'examples/data/*' ! -path 'examples/library/*'; }
 path_of() { scripts | grep "/$1\.lua\$"; }

@@ -107,8 +107,8 @@ on_quartz:chart{ x="step", y="area", where={ case="harder" },
   spread=true, title="Pressed harder", file="harder.svg" }
 on_quartz:chart{ x="step", y="area", one_line_per="case",
   where={ case={ "turned", "tops yield" } }, x_label="presses",
-  y_label="real area over the first", spread=true, title="Pressed again",
-  file="on_quartz.svg" }
+  y_label="real area over the first", title="Pressed again",
+  file="on_quartz.svg", spread=true }
 
 -- 3. Expectations, and the reason.
 local areas = on_quartz:mean("area", { by={ "case", "step" } })

@@ -66,8 +66,8 @@ TEST(Lesson, WithoutAPartIsAnError) {
             std::string::npos);
 }
 
-TEST(Lessons, AreNineInOrder) {
-  ASSERT_EQ(lessons().size(), 9u);
+TEST(Lessons, AreTenInOrder) {
+  ASSERT_EQ(lessons().size(), 10u);
   int number = 0;
   for (const Lesson& lesson : lessons()) {
     EXPECT_EQ(lesson.number, ++number) << lesson.file;

@@ -199,7 +199,7 @@ def test_completion_counts_as_a_browser_does():
 def test_lessons_are_read_by_name_alone():
     with Server(runner.program) as server:
         lessons = server.ask("GET", "/api/lessons").json()
-        assert len(lessons) == 9 and all(lesson["question"] and lesson["minutes"] > 0 for lesson in lessons), lessons
+        assert len(lessons) == 10 and all(lesson["question"] and lesson["minutes"] > 0 for lesson in lessons), lessons
         for lesson in lessons:
             whole = server.ask("GET", "/api/lessons/" + lesson["name"]).json()
             assert whole["title"] and whole["text"] and whole["script"].startswith("--"), whole
