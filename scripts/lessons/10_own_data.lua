@@ -11,9 +11,9 @@
 --
 -- A fractal has one **D** at all distances. The structure function, the
 -- mean square of the change of height over a distance s, grows as
--- s^(4-2D). So each doubling of s gives a value of D, and the face has a
--- D only where these values agree. Here we ask for five doublings in a
--- row: a factor of 32, or a decade and a half.
+-- s^(4-2D). So each doubling of s gives a value of D, and the face has
+-- a D only where these values agree. Here we ask for five doublings in
+-- a row: a factor of 32, or a decade and a half.
 --
 -- Your data: on the page paste a trace of two columns (position and
 -- height, both in um) into `pasted`; in the terminal name a map in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Range and ticks of an axis: the largest set without overlapping labels. Integer data have integer ticks. A
-// logarithmic axis ends at its data.
+// logarithmic axis ends at its data. Plot's own ticks give halves between whole numbers, prefixes without a unit
+// (100m), and logarithmic axes with most labels empty.
 
 import { scaleLinear } from 'd3-scale';
 import { extentOf, raised, sameToRounding, shareOf } from './units';
