@@ -247,8 +247,8 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   certify(team, problem, answer);
   if (!answer.converged && !problem.best_effort) {
     const double weight = std::isfinite(problem.cap) ? problem.cap / mean_pressure : 1.0;
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations,
-                      problem.surface.grid,
+    throw_unconverged("the contact at " + format_quantity(mean_pressure, dimension::pressure),
+                      answer.certificate, problem.tolerance, answer.iterations, problem.surface.grid,
                       rounding_residual(std::abs(answer.approach), flat ? 0.0 : height, weight));
   }
   return answer;

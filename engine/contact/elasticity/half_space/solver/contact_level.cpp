@@ -11,11 +11,10 @@
 namespace asperity {
 
 namespace {
-// Wave number π/2 over the root of the cell's area.
+// |q|/2; the wave number q is π/2 over the root of the cell's area.
 double stiffness_of_short_waves(const LevelShape& shape) {
-  const double of_half_space = std::numbers::pi / 4 / std::sqrt(shape.aspect);
-  return shape.multiplier.shares() ? of_half_space / shape.multiplier.share(2 * of_half_space)
-                                   : of_half_space;
+  const double wave = std::numbers::pi / 2 / std::sqrt(shape.aspect), of_half_space = wave / 2;
+  return shape.multiplier.shares() ? of_half_space / shape.multiplier.share(wave) : of_half_space;
 }
 
 double compliance_of_long_waves(const LevelShape& shape) {
@@ -74,15 +73,13 @@ void ContactLevel::gap_beside(double mean, std::span<const double> p, std::span<
 }
 
 namespace {
-constexpr int least_side = 32;
-
 // Even if possible, for further nesting.
 int coarser_side(int n, Boundary boundary) {
   if (n < 2 * least_side) return n;
   if (n % 2 == 0) return n / 2;
   if (boundary == Boundary::free) return (n + 1) / 2;
-  // A multiple of four, for nesting and fast transforms.
-  return (n / 2 + 3) / 4 * 4;
+  constexpr int multiple = 4;  // for nesting and fast transforms
+  return (n / 2 + multiple - 1) / multiple * multiple;
 }
 
 }  // namespace

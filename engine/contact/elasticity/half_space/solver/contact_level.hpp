@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact problem on one nested grid, in its cell units: hx = 1, hy = aspect, E* = 1, heights divided by
 // the rms of the finest grid, pressures by E*·rms/hx. Also restriction (node values; linear between nodes)
-// and bilinear prolongation. Sides below 64 cells are not halved.
+// and bilinear prolongation. Sides below 2·least_side cells are not halved.
 #pragma once
 
 #include <cstddef>
@@ -100,6 +100,9 @@ class ContactLevel : public AllNodes {
   std::span<const double> heights_;
   double origin_, factor_, unit_;
 };
+
+// Of a coarser grid.
+inline constexpr int least_side = 32;
 
 // Pitches in finer cells; empty if no side can be halved.
 struct CoarserGrid {

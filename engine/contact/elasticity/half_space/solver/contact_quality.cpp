@@ -9,44 +9,43 @@
 namespace asperity {
 
 namespace {
-void weigh(const LinearHardening& limit, std::size_t k, double p, double g, double balance, double* v) {
-  const double q = limit.settle(k, p, g, balance);
-  const double opening = limit.opening(k, q), gap = g + opening;
-  const bool yields = opening > 0, open = q <= 0, interior = !open & !yields;
-  v[0] = interior ? 1.0 : 0.0;
-  v[1] = interior ? gap : 0.0;
-  v[2] = yields ? 1.0 : 0.0;
-  v[3] = yields ? gap : 0.0;
-  v[4] = q;
-  v[5] = q * gap;
-  v[6] = q != p ? 1.0 : 0.0;
-  v[7] = gap;
-  v[8] = open ? gap : infinity;
-  v[9] = open ? infinity : -gap;
-}
-
 template <class Take>
 ContactQuality measure_hardening(const ContactLevel& level, const LinearHardening& limit, std::size_t nodes,
                                  double balance, Take take) {
+  enum { interior, interior_gap, plastic, plastic_gap, load, energy, settled, least_gap, least_open, loaded };
   const auto found = over_nodes<7, 3>(nodes, [=, limit = limit](std::size_t k, double* v) {
-    double pressure, gap;
-    take(k, pressure, gap);
-    weigh(limit, k, pressure, gap, balance, v);
+    double pressure, elastic_gap;
+    take(k, pressure, elastic_gap);
+    const double q = limit.settle(k, pressure, elastic_gap, balance);
+    const double opening = limit.opening(k, q), gap = elastic_gap + opening;
+    const bool yields = opening > 0, open = q <= 0, inside = !open & !yields;
+    v[interior] = inside ? 1.0 : 0.0;
+    v[interior_gap] = inside ? gap : 0.0;
+    v[plastic] = yields ? 1.0 : 0.0;
+    v[plastic_gap] = yields ? gap : 0.0;
+    v[load] = q;
+    v[energy] = q * gap;
+    v[settled] = q != pressure ? 1.0 : 0.0;
+    v[least_gap] = gap;
+    v[least_open] = open ? gap : infinity;
+    v[loaded] = open ? infinity : -gap;
   });
   ContactQuality quality;
-  quality.interior = found[0];
-  quality.load = found[4];
-  quality.within = found[6] == 0;
-  if (found[0] > 0)
-    quality.interior_gap = found[1] / found[0];
+  quality.interior = found[interior];
+  quality.load = found[load];
+  quality.within = found[settled] == 0;
+  if (found[interior] > 0)
+    quality.interior_gap = found[interior_gap] / found[interior];
   else
-    quality.interior_gap = found[2] > 0 ? found[3] / found[2] : contact_measures::middle(found[8], -infinity);
-  const double weighted = found[5] / found[4];
+    quality.interior_gap = found[plastic] > 0 ? found[plastic_gap] / found[plastic]
+                                              : contact_measures::middle(found[least_open], -infinity);
+  const double weighted = found[energy] / found[load];
   quality.offset = weighted;
-  const double penetration = std::max(0.0, weighted - found[7]) / level.length;
+  const double below = weighted - found[least_gap];
+  const double penetration = std::max(0.0, below) / level.length;
   quality.residual =
-      std::max(penetration, contact_measures::open_weight * (-found[9] - weighted) / level.length);
-  if (!(weighted - found[7] == weighted - found[7])) quality.residual = infinity;
+      std::max(penetration, contact_measures::open_weight * (-found[loaded] - weighted) / level.length);
+  if (std::isnan(below)) quality.residual = infinity;
   return quality;
 }
 

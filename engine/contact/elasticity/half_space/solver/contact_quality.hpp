@@ -70,26 +70,27 @@ struct AsStored {
 
 template <class Level, class Take>
 ContactQuality measure_uncapped(Level& level, Take take) {
+  enum { interior, interior_gap, load, energy, settled, least_gap };
   const auto found = level.template in_lanes<5, 1>([=]<class Value>(std::size_t k, Value* v) {
     Value p, g;
     take(k, p, g);
     const Value none = {}, one = none + 1.0, q = p <= none ? none : p;
-    v[0] = p <= none ? none : one;
-    v[1] = p <= none ? none : g;
-    v[2] = q;
-    v[3] = q * g;
-    v[4] = p < none ? one : none;
-    v[5] = g;
+    v[interior] = p <= none ? none : one;
+    v[interior_gap] = p <= none ? none : g;
+    v[load] = q;
+    v[energy] = q * g;
+    v[settled] = p < none ? one : none;
+    v[least_gap] = g;
   });
   ContactQuality quality;
-  quality.interior = found[0];
-  quality.load = found[2];
-  quality.within = found[4] == 0;
-  quality.interior_gap = found[0] > 0 ? found[1] / found[0] : found[5];
-  const double weighted = found[3] / found[2];
+  quality.interior = found[interior];
+  quality.load = found[load];
+  quality.within = found[settled] == 0;
+  quality.interior_gap = found[interior] > 0 ? found[interior_gap] / found[interior] : found[least_gap];
+  const double weighted = found[energy] / found[load], below = weighted - found[least_gap];
   quality.offset = weighted;
-  quality.residual = std::max(0.0, weighted - found[5]) / level.length;
-  if (std::isnan(weighted - found[5])) quality.residual = infinity;
+  quality.residual = std::max(0.0, below) / level.length;
+  if (std::isnan(below)) quality.residual = infinity;
   return quality;
 }
 
@@ -102,25 +103,27 @@ inline double middle(double least_open, double greatest_saturated) {
 
 template <class Level, class Take>
 ContactQuality measure_capped(Level& level, double upper, AsStored stored, Take take) {
+  enum { interior, interior_gap, load, settled, least_open, saturated };
   const auto found = level.template in_lanes<4, 2>([=]<class Value>(std::size_t k, Value* v) {
     Value p, g;
     take(k, p, g);
     const Value none = {}, one = none + 1.0, never = none + infinity, most = none + upper;
     const Value positive = p > none ? p : none;
-    const Value inside = p < most ? one : none, interior = p > none ? inside : none;
-    v[0] = interior;
-    v[1] = interior > none ? g : none;
-    v[2] = p < most ? positive : most;
+    const Value below = p < most ? one : none, inside = p > none ? below : none;
+    v[interior] = inside;
+    v[interior_gap] = inside > none ? g : none;
+    v[load] = p < most ? positive : most;
     const Value too_large = p > most ? one : none;
-    v[3] = p < none ? one : too_large;
-    v[4] = p <= none ? g : never;
-    v[5] = p >= most ? -g : never;
+    v[settled] = p < none ? one : too_large;
+    v[least_open] = p <= none ? g : never;
+    v[saturated] = p >= most ? -g : never;
   });
   ContactQuality quality;
-  quality.interior = found[0];
-  quality.load = found[2];
-  quality.within = found[3] == 0;
-  quality.interior_gap = found[0] > 0 ? found[1] / found[0] : middle(found[4], -found[5]);
+  quality.interior = found[interior];
+  quality.load = found[load];
+  quality.within = found[settled] == 0;
+  quality.interior_gap = found[interior] > 0 ? found[interior_gap] / found[interior]
+                                             : middle(found[least_open], -found[saturated]);
   const double offset = quality.offset = quality.interior_gap;
   const auto apart = level.template in_lanes<1, 2>([=]<class Value>(std::size_t k, Value* v) {
     Value pressure, gap;

@@ -143,14 +143,15 @@ bool spectral_gradient(Level& level, const Limit& law, std::span<double> p, std:
     project(d);
     level.each([=](std::size_t k) { d[k] -= p[k]; });
     level.apply(std::span<const double>(d), image);
+    enum { energy_slope, bend, bend_squared, step_squared };
     const auto sums = level.template over<4>([=](std::size_t k, double* v) {
       const double bent = image[k] + opening_slope(k) * d[k];
-      v[0] = (total_gap(k) - middle) * d[k];
-      v[1] = d[k] * bent;
-      v[2] = bent * bent;
-      v[3] = d[k] * d[k];
+      v[energy_slope] = (total_gap(k) - middle) * d[k];
+      v[bend] = d[k] * bent;
+      v[bend_squared] = bent * bent;
+      v[step_squared] = d[k] * d[k];
     });
-    const double slope = sums[0], curvature = sums[1];
+    const double slope = sums[energy_slope], curvature = sums[bend];
     if (!(curvature > 0)) return false;
     const double highest = *std::max_element(energies.begin(), energies.end());
     const double t = energy + slope + 0.5 * curvature > highest ? std::min(1.0, -slope / curvature) : 1.0;
@@ -161,7 +162,7 @@ bool spectral_gradient(Level& level, const Limit& law, std::span<double> p, std:
     energy += t * slope + 0.5 * t * t * curvature;
     energies[static_cast<std::size_t>(step + 1) % window] = energy;
     fresh = false;
-    pace = step % 2 == 0 ? sums[3] / curvature : curvature / sums[2];
+    pace = step % 2 == 0 ? sums[step_squared] / curvature : curvature / sums[bend_squared];
     if (step % renewals == renewals - 1) {
       project(p);
       level.gap(p, g);
@@ -184,18 +185,15 @@ template <class Descend, class Shake>
 DescentEnd run_stages(ChainEffort effort, const Descend& descend, const Shake& shake) {
   constexpr int a_few = 12, last_resort = 3000;
   DescentEnd end;
-  for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
-    if (stage == 4) {
-      end.converged = shake(last_resort);
-      end.stage = "spectral projected gradients, after the descents stalled";
-    } else if (stage % 2 == 1) {
-      end.converged = shake(a_few);
-      end.stage = "spectral projected gradients";
-    } else {
-      end.converged = descend();
-      end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
-    }
-  }
+  const auto ends = [&](const char* stage, bool converged) {
+    end = {converged, stage};
+    return converged;
+  };
+  if (ends("preconditioned descent", descend()) || ends("spectral projected gradients", shake(a_few)) ||
+      ends("preconditioned descent, restarted", descend()) || effort != ChainEffort::full)
+    return end;
+  if (!ends("spectral projected gradients", shake(a_few)))
+    ends("spectral projected gradients, after the descents stalled", shake(last_resort));
   return end;
 }
 

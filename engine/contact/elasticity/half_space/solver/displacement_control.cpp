@@ -34,8 +34,7 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
   for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });
   compliance.apply_inverse(p, p);
   const Range ends = range(p);
-  constexpr double a_little_more = 1 + 1e-12;
-  const double pressure = -ends.min * a_little_more * unit;
+  const double pressure = -ends.min * (1 + a_little) * unit;
   const YieldLaw& law = problem.yield;
   const double most = law.yield ? range(law.yield->values()).min : law.cap;
   if (law.limits() && !(pressure + ends.max * unit < most)) return {};
@@ -46,7 +45,7 @@ namespace {
 
 // Rejects pressures whose rounding hides the heights.
 void check_approach(const HalfSpaceProblem& problem, double approach) {
-  if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
+  if (approach < least_relative * std::max(problem.grid.size_x, problem.grid.size_y))
     refuse("`approach` is " + format_short(approach) +
                " m, less than 1e-280 of the tile: its pressures are too small for doubles",
            "give a larger approach, or 0");

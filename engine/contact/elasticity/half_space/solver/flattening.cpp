@@ -109,17 +109,19 @@ std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
         unit * greatest([&](std::size_t k) { return law.yields_at(k) / unit - (p[k] - mean_of_it); });
     least = std::min(least, yielding);
   }
-  constexpr double a_little_more = 1 + 1e-12;
-  return least > 0 && std::isfinite(least) ? std::optional(least * a_little_more) : std::nullopt;
+  return least > 0 && std::isfinite(least) ? std::optional(least * (1 + a_little)) : std::nullopt;
 }
 
 namespace {
+using namespace search_rules;
+
+constexpr double rough_tolerance = 1e-2;  // of first solves and on coarser grids
+constexpr double error_share = 0.05;      // next tolerance per present error
 
 // As SoughtByLoad::on_the_line. The greatest of linear depths is convex: secants converge from one side.
 std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
                                             const HalfSpaceAnswer& before, double wanted) {
   constexpr int most_looks = 8;
-  constexpr double close = 1e-12;
   const Range span = known_range(problem.heights->values());
   if (presses_lightly(problem, last, span) || presses_lightly(problem, before, span)) return {};
   const auto deepest = [&](double share) {
@@ -130,7 +132,7 @@ std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, con
   };
   const double target = (1 - wanted) * span.span();
   double at = 1, at_before = 0, found = deepest(1), found_before = deepest(0);
-  for (int look = 0; look < most_looks && std::abs(found - target) > close * span.span(); ++look) {
+  for (int look = 0; look < most_looks && std::abs(found - target) > a_little * span.span(); ++look) {
     const double next = at + (target - found) * (at - at_before) / (found - found_before);
     if (!std::isfinite(next)) return {};
     at_before = std::exchange(at, next);
@@ -144,7 +146,7 @@ std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
   return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
 }
 
-constexpr std::size_t coarse_nodes = 64 * 64;
+constexpr std::size_t coarse_side = 2 * least_side, coarse_nodes = coarse_side * coarse_side;
 
 std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
   const Grid& grid = problem.grid;
@@ -197,9 +199,11 @@ bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& ans
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
+bool is_complete(double fraction, double accuracy) { return fraction >= 1 - 0.9 * accuracy; }
+
 // Complete flattening continues beyond full contact: aim just below.
 double wanted_share(double fraction, double accuracy) {
-  return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
+  return is_complete(fraction, accuracy) ? 1 - 0.4 * accuracy : fraction;
 }
 
 // Searches the approach that flattens a share, to `accuracy`; unconverged if the load is the better variable.
@@ -207,12 +211,9 @@ double wanted_share(double fraction, double accuracy) {
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
                                     std::optional<double> guess, double accuracy, LoadsMet& met,
                                     Monitor& monitor, bool alone = false) {
-  constexpr int most_solves = 60;
   // Solves (few if the error exceeds `far`) or applications before the search continues in the load.
   constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
   constexpr double far = 1e-2, decades = 1e2;
-  constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
-  constexpr double cautious = 20;  // error in units of the certificate
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
@@ -230,7 +231,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   }
   BracketedSecant root = bracket;
   HalfSpaceProblem now = problem;
-  now.tolerance = std::max(accuracy, loosest);
+  now.tolerance = std::max(accuracy, rough_tolerance);
   HalfSpaceAnswer answer, before;
   double pressed = 0;
   double gain = 1;  // d(flattened height)/d(approach), >= 1
@@ -238,7 +239,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     HalfSpaceAnswer start;
-    if (solve > 0 && std::abs(approach / answer.approach - 1) < near) {
+    if (solve > 0 && std::abs(approach / answer.approach - 1) < near_start) {
       const double steps = (approach - answer.approach) / (answer.approach - before.approach);
       start = further_along(answer, std::move(before), steps);
     }
@@ -255,8 +256,8 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     if (solve > 0 && approach != before.approach)
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
-    const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
-    const double rough = cautious * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
+    const bool sure = error > std::min(now.tolerance, gap_per_residual * answer.certificate.worst()) * gain;
+    const double rough = gap_per_residual * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
     if (sure && answer.converged)
       met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
     if (load_tells_more(problem, answer)) break;
@@ -268,7 +269,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const bool near_enough = error <= 0.5 * accuracy;
     const bool too_far = near_enough && most_at_the_cap(problem, answer);
     if (too_far && now.tolerance > least_tolerance) {
-      now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
+      now.tolerance = std::max(least_tolerance, much_tighter * now.tolerance);
       continue;
     }
     if (near_enough && !loose && !too_far) {
@@ -276,14 +277,13 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       afresh = true;
       continue;
     }
-    // Complete: more approach changes nothing.
-    const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
+    const bool nothing_more = too_far || nearly_all(pressed, wanted, span);
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
-    now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
+    now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? error_share : 0.02) * error / gain));
     if (near_enough && !too_far) continue;
     // Decades of load for little approach.
     const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
-                       std::abs(approach / before.approach - 1) < near;
+                       std::abs(approach / before.approach - 1) < near_start;
     const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
                              (solve > 0 && applications > many_by_approach);
     by_load = !alone && (steep || ((met.below || met.above) && long_enough));
@@ -291,7 +291,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
     if (!next) {  // a loose solve chose the wrong side
-      now.tolerance = std::max(tightest, 0.01 * now.tolerance);
+      now.tolerance = std::max(tightest, much_tighter * now.tolerance);
       root = bracket;
     }
     approach = next.value_or(approach);
@@ -332,36 +332,32 @@ HalfSpaceAnswer solve_nearer(const HalfSpaceProblem& now, const HalfSpaceAnswer&
   }
 }
 
-// Continues in the approach from a solved contact, in steps up to `furthest`, halved on failure. With yield
+// Continues in the approach from a solved contact, in steps up to `near_start`, halved on failure. With yield
 // on long cells this takes a few passes, a solve at a load the last resort. Failure: the last converged
 // contact, marked unconverged.
 HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
                                      int most_applications, Monitor& monitor) {
   constexpr int most_solves = 40;
-  constexpr double furthest = 0.3;  // greatest relative step
-  constexpr double more = 4;        // growth until both sides are known
-  constexpr double good = 0.1;      // certificate of a useful start
-  constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
-  constexpr double cautious = 20;
+  constexpr double more = 4;  // growth until both sides are known
   if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
   certify(problem, answer);
   answer.converged = false;
   answer.iterations = 0;
-  if (!(answer.certificate.worst() < good)) return answer;
+  if (!(answer.certificate.worst() < good_start)) return answer;
   const double span = known_range(problem.heights->values()).span();
   const double wanted = wanted_share(fraction, problem.tolerance) * span;
   const double unit = std::max(1.0, problem.rms / wanted);
   const double tightest = std::max(least_tolerance, problem.tolerance / unit);
   BracketedSecant root(wanted);
   HalfSpaceProblem now = problem;
-  now.tolerance = std::max(problem.tolerance, loosest);
-  double reach = furthest;
+  now.tolerance = std::max(problem.tolerance, rough_tolerance);
+  double reach = near_start;  // greatest relative step
   bool below = false, above = false;
   int applications = 0, stalls = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     const double pressed = flattened(problem, answer) * span;
     const double error = std::abs(pressed - wanted) / wanted;
-    const bool told = error > cautious * answer.certificate.worst() * unit;
+    const bool told = error > gap_per_residual * answer.certificate.worst() * unit;
     const bool sure = told || (solve > 0 && now.tolerance <= tightest);
     const bool near_enough = solve > 0 && error <= 0.5 * problem.tolerance;
     if (near_enough && now.tolerance <= problem.tolerance && !most_at_the_cap(problem, answer)) {
@@ -376,8 +372,8 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
       root.take({answer.approach, pressed}, true);
       (pressed < wanted ? below : above) = true;
     }
-    if (below && above) reach = furthest;
-    now.tolerance = std::clamp(next_error * error, tightest, now.tolerance);
+    if (below && above) reach = near_start;
+    now.tolerance = std::clamp(error_share * error, tightest, now.tolerance);
     // Tighter tolerance if the side is unclear or the error small enough.
     const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
     if (!(next > 0)) break;
@@ -386,7 +382,7 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
         solve_nearer(now, answer, wanted, approach, stalls, applications, most_applications, monitor);
     if (!found.converged) break;
     if (approach != answer.approach)
-      reach = std::min(furthest, more * std::abs(approach / answer.approach - 1));
+      reach = std::min(near_start, more * std::abs(approach / answer.approach - 1));
     answer = std::move(found);
     answer.converged = false;
   }
@@ -457,11 +453,10 @@ struct FlatteningGuess {
 };
 
 FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fraction) {
-  constexpr double about = 1e-2;
   std::optional<HalfSpaceProblem> coarse;
   for (auto next = coarser_problem(problem); next; next = coarser_problem(*coarse)) coarse = std::move(next);
   if (!coarse) return {};
-  coarse->tolerance = about;
+  coarse->tolerance = rough_tolerance;
   LoadsMet met;
   HalfSpaceAnswer there;
   if (const auto load = load_near_full_contact(*coarse, fraction)) {
@@ -469,7 +464,7 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
     there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
     if (there.converged) return {{}, there.mean_pressure};
   }
-  there = flatten_by_approach(*coarse, fraction, {}, about, met, Monitor::silent());
+  there = flatten_by_approach(*coarse, fraction, {}, rough_tolerance, met, Monitor::silent());
   const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
   if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
   if (by_load && there.converged) return {{}, there.mean_pressure};
@@ -493,7 +488,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.offset += uniform * answer.mean_pressure;
     return answer;
   }
-  if (fraction >= 1 - 0.9 * problem.tolerance) {
+  if (is_complete(fraction, problem.tolerance)) {
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);
     if (auto flat = press_all_away(problem, fraction, monitor)) return std::move(*flat);

@@ -19,10 +19,11 @@
 namespace asperity {
 
 enum Freedom : std::uint8_t {
-  fixed = 0,
-  elastic = 1,
-  yielding = 2,
-  settling = 3,  // settle first, then yield
+  fixed,
+  elastic,
+  yielding,
+  settling,  // settle first, then yield
+  unmarked   // before the first pass
 };
 
 struct FreeSet {
@@ -43,15 +44,19 @@ struct FreeSet {
   double balancing_gap() const { return elastic_balance() ? elastic_gap : yielding_gap; }
 };
 
-// Count, gaps, changed marks, shifted load and count.
-inline constexpr std::size_t free_sums = 5;
+namespace free_sums {
+enum : std::size_t { count, gaps, changes, shifted_load, shifted_count, elastic_sums };
+enum : std::size_t { yielding_count = elastic_sums, settling_count, yielding_gaps, hardening_sums };
+}  // namespace free_sums
 
-inline std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
-                                                  std::span<const double> p, std::span<const double> g,
-                                                  std::span<const std::uint8_t> before,
-                                                  std::span<std::uint8_t> free) {
-  return over_lanes<free_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
-                                          free = free.data()]<class Value>(std::size_t k, Value* v) {
+inline std::array<double, free_sums::elastic_sums> mark_elastic(double upper, double offset, double shift,
+                                                                std::span<const double> p,
+                                                                std::span<const double> g,
+                                                                std::span<const std::uint8_t> before,
+                                                                std::span<std::uint8_t> free) {
+  using namespace free_sums;
+  return over_lanes<elastic_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
+                                             free = free.data()]<class Value>(std::size_t k, Value* v) {
     Value pressure, gap, old;
     lane_terms::read(p + k, pressure);
     lane_terms::read(g + k, gap);
@@ -63,12 +68,12 @@ inline std::array<double, free_sums> mark_elastic(double upper, double offset, d
     const Value kind = pressure > none ? not_full : opens, within = pressure < most ? one : none;
     const Value inside = pressure > none ? within : none, moved = pressure + inside * shift;
     const Value positive = moved > none ? moved : none, stays = moved > none ? inside : none;
-    v[3] = moved < most ? positive : most;
-    v[4] = moved < most ? stays : none;
+    v[shifted_load] = moved < most ? positive : most;
+    v[shifted_count] = moved < most ? stays : none;
     lane_terms::put(kind, free + k);
-    v[0] = kind;
-    v[1] = kind > none ? gap : none;
-    v[2] = kind == old ? none : one;
+    v[count] = kind;
+    v[gaps] = kind > none ? gap : none;
+    v[changes] = kind == old ? none : one;
   });
 }
 
@@ -77,42 +82,44 @@ template <class Limit>
 FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
                    std::span<const double> g, std::span<const std::uint8_t> before,
                    std::span<std::uint8_t> free) {
-  std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
+  using namespace free_sums;
+  std::array<double, Limit::hardens ? +hardening_sums : +elastic_sums> sums;
   if constexpr (!Limit::hardens)
     sums = mark_elastic(limit.upper(), offset, shift, p, g, before, free);
   else
     // By value: byte stores may alias references.
-    sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
-                                                free = free.data(), limit = limit](std::size_t k, double* v) {
-      const double q = limit.settle(k, p[k], g[k], balance);
-      const double pressure = p[k], gap = g[k];
-      const bool enters = (q <= 0) & (gap < offset) & (pressure >= 0);
-      std::uint8_t kind = ((q > 0) | enters) ? elastic : fixed;
-      const std::uint8_t past = q != pressure ? settling : yielding;
-      kind = pressure > limit.yields_at(k) ? past : kind;
-      free[k] = kind;
-      v[0] = kind == elastic ? 1.0 : 0.0;
-      v[1] = kind == elastic ? gap : 0.0;
-      v[2] = kind == before[k] ? 0.0 : 1.0;
-      const bool here = (q > 0) & (q < limit.yields_at(k));
-      const double moved = q + (here ? shift : 0.0), positive = moved > 0 ? moved : 0.0;
-      v[3] = positive;
-      v[4] = (here & (moved > 0)) ? 1.0 : 0.0;
-      const double total_gap = gap + limit.opening(k, q);
-      v[5] = kind == yielding ? 1.0 : 0.0;
-      v[6] = kind == settling ? 1.0 : 0.0;
-      v[7] = kind == yielding ? total_gap : 0.0;
-    });
+    sums =
+        over_nodes<hardening_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
+                                              free = free.data(), limit = limit](std::size_t k, double* v) {
+          const double q = limit.settle(k, p[k], g[k], balance);
+          const double pressure = p[k], gap = g[k];
+          const bool enters = (q <= 0) & (gap < offset) & (pressure >= 0);
+          std::uint8_t kind = ((q > 0) | enters) ? elastic : fixed;
+          const std::uint8_t past = q != pressure ? settling : yielding;
+          kind = pressure > limit.yields_at(k) ? past : kind;
+          free[k] = kind;
+          v[count] = kind == elastic ? 1.0 : 0.0;
+          v[gaps] = kind == elastic ? gap : 0.0;
+          v[changes] = kind == before[k] ? 0.0 : 1.0;
+          const bool here = (q > 0) & (q < limit.yields_at(k));
+          const double moved = q + (here ? shift : 0.0), positive = moved > 0 ? moved : 0.0;
+          v[shifted_load] = positive;
+          v[shifted_count] = (here & (moved > 0)) ? 1.0 : 0.0;
+          const double total_gap = gap + limit.opening(k, q);
+          v[yielding_count] = kind == yielding ? 1.0 : 0.0;
+          v[settling_count] = kind == settling ? 1.0 : 0.0;
+          v[yielding_gaps] = kind == yielding ? total_gap : 0.0;
+        });
   FreeSet set;
-  set.elastic_count = sums[0];
-  set.elastic_gap = sums[1];
-  set.changed = sums[2] != 0;
-  set.shifted_load = sums[3];
-  set.shifted_count = sums[4];
+  set.elastic_count = sums[count];
+  set.elastic_gap = sums[gaps];
+  set.changed = sums[changes] != 0;
+  set.shifted_load = sums[shifted_load];
+  set.shifted_count = sums[shifted_count];
   if constexpr (Limit::hardens) {
-    set.yielding_count = sums[free_sums];
-    set.settling_count = sums[free_sums + 1];
-    set.yielding_gap = sums[free_sums + 2];
+    set.yielding_count = sums[yielding_count];
+    set.settling_count = sums[settling_count];
+    set.yielding_gap = sums[yielding_gaps];
     set.yielding_worth = Limit::own_compliance / (limit.yielding_slope() + Limit::own_compliance);
   }
   return set;
@@ -200,12 +207,14 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
     });
 }
 
-// Copies `image` = K·direction from `begin` on to `to`. Returns Σ direction · image (with the opening of
-// yielding nodes), Σ image over balancing nodes and, without hardening, Σ direction · (mean − gap).
+// Σ direction · image (with the opening of yielding nodes), Σ image over balancing nodes and, without
+// hardening, Σ direction · (mean − gap).
+using ImageSums = std::array<double, 3>;
+
+// Copies `image` = K·direction from `begin` on to `to`.
 template <class Limit, class Stored>
-std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
-                                  Freedom balancing, double mean, const Stored* direction,
-                                  const double* image, double* to) {
+ImageSums weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end, Freedom balancing,
+                      double mean, const Stored* direction, const double* image, double* to) {
   const double* const from = image - begin;
   return over_lanes_of_stretch<3>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
     Value d, value, mark;

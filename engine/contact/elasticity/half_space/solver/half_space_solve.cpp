@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -18,9 +19,13 @@
 namespace asperity {
 
 double rounding_residual(double lengths, double rms, double weight) {
-  constexpr double most_roundings = 100;
-  return rms > 0 ? most_roundings * 0x1p-53 * std::max(1.0, weight) * lengths / rms : 0.0;
+  constexpr double most_roundings = 100, rounding = std::numeric_limits<double>::epsilon() / 2;
+  return rms > 0 ? most_roundings * rounding * std::max(1.0, weight) * lengths / rms : 0.0;
 }
+
+namespace {
+
+constexpr int message_digits = 3;
 
 std::string unconverged_hint(const Grid& grid, double reached, double rounding) {
   if (reached < rounding)
@@ -29,19 +34,20 @@ std::string unconverged_hint(const Grid& grid, double reached, double rounding) 
   constexpr double much_longer = 4;
   const double aspect = std::max(grid.hx(), grid.hy()) / std::min(grid.hx(), grid.hy());
   if (aspect >= much_longer)
-    return "the cells are " + format_short(aspect, 3) +
+    return "the cells are " + format_short(aspect, message_digits) +
            " times longer than wide: give cells nearer to square or a larger `tolerance`, or accept the best "
            "result with on_failure=\"best\"";
   return "give a larger `tolerance` or more `cells` for the same surface, or accept the best result with "
          "on_failure=\"best\"";
 }
 
-void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance, int applications,
-                       const Grid& grid, double rounding) {
+}  // namespace
+
+void throw_unconverged(const std::string& what, const Certificate& reached, double tolerance,
+                       int applications, const Grid& grid, double rounding) {
   throw Error(ErrorCode::not_converged,
-              "the contact at " + format_quantity(mean_pressure, dimension::pressure) +
-                  " reached a residual of " + format_short(reached.worst(), 3) +
-                  ", above the `tolerance` of " + format_short(tolerance, 3) + ", after " +
+              what + " reached a residual of " + format_short(reached.worst(), message_digits) +
+                  ", above the `tolerance` of " + format_short(tolerance, message_digits) + ", after " +
                   std::to_string(applications) + " applications of the half-space",
               unconverged_hint(grid, reached.worst(), rounding));
 }
@@ -54,7 +60,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
     refuse("`pressure` is " + pascals(mean_pressure),
            "give a finite pressure from zero up: nothing here attracts the bodies");
-  if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
+  if (mean_pressure > 0 && mean_pressure < least_relative * problem.modulus)
     refuse("`pressure` is " + format_short(mean_pressure) +
                " Pa, less than 1e-280 of the contact modulus: too small for doubles",
            "give a larger pressure, or 0");
@@ -68,7 +74,7 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
     if (facing < 1)
       refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
                             shown(law.cap) + ", and the bodies face each other on " +
-                            format_short(100 * facing, 3) + " % of the tile",
+                            format_short(100 * facing, message_digits) + " % of the tile",
                         "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
     refuse_infeasible("a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
                           shown(law.cap) + ", the most that any node carries",
@@ -84,15 +90,16 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
   return 0.5 * longest * multiplier_of(problem).greatest_from(longest) * length;
 }
 
-// Beyond rounding. On a free tile, rounding of pressures hides roughness below a millionth of the approach.
+// Least rms height per approach beyond rounding; on a free tile of the pressures.
+double least_roughness(Boundary boundary) { return boundary == Boundary::periodic ? 1e-9 : 1e-6; }
+
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   if (!(problem.rms > 0) || ends.min == ends.max) return false;
   // An incompressible layer is stiff for long waves: heights may matter at any pressure.
   if (problem.share) return problem.rms > 1e-14 * std::max(std::abs(ends.min), std::abs(ends.max));
-  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
-  return problem.rms > least * punch_length(problem, mean_pressure);
+  return problem.rms > least_roughness(problem.boundary) * punch_length(problem, mean_pressure);
 }
 
 struct CellUnits {
@@ -220,42 +227,30 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
   const bool finite = std::isfinite(cap);
   const double most = finite ? cap : 0.0;
-  std::array<double, 9> found;
-  if (law.hardens())
-    found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
-      const double past = p[k] - law.yields_at(k), gap = g[k] + std::max(0.0, past) * per_hardening;
-      v[0] = p[k];
-      v[1] = p[k] > 0 ? 1.0 : 0.0;
-      v[2] = past > 0 ? 1.0 : 0.0;
-      v[3] = p[k] * gap;
-      v[4] = 0;
-      v[5] = v[6] = gap;
-      v[7] = p[k];
-      v[8] = -p[k];
-    });
-  else
-    found = over_nodes<5, 4>(p.size(),
-                             [=, p = p.values().data(), g = g.values().data()](std::size_t k, double* v) {
-                               const double pressure = p[k], gap = g[k];
-                               v[0] = pressure;
-                               v[1] = pressure > 0 ? 1.0 : 0.0;
-                               v[2] = pressure >= cap ? 1.0 : 0.0;
-                               v[3] = pressure * gap;
-                               v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // for a cap only
-                               v[5] = gap;
-                               v[6] = pressure < cap ? gap : infinity;
-                               v[7] = pressure;
-                               v[8] = -pressure;
-                             });
-  answer.contacts = static_cast<std::int64_t>(found[1]);
-  answer.yielded = static_cast<std::int64_t>(found[2]);
-  answer.peak_pressure = -found[8];
+  enum { load, contacts, yielded, energy, capped, least_gap, least_below_cap, least, greatest };
+  const auto weigh = [=, &law, hardens = law.hardens(), p = p.values().data(), g = g.values().data()](
+                         std::size_t k, double* v) {
+    const double pressure = p[k], past = hardens ? pressure - law.yields_at(k) : 0.0;
+    const double gap = g[k] + std::max(0.0, past) * per_hardening;
+    v[load] = v[least] = pressure;
+    v[contacts] = pressure > 0 ? 1.0 : 0.0;
+    v[yielded] = past > 0 || pressure >= cap ? 1.0 : 0.0;
+    v[energy] = pressure * gap;
+    v[capped] = (pressure - (gap > 0 ? 0.0 : most)) * gap;
+    v[least_gap] = gap;
+    v[least_below_cap] = pressure < cap ? gap : infinity;
+    v[greatest] = -pressure;
+  };
+  const auto found = over_nodes<5, 4>(p.size(), weigh);
+  answer.contacts = static_cast<std::int64_t>(found[contacts]);
+  answer.yielded = static_cast<std::int64_t>(found[yielded]);
+  answer.peak_pressure = -found[greatest];
   const double length =
       rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
-  const double complementarity = finite ? found[4] : found[3] - found[5] * found[0];
-  answer.certificate = certificate_of(
-      {static_cast<double>(p.size()), found[0], found[7], answer.peak_pressure, complementarity, found[6]},
-      answer.mean_pressure, cap, length);
+  const double complementarity = finite ? found[capped] : found[energy] - found[least_gap] * found[load];
+  answer.certificate = certificate_of({static_cast<double>(p.size()), found[load], found[least],
+                                       answer.peak_pressure, complementarity, found[least_below_cap]},
+                                      answer.mean_pressure, cap, length);
   answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
@@ -373,9 +368,9 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   const Range ends = known_range(problem.heights->values());
   CellUnits units;
   units.origin = ends.max;
-  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   units.height = std::min(approach, length);
-  if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
+  if (problem.rms > least_roughness(problem.boundary) * approach)
+    units.height = std::min(units.height, problem.rms);
   units.pressure = problem.modulus * (units.height / grid.hx());
 
   CellProblem cell;
@@ -515,8 +510,8 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   if (!answer.converged && problem.yield.hardens() && !problem.brief)
     if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid,
-                      rounding_residual(problem, answer));
+    throw_unconverged("the contact at " + pascals(mean_pressure), answer.certificate, problem.tolerance,
+                      answer.iterations, grid, rounding_residual(problem, answer));
   return answer;
 }
 

@@ -23,6 +23,11 @@ namespace asperity {
 
 enum class ChainEffort;
 
+// Relative; above rounding, without effect on results.
+inline constexpr double a_little = 1e-12;
+// Pressures per modulus, or approaches per tile, below this leave the range of doubles.
+inline constexpr double least_relative = 1e-280;
+
 struct HalfSpaceProblem {
   Grid grid;
   Boundary boundary = Boundary::periodic;
@@ -107,12 +112,10 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
 // or 1). Seen: 63 roundings.
 double rounding_residual(double lengths, double rms, double weight);
 
-// Throws Error{not_converged}. `rounding`: see rounding_residual().
-[[noreturn]] void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance,
+// Throws Error{not_converged}; the hint names rounding, or cells much longer than wide, as cause. `what`: the
+// prescribed quantity. `rounding`: see rounding_residual().
+[[noreturn]] void throw_unconverged(const std::string& what, const Certificate& reached, double tolerance,
                                     int applications, const Grid& grid, double rounding);
-
-// Names rounding, or cells much longer than wide, as cause.
-std::string unconverged_hint(const Grid& grid, double reached, double rounding);
 
 double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer);
 

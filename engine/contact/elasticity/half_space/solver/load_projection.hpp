@@ -74,31 +74,33 @@ struct Somewhere {
 
 template <class Level, class Where>
 LoadAtShift carried(Level& level, const double* y, Where where, double upper, double origin, double shift) {
+  enum { load, interior, values, bound };
   const auto sums = level.template over<4>([=](std::size_t k, double* v) {
     const bool here = where(k);
     const double value = y[k] - (here ? origin : 0.0), x = value + (here ? shift : 0.0);
     const bool inside = here & (x > 0) & (x < upper);
-    v[0] = std::min(std::max(x, 0.0), upper);
-    v[1] = inside ? 1.0 : 0.0;
-    v[2] = inside ? value : 0.0;
-    v[3] = (here & (x >= upper)) ? upper : 0.0;
+    v[load] = std::min(std::max(x, 0.0), upper);
+    v[interior] = inside ? 1.0 : 0.0;
+    v[values] = inside ? value : 0.0;
+    v[bound] = (here & (x >= upper)) ? upper : 0.0;
   });
-  return {sums[0], sums[1], sums[2], sums[3]};
+  return {sums[load], sums[interior], sums[values], sums[bound]};
 }
 
 template <class Level, class Where>
 bool project(Level& level, const double* y, Where where, double upper, double load, bool by_excess,
              double* target) {
   constexpr bool all = std::is_same_v<Where, Everywhere>;
+  enum { count, unmoved_load, lowest, highest };
   const auto moved = level.template over<2, 2>([=](std::size_t k, double* v) {
     const bool here = where(k);
-    const double value = y[k], clipped = std::min(std::max(value, 0.0), upper);
-    v[0] = here ? 1.0 : 0.0;
-    v[1] = here ? 0.0 : clipped;
-    v[2] = here ? value : std::numeric_limits<double>::infinity();
-    v[3] = here ? -value : std::numeric_limits<double>::infinity();
+    const double value = y[k], within = std::min(std::max(value, 0.0), upper);
+    v[count] = here ? 1.0 : 0.0;
+    v[unmoved_load] = here ? 0.0 : within;
+    v[lowest] = here ? value : std::numeric_limits<double>::infinity();
+    v[highest] = here ? -value : std::numeric_limits<double>::infinity();
   });
-  const double movable = moved[0], fixed = moved[1];
+  const double movable = moved[count], fixed = moved[unmoved_load];
   if (movable == 0 || load < fixed || load > fixed + upper * movable) return false;
   if (load == fixed + upper * movable) {
     if (!all) return false;
@@ -109,11 +111,11 @@ bool project(Level& level, const double* y, Where where, double upper, double lo
 
   // From all moved nodes at 0 to all at the bound, or one with the whole load. Small loads count shifts from
   // the greatest value: rounding must not decide the few contacts.
-  const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
+  const double greatest = -moved[highest], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
   const auto carried_at = [&](double shift) { return carried(level, y, where, upper, origin, shift); };
   const auto [low, high, at, found] =
-      find_load_shift(origin - greatest, std::min(upper, load) - (moved[2] - origin), origin, load, fixed,
-                      by_excess, carried_at);
+      find_load_shift(origin - greatest, std::min(upper, load) - (moved[lowest] - origin), origin, load,
+                      fixed, by_excess, carried_at);
   const auto clipped = [=](std::size_t k, double by) {
     const bool here = where(k);
     const double x = (y[k] - (here ? origin : 0.0)) + (here ? by : 0.0);

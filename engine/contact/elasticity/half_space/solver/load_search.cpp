@@ -13,6 +13,7 @@
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -94,20 +95,19 @@ HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, con
                           " is at its hardness at " + metres(*most),
                       "give less, or press by `pressure`");
   if (answer.converged || problem.best_effort) return answer;
-  throw Error(ErrorCode::not_converged,
-              what + " has a residual of " + format_short(answer.certificate.worst(), 3) +
-                  ", above the `tolerance` of " + format_short(problem.tolerance, 3) + ", after " +
-                  std::to_string(answer.iterations) + " applications of the half-space",
-              unconverged_hint(problem.grid, answer.certificate.worst(), rounding_residual(problem, answer)));
+  throw_unconverged(what, answer.certificate, problem.tolerance, answer.iterations, problem.grid,
+                    rounding_residual(problem, answer));
 }
 
 namespace {
+using namespace search_rules;
 
 BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtByLoad& sought) {
   BracketedSecant::Point end = sought.above;
   if (problem.yield.caps()) {
     const double facing = static_cast<double>(known_count(problem.heights->values()));
-    const double cap = problem.yield.cap * (1 - 1e-12) * (facing / static_cast<double>(problem.grid.nodes()));
+    const double cap =
+        problem.yield.cap * (1 - a_little) * (facing / static_cast<double>(problem.grid.nodes()));
     // Targets below half of the maximum: the upper value misleads the secant.
     constexpr double far = 0.5;
     if (!(end.at < cap)) end = {cap, sought.wanted < far * sought.most ? infinity : sought.most};
@@ -138,28 +138,23 @@ class LoadSearch {
         applications_(answer_.iterations),
         long_cells_(keeps_line_loads(problem.grid.hy() / problem.grid.hx())) {
     now_.best_effort = true;
-    now_.tolerance = std::max(problem.tolerance, loosest);
+    now_.tolerance = std::max(problem.tolerance, start_tolerance);
   }
 
   HalfSpaceAnswer run();
 
  private:
-  static constexpr int most_solves = 60, most_applications = 6000;
+  static constexpr int most_applications = 6000;
   // Applications before the other way; its budget as a multiple; last budget.
   static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
   static constexpr int most_doubts = 4;
-  static constexpr double good_start = 0.1;  // certificate of a warm start
-  static constexpr double near_start = 0.3;  // relative change of load for a warm start
-  static constexpr double near_if_easy = 2;  // after an easy solve
+  static constexpr double near_if_easy = 2;  // as near_start, after an easy solve
   static constexpr int few_applications = 40;
-  static constexpr double loosest = 5e-3;
   static constexpr double next_error = 2e-3;  // next tolerance per present error
-  // Complementarity averages over the load; penetration ignores open nodes. Seen: 20.
-  static constexpr double gap_per_residual = 20;
   // Smaller steps relative to the error: a false bracket.
   static constexpr double least_step = 0.01;
   // Below the requested tolerance for a rough measure.
-  static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
+  static constexpr double tighter = 0.1, tightest_of_all = 1e-3;
   static constexpr double same_contact = 0.1;
   static constexpr double furthest_along = 3;  // in steps between the answers
   static constexpr double enough_gain = 0.5;   // ratio of errors after a step
@@ -237,9 +232,9 @@ double LoadSearch::first_load() {
 }
 
 void LoadSearch::set_unit() {
-  constexpr double light = 0.01;
   if (!sought_.on_the_line || !(problem_.rms > 0)) return;
-  unit_ = (answer_.approach < light * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
+  unit_ =
+      (answer_.approach < light_approach * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
 }
 
 // After a solve on the wrong side: bracket from the certain points.
@@ -377,9 +372,7 @@ HalfSpaceAnswer LoadSearch::run() {
     const bool kept = !sought_.on_the_line || no_tighter;
     const bool sure = told || (tightest && kept && answer_.converged);
     if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
-    // Constant beyond full contact.
-    const bool nothing_more =
-        found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
+    const bool nothing_more = nearly_all(found, sought_.wanted, sought_.most);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
     const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
@@ -400,7 +393,7 @@ HalfSpaceAnswer LoadSearch::run() {
     if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
       if (++doubts > most_doubts || (tightest && kept && !next)) break;
       if (tightest && !kept) least_ = std::max(floor(), tighter * least_);
-      now_.tolerance = std::max(least_, least_step * now_.tolerance);
+      now_.tolerance = std::max(least_, much_tighter * now_.tolerance);
       if (doubts > 1) told_.clear();  // certain points were false
       doubt({pressure, found});
     } else if (!in_place_) {

@@ -13,6 +13,24 @@
 
 namespace asperity {
 
+// Shared by the searches in the load and in the approach.
+namespace search_rules {
+
+inline constexpr int most_solves = 60;
+inline constexpr double good_start = 0.1;  // certificate of a warm start
+inline constexpr double near_start = 0.3;  // relative change of load or approach for a warm start
+inline constexpr double least_tolerance = 1e-13;
+inline constexpr double much_tighter = 0.01;  // factor of a tolerance that chose the wrong side
+// Gap error: complementarity averages over the load; penetration ignores open nodes. Seen: 20.
+inline constexpr double gap_per_residual = 20;
+
+// Beyond full contact measures are constant: within a tenth of the limit a value misleads the secant.
+inline bool nearly_all(double found, double wanted, double most) {
+  return found > wanted && most - found < 0.1 * (most - wanted);
+}
+
+}  // namespace search_rules
+
 // On both sides of the target, from a search in the approach.
 struct LoadsMet {
   // Error with a certain side, per effect of the residual.

@@ -31,7 +31,6 @@ std::function<void(double)> DescentProgress::next_grid(double weight, double all
 
 namespace {
 
-constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
 double work(const LevelShape& shape) {
@@ -124,7 +123,7 @@ CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Moni
     const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
     ContactLevel level(step.shape, raw, problem.origin, problem.factor, limit, step.mean_pressure);
     level.length = problem.length;
-    const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
+    const double tolerance = finest ? problem.tolerance : std::max(start_tolerance, problem.tolerance);
     level.report = progress.next_grid(step.shape.weight, all_work, tolerance);
 
     DescentFields fields(step.shape.nodes());

@@ -21,6 +21,11 @@
 
 namespace asperity {
 
+// Finds the contact set, which suffices for a start.
+inline constexpr double start_tolerance = 5e-3;
+// Per unit of gaps; at smaller approaches gaps count from the highest node.
+inline constexpr double light_approach = 0.01;
+
 // Logarithmic in the residual. Throws on a stop.
 class DescentProgress {
  public:
@@ -49,7 +54,7 @@ struct CellProblem {
   std::optional<double> offset;
   ChainEffort effort = ChainEffort::full;
   double length = 1;  // unit of gaps
-  double tolerance = 1e-6;
+  double tolerance = 0;
 };
 
 struct CellAnswer {
@@ -135,7 +140,7 @@ class LightContact {
   bool refine(DescentEnd& end) {
     const double highest = greatest(level_, problem_.heights), length = level_.length;
     const double approach = (highest - problem_.origin) * problem_.factor + offset();
-    const bool from_peak = approach < light * length;
+    const bool from_peak = approach < light_approach * length;
     if (from_peak) {
       level_.count_from(highest);
       by_approach(approach, end);
@@ -151,8 +156,7 @@ class LightContact {
   }
 
  private:
-  static constexpr double light = 0.01;  // approach per unit of gaps
-  static constexpr double soft = 1e-3;   // displacement at the cap, same unit
+  static constexpr double soft = 1e-3;  // displacement at the cap, per unit of gaps
 
   // Failure restores the pressures.
   bool again(double length, DescentEnd& end) {

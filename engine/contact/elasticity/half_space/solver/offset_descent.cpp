@@ -20,8 +20,6 @@ namespace {
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
 constexpr double careful_gain = 0.03;            // relative residual that ends a pass
 constexpr int careful_passes_without_gain = 40;  // the residual may rise while the energy falls
-// As in contact_quality.cpp.
-constexpr double touching_weight = 0.125;
 
 struct OffsetQuality {
   double residual = 0;
@@ -113,21 +111,22 @@ void OffsetDescent<Limit>::find_gap() {
 template <class Limit>
 OffsetQuality OffsetDescent<Limit>::quality() const {
   const double upper = limit_.upper(), most = std::isfinite(upper) ? upper : 0.0;
+  enum { load, energy, settled, least_gap, loaded };
   const auto found =
       over_nodes<3, 2>(nodes(), [n = view(), offset = offset_, upper, most](std::size_t k, double* v) {
         const double q = n.settled(k), gap = n.gap[k] - offset + n.limit.opening(k, q);
-        v[0] = q;
-        v[1] = (q - (gap > 0 ? 0.0 : most)) * gap;
-        v[2] = q != n.pressure[k] ? 1.0 : 0.0;
-        v[3] = q < upper ? gap : infinity;
-        v[4] = q > 0 ? -gap : infinity;
+        v[load] = q;
+        v[energy] = (q - (gap > 0 ? 0.0 : most)) * gap;
+        v[settled] = q != n.pressure[k] ? 1.0 : 0.0;
+        v[least_gap] = q < upper ? gap : infinity;
+        v[loaded] = q > 0 ? -gap : infinity;
       });
   OffsetQuality at;
-  at.within = found[2] == 0;
-  const double overlap = std::isfinite(found[3]) ? std::max(0.0, -found[3]) : 0.0;
-  const double open = std::isfinite(found[4]) ? std::max(0.0, -found[4]) : 0.0;
-  const double weighted = found[0] > 0 ? std::abs(found[1]) / found[0] : 0.0;
-  at.residual = std::max({overlap, weighted, touching_weight * open}) / level_.length;
+  at.within = found[settled] == 0;
+  const double overlap = std::isfinite(found[least_gap]) ? std::max(0.0, -found[least_gap]) : 0.0;
+  const double open = std::isfinite(found[loaded]) ? std::max(0.0, -found[loaded]) : 0.0;
+  const double weighted = found[load] > 0 ? std::abs(found[energy]) / found[load] : 0.0;
+  at.residual = std::max({overlap, weighted, contact_measures::open_weight * open}) / level_.length;
   if (!(overlap + weighted + open < infinity)) at.residual = infinity;
   return at;
 }
@@ -211,17 +210,17 @@ void OffsetDescent<Limit>::settle_step() {
 template <class Limit>
 void OffsetDescent<Limit>::shift_all() {
   const double upper = limit_.upper();
-  const auto found = over_nodes<1, 3>(nodes(), [n = view(), upper](std::size_t k, double* v) {
+  enum { gaps, least, least_room };
+  const auto found = over_nodes<1, 2>(nodes(), [n = view(), upper](std::size_t k, double* v) {
     double bound = upper;
     if constexpr (Limit::hardens) bound = n.limit.yields_at(k);
-    v[0] = n.gap[k];
-    v[1] = n.pressure[k];
-    v[2] = bound - n.pressure[k];
-    v[3] = -n.pressure[k];
+    v[gaps] = n.gap[k];
+    v[least] = n.pressure[k];
+    v[least_room] = bound - n.pressure[k];
   });
-  const double lack = offset_ - found[0] / static_cast<double>(nodes()),
+  const double lack = offset_ - found[gaps] / static_cast<double>(nodes()),
                further = level_.short_wave_stiffness * lack;
-  const double by = lack > 0 ? found[2] + further : further - found[1];
+  const double by = lack > 0 ? found[least_room] + further : further - found[least];
   if (!std::isfinite(by)) return;
   for_nodes(nodes(), [p = f_.pressure.data(), by](std::size_t k) { p[k] += by; });
 }
@@ -357,7 +356,7 @@ bool OffsetDescent<Limit>::run(bool gap_known) {
   if (!gap_known) find_gap();
   Watch watch;
   int renewals = 0;
-  f_.old_free.assign(nodes(), 255);
+  f_.old_free.assign(nodes(), unmarked);
   for (;;) {
     OffsetQuality at = quality();
     residual_ = at.residual;
