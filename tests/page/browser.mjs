@@ -196,6 +196,17 @@ export const inEditor = (page, selector) =>
 
 export const text = (page, selector) => page.$eval(selector, (e) => e.textContent);
 
+/** The number field of the first knob. */
+export const knobText = (page) => page.$eval('.knobs input[type=text]', (e) => e.value);
+
+/** By keys: replaces the number of the first knob. */
+export async function typeKnob(page, words) {
+  await page.focus('.knobs input[type=text]');
+  await chord(page, 'Control', 'a');
+  await page.keyboard.type(words);
+  await page.keyboard.press('Enter');
+}
+
 export async function chord(page, ...keys) {
   for (const key of keys.slice(0, -1)) await page.keyboard.down(key);
   await page.keyboard.press(keys.at(-1));
@@ -330,7 +341,7 @@ export async function assertFits(page, what) {
       '.bar > *, .pane > *, .panel > *, .toolbar > *, .choices > *, .tabs > *, .below > *, .knobs > *',
     )) {
       const box = e.getBoundingClientRect();
-      if (box.width === 0 || e.closest('[hidden], .unseen')) continue;
+      if (box.width === 0 || !e.checkVisibility() || e.closest('[hidden], .unseen')) continue; // also folded
       const pane = (e.closest('.pane') ?? document.body).getBoundingClientRect();
       if (box.right > pane.right + 1 || box.left < pane.left - 1)
         wide.push(`${e.tagName}.${e.className}#${e.id} ${Math.round(box.left)} to ${Math.round(box.right)}`);

@@ -136,6 +136,11 @@ function knobIn(line, given) {
   };
 }
 
+function knobsIn(script, given = {}) {
+  const found = script.split('\n').flatMap((line) => knobIn(line, given) ?? []);
+  return Object.fromEntries(found.map((k) => [k.name, k]));
+}
+
 /** The charts of a script, as the check and the run report them. Only literal keys at the beginning of a line. */
 function chartsIn(script) {
   const found = [];
@@ -375,7 +380,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
             });
         });
         const charts = chartsIn(body.script).filter((c) => c.notebook);
-        return send(200, { marks, charts, checked_to: body.script.split('\n').length });
+        return send(200, { marks, charts, knobs: knobsIn(body.script), checked_to: body.script.split('\n').length });
       }
       if (what === 'complete') {
         const before = body.text.slice(0, body.position);
@@ -441,12 +446,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
       }
       if (part === 'views') return send(200, viewOf(rest[0]));
       if (part === 'files' && rest[0] === 'manifest.json') {
-        const knobs = {};
-        for (const line of run.script.split('\n')) {
-          const knob = knobIn(line, run.knobs ?? {});
-          if (knob) knobs[knob.name] = knob;
-        }
-        return send(200, { status: 'done', knobs });
+        return send(200, { status: 'done', knobs: knobsIn(run.script, run.knobs) });
       }
       if (part === 'files')
         return rest[0].endsWith('.svg')

@@ -325,7 +325,7 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await on.finished(page);
     await tab(page, 'chart');
     await page.waitForSelector('.chart svg circle');
-    await page.click('.axes summary');
+    await page.click('.charts summary');
     const [x, y, , per] = (await page.$$('.charts select')).slice(-4);
     assert.match(await on.text(page, '.charts .caption'), /^Ra \[µm\] against N: 16 points, 2 lines, one per face\./);
     await per.select('');
@@ -461,7 +461,8 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
     await page.mouse.move(box.x + 220, box.y + 140, { steps: 4 });
     await page.mouse.up();
     assert.ok(on.differing(first, await on.pixels(page)) > 0.02, 'the mouse should turn it');
-    await page.focus('.pictures input[type=range]');
+    await page.click('.pictures summary');
+    await page.focus('.choices input[type=range]');
     await page.keyboard.press('ArrowRight');
     await on.until(
       page,
@@ -505,6 +506,7 @@ test('Picture, OfAnotherScriptHasAFactorOfItsOwn', () =>
     const shown = async () => /× (\d+) ·/.exec(await on.text(page, '.pictures .caption'))?.[1];
     assert.equal(await factor('-- a face\n'), '50');
     assert.equal(await factor('-- mock.deep\n'), '2');
+    await page.click('.pictures summary');
     await page.focus('.choices input[type=range]');
     await page.keyboard.press('ArrowRight');
     await on.until(
@@ -577,7 +579,7 @@ test('Picture, AloneHasNothingToGoThrough', () =>
 const knobSays = (page, text) =>
   on.until(
     page,
-    (t) => document.querySelector('.knobs output')?.textContent === t,
+    (t) => document.querySelector('.knobs input[type=text]')?.value === t,
     `the knob should say ${text}`,
     text,
   );
@@ -587,6 +589,7 @@ const printed = (page, text) =>
 test('Knob, MovedByKeysRunsTheScriptAgain', () =>
   visit({}, async (page) => {
     const runs = () => mock.runs.size;
+    await tab(page, 'output');
     await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa 5e7\n-- mock.knob cells 1 5 3 one\n');
     await printed(page, 'pressure is 10000000');
     await knobSays(page, '10 MPa');
@@ -595,9 +598,9 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await on.hold(page);
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
-    await knobSays(page, '10.23 MPa');
+    await knobSays(page, '50 MPa');
     await on.release(page);
-    await printed(page, 'pressure is 10230000');
+    await printed(page, 'pressure is 50000000');
     await printed(page, 'cells is 3');
     assert.equal(runs(), before + 1, 'two presses of a key are one move');
     assert.equal(await on.focused(page), 'pressure', 'the slider keeps the focus');
@@ -623,6 +626,7 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
 
 test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
   visit({}, async (page) => {
+    await tab(page, 'output');
     await on.run(page, '-- mock.knob p 0 4 1 one\n-- mock.waits 1\n');
     await printed(page, 'p is 1');
     await knobSays(page, '1 one');
@@ -638,12 +642,125 @@ test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
     await on.release(page);
     await on.comesTrue(() => mock.runs.size === before + 2, 'a run of the new value should begin');
     mock.full = false;
-    await printed(page, 'p is 0.01');
+    await printed(page, 'p is 0.2');
     await on.finished(page);
     assert.equal(mock.runs.size, before + 2);
     const states = [...mock.runs.values()].slice(-2).map((r) => r.events.at(-1).status);
     assert.deepEqual(states, ['stopped', 'done']);
-    assert.equal(await on.text(page, '.knobs output'), '0.01 one');
+    assert.equal(await on.knobText(page), '0.2 one');
+  }));
+
+test('Knob, StepsAreRoundAndReachBothBounds', () =>
+  visit({}, async (page) => {
+    const values = async (key) => {
+      const found = [];
+      await page.focus('.knobs input');
+      for (let last; last !== (await on.knobText(page)); await page.keyboard.press(key)) {
+        last = await on.knobText(page);
+        found.push(last);
+      }
+      return found.join();
+    };
+    await on.run(page, '-- mock.knob p 1e6 3e8 1.55e7 Pa\n');
+    await knobSays(page, '15.5 MPa');
+    await on.hold(page);
+    assert.equal(await values('ArrowLeft'), '15.5 MPa,10 MPa,5 MPa,2 MPa,1 MPa');
+    assert.equal(await values('ArrowRight'), '1 MPa,2 MPa,5 MPa,10 MPa,20 MPa,50 MPa,100 MPa,200 MPa,300 MPa');
+    await page.keyboard.press('Home');
+    // A pointer reaches the values between.
+    const drawn = await page.$eval('.knobs input', (e) =>
+      [...Array(24).keys()].map((place) => {
+        e.value = place;
+        e.dispatchEvent(new Event('input'));
+        return parseFloat(e.getAttribute('aria-valuetext'));
+      }),
+    );
+    assert.deepEqual(drawn, [1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2, 2.2, 2.4, 2.6, 2.8, 3, 3.2, 3.4, 3.6, 3.8, 4, 4.2, 4.4, 4.6]);
+    await on.release(page);
+    await on.run(page, '-- mock.knob a -0.03 0.25 0.03 rad\n');
+    await knobSays(page, '0.03 rad');
+    await on.hold(page);
+    assert.equal(await values('ArrowDown'), '0.03 rad,0.02 rad,0 rad,−0.02 rad,−0.03 rad');
+    await page.keyboard.press('End');
+    assert.equal(await on.knobText(page), '0.25 rad');
+    await on.release(page);
+  }));
+
+test('Knob, TakesANumberWithItsUnit', () =>
+  visit({}, async (page) => {
+    await tab(page, 'output');
+    await on.run(page, '-- mock.knob pressure 1e6 3e8 2e7 Pa\n');
+    await knobSays(page, '20 MPa');
+    await on.finished(page);
+    await page.focus('.knobs input');
+    await page.keyboard.press('Tab');
+    assert.equal(await on.focused(page), 'pressure, as a number');
+    for (const [given, shown] of [
+      ['50', '50 MPa'],
+      ['7,5 MPa', '7.5 MPa'],
+      ['0.1GPa', '100 MPa'],
+      ['155 bar', '15.5 MPa'],
+      ['2e3 kN/m²', '2 MPa'],
+      ['3 N/mm^2', '3 MPa'],
+    ]) {
+      await on.typeKnob(page, given);
+      await knobSays(page, shown);
+      assert.equal(await page.$eval('.knobs input[type=range]', (e) => e.getAttribute('aria-valuetext')), shown);
+      assert.equal(await page.$eval('.problem', (e) => e.hidden), true, given);
+    }
+    await printed(page, 'pressure is 3000000\n');
+    const before = mock.runs.size;
+    for (const [given, words] of [
+      ['fast', '“fast” is no number. Give a number with its unit, for example 1.5 MPa.'],
+      ['5 Mpa', '“Mpa” is no unit. Give a number with its unit, for example 1.5 MPa.'],
+      ['5 mm', '“mm” is a unit of something else. Give Pa, for example 1.5 MPa.'],
+      ['5 GPa', 'pressure goes from 1 MPa to 300 MPa; 5 GPa is outside.'],
+    ]) {
+      await on.typeKnob(page, given);
+      assert.equal(await on.text(page, '.problem'), words);
+      assert.equal(await on.knobText(page), given, 'it can be mended');
+    }
+    await on.assertAccessible(page, 'a number that is refused');
+    await on.assertFits(page, 'a number that is refused');
+    await page.keyboard.press('Escape');
+    assert.equal(await on.knobText(page), '3 MPa');
+    assert.equal(await page.$eval('.problem', (e) => e.hidden), true);
+    assert.equal(mock.runs.size, before, 'no run was made of them');
+  }));
+
+test('Knob, ValuesTriedLeaveATrailInTheChart', () =>
+  visit({}, async (page) => {
+    const curves = () => page.$$eval('.chart .line path', (all) => all.map((e) => e.textContent));
+    const tried = (values) =>
+      on.until(page, (n) => document.querySelectorAll('.chart .line path').length === n, `${values} should be drawn`, values);
+    const script = 'local book = lab.notebook "big" -- mock.rows 9\nbook:chart{ x="i", y="v" }\n-- mock.knob p 1 9 3 one\n';
+    await on.run(page, script);
+    await on.finished(page);
+    await tried(1);
+    for (const [value, n] of [
+      ['5', 2],
+      ['7', 3],
+      ['5', 3],
+    ]) {
+      await on.typeKnob(page, value);
+      await on.finished(page);
+      await tried(n);
+    }
+    assert.deepEqual(await curves(), ['p 3 one', 'p 7 one', '']);
+    assert.match(await on.text(page, '.charts .caption'), /: 9 points\. Faint: 2 values tried before, the last p 7 one\.$/);
+    await on.assertAccessible(page, 'a chart with a trail');
+    await on.assertFits(page, 'a chart with a trail');
+    await page.focus('.charts .below button');
+    await page.keyboard.press('Enter');
+    await tried(1);
+    assert.equal(await page.$eval('.charts .below button', (e) => e.hidden), true);
+    await on.typeKnob(page, '8');
+    await on.finished(page);
+    await tried(2);
+    // Another script has its own.
+    await on.run(page, `${script}-- other\n`);
+    await on.finished(page);
+    await tried(1);
   }));
 
 test('Keyboard, Alone', () =>
@@ -759,7 +876,7 @@ for (const [width, height] of [
             caption: box(document.querySelector('#picture-caption')),
           };
         });
-        assert.ok(key.bottom - key.top >= 120, `the colours have ${key.bottom - key.top} px`);
+        assert.ok(key.right - key.left >= 240, `the colours have ${key.right - key.left} px`);
         assert.ok(
           key.bottom <= caption.top || key.top >= caption.bottom || key.right <= caption.left || key.left >= caption.right,
           `${field}: ${JSON.stringify({ key, caption })}`,

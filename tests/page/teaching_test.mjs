@@ -44,7 +44,7 @@ test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
       'the axis reaches both',
     );
     await charted(page, book(9, 'x="v", y="i"'), 9);
-    await page.click('.axes summary');
+    await page.click('.charts summary');
     const [, , more] = (await page.$$('.charts select')).slice(-4);
     assert.deepEqual(await more.$$eval('option', (o) => o.map((e) => e.value)), ['', 'level']);
     await more.select('level');
@@ -72,8 +72,8 @@ test('Chart, AxesHaveTheScriptsWordsAndNoneIsCut', () =>
     assert.match(y.text, /^how much of it.*… \[µm\]$/, 'the unit is not cut');
     assert.deepEqual(y.outside, []);
     // An axis chosen by hand has its column's label.
-    await page.click('.axes summary');
-    const [along] = (await page.$$('.axes select')).slice(0, 1);
+    await page.click('.charts summary');
+    const [along] = (await page.$$('.charts .choices select')).slice(0, 1);
     await along.select('level');
     const [other, same] = await labels();
     assert.equal(other.text, 'level');
@@ -140,7 +140,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
       }
     }
     assert.match(await on.text(page, '.charts .caption'), /^share against part: 120 points, 2 lines, one per rule/);
-    await page.click('.axes summary');
+    await page.click('.charts summary');
     const [logX] = await page.$$eval('.charts input[type=checkbox]', (boxes) => boxes.map((b) => b.disabled));
     assert.equal(logX, true, 'names have no logarithm');
     await on.assertAccessible(page, 'a chart of names');
@@ -233,6 +233,7 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran('-- mock.file map.png\n'), 'tab-files');
     assert.equal(await ran('-- mock.views 2\n'), 'tab-picture');
     assert.equal(await ran('-- mock.views 2\nprint "a"\n'), 'tab-output');
+    assert.equal(await ran('-- mock.knob p 1 9 3 one\nprint "a"\n'), 'tab-picture', 'a picture follows the slider');
     assert.equal(await ran(`${made}error "at the end"\n`), 'tab-output');
     assert.equal(await ran(made), 'tab-chart');
     assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');
@@ -331,6 +332,33 @@ test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
     await on.run(page, 'print "of the second"\n');
     await on.until(page, () => /^Fractal/.test(document.querySelector('#results-of').textContent), 'its own results');
     assert.equal(await grey(), 'none');
+  }));
+
+test('Window, ChartAndPictureFillMostOfTheirPaneAt1280x720', () =>
+  visit({}, async (page) => {
+    await on.run(page, book(9, 'x="v", y="i"') + '-- mock.knob pressure 1 9 3 one\n-- mock.views 3\n');
+    await on.finished(page);
+    const share = (selector) =>
+      page.$eval(selector, (e) => {
+        const { clientWidth: width, clientHeight: height } = document.querySelector('#results');
+        return (e.clientWidth * e.clientHeight) / (width * height);
+      });
+    await page.waitForSelector('.chart svg');
+    assert.equal(await page.$eval('.knobs', (e) => e.hidden), false);
+    assert.ok((await share('.chart')) >= 0.6, `the chart fills ${await share('.chart')}`);
+    await page.click('#tab-picture');
+    await on.until(page, () => document.querySelector('.key svg'), 'the picture should come');
+    await on.painted(page);
+    assert.ok((await share('.stage')) >= 0.6, `the picture fills ${await share('.stage')}`);
+    await on.assertAccessible(page, 'with its controls folded');
+    await page.focus('.pictures summary');
+    await page.keyboard.press('Enter');
+    await on.painted(page);
+    const outside = await page.$$eval('.pictures button, .pictures select', (all) =>
+      all.filter((e) => e.getBoundingClientRect().bottom > innerHeight).map((e) => e.textContent),
+    );
+    assert.deepEqual(outside, []);
+    await on.assertAccessible(page, 'with its controls unfolded');
   }));
 
 for (const [width, height, columns] of [

@@ -8,6 +8,7 @@ import { svg } from './dom';
 import type { Ink } from './colour';
 import type { Notebook } from './run';
 import { axisFor, axisOfNames, type Axis } from './ticks';
+import type { Tried } from './trail';
 import { greatestOf, label, numberText, scaleFor, shareOf, type Scale } from './units';
 
 const fontSize = 15; // px
@@ -23,27 +24,37 @@ export interface Drawn {
   left: number;
 }
 
-export function drawChart(notebook: Notebook, asked: ChartChoice, width: number, height: number, ink: Ink): Drawn {
+export function drawChart(
+  notebook: Notebook,
+  asked: ChartChoice,
+  width: number,
+  height: number,
+  ink: Ink,
+  before: Tried[] = [],
+): Drawn {
   const names = namesAlong(notebook, asked);
   const named = names.length > 0;
   const choice = named ? { ...asked, log_x: false } : asked;
   const { lines: given, left } = linesOf(notebook, choice);
+  const earlier = before.flatMap((b) => triedLines(b, choice, names));
   const all = given.flatMap((l) => l.points);
   const name = `${choice.y.join(', ')} against ${choice.x}`;
   if (all.length === 0) {
     const why = left ? 'No row has both numbers above zero, as these axes need' : 'No row has both numbers yet';
     return { element: sentence(`${why}.`, `${name}: ${why}`, width, height, ink), summary: why, left };
   }
-  const scaleX = scaleFor(notebook.units[choice.x], greatestOf(all.map((p) => p.x)));
-  const scaleY = scaleFor(notebook.units[choice.y[0]], greatestOf(all.map((p) => p.y)));
+  const every = [...given, ...earlier].flatMap((l) => l.points);
+  const scaleX = scaleFor(notebook.units[choice.x], greatestOf(every.map((p) => p.x)));
+  const scaleY = scaleFor(notebook.units[choice.y[0]], greatestOf(every.map((p) => p.y)));
   const lines = given.map((l) => inUnits(l, scaleX.factor, scaleY.factor));
+  const faint = earlier.map((l) => ({ ...l, ...inUnits(l, scaleX.factor, scaleY.factor) }));
   const legend = legendRows(lines.length > 1 ? lines : [], width - 90);
   const turned = named && !fitAside(names, width - 130);
   const tall = turned ? Math.min(height / 3, Math.max(...names.map((n) => widthOf(shortened(n))))) : 0;
   const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 + Math.max(0, tall - fontSize) };
   const upright = height - margin.top - margin.bottom;
   const bars = lines.map((l) => (choice.spread ? l.means.map((m) => barOf(m, choice.log_y)) : []));
-  const up = [...lines.flatMap((l) => l.points.map((p) => p.y)), ...bars.flat().flatMap((bar) => [bar.y1, bar.y2])];
+  const up = [...[...lines, ...faint].flatMap((l) => l.points.map((p) => p.y)), ...bars.flat().flatMap((bar) => [bar.y1, bar.y2])];
   const y = axisFor(up, choice.log_y, apartBy(() => 1.6 * fontSize, upright));
   margin.left = Math.max(58, 46 + Math.max(...y.labels.map(widthOf)));
   const inside = width - margin.left - margin.right;
@@ -51,7 +62,7 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   const written = turned ? names.map((n) => shortened(n, tall)) : names;
   const x = named
     ? axisOfNames(written, turned ? apart : () => true)
-    : axisFor(lines.flatMap((l) => l.points.map((p) => p.x)), choice.log_x, apart);
+    : axisFor([...lines, ...faint].flatMap((l) => l.points.map((p) => p.x)), choice.log_x, apart);
 
   const place = (p: Point): Point => ({
     x: inside * shareOf(p.x, x.domain, x.log),
@@ -80,6 +91,7 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
   const element = plotted({ width, height, margin, x: { ...x, turned }, y, ink }, [], [
     text([xWords], { ...words, frameAnchor: 'bottom', dy: margin.bottom - 8 }),
     text([yWords], { ...words, frameAnchor: 'left', textAnchor: 'middle', rotate: -90, dx: 16 - margin.left }),
+    ...faint.flatMap((l) => faintMarks(l, ink.series[indexOf(lines, l) % ink.series.length], named)),
     ...drawn,
     ...legendMarks(legend, margin.top, ink),
   ]);
@@ -89,6 +101,28 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
     (x.ticks.length < names.length ? `, ${x.ticks.length} of ${names.length} names written` : '') +
     (kinds.includes('none') && choice.points !== false ? ', too close together to be marked one by one' : '');
   return { element: asPicture(element, summary, ink), summary, left };
+}
+
+type Faint = Line & { values: string };
+
+/** Lines of another run with the same names along x. */
+function triedLines({ notebook, values }: Tried, choice: ChartChoice, names: string[]): Faint[] {
+  if (namesAlong(notebook, choice).join('\n') !== names.join('\n')) return [];
+  return linesOf(notebook, choice).lines.map((l) => ({ ...l, values }));
+}
+
+function indexOf(lines: Line[], { name }: Line): number {
+  return Math.max(0, lines.findIndex((l) => l.name === name));
+}
+
+const mostDots = 12; // of a faint line
+
+function faintMarks({ means, values }: Faint, stroke: string, named: boolean): Markish[] {
+  const look = { x: 'x', y: 'y', title: () => values };
+  return [
+    ...(named ? [] : [line(means, { ...look, stroke, strokeWidth: 1.5, strokeOpacity: 0.35 })]),
+    dot(means.length > mostDots ? [] : means, { ...look, r: 3, fill: stroke, fillOpacity: 0.45, stroke: 'none' }),
+  ];
 }
 
 function inUnits(l: Line, x: number, y: number): Line {

@@ -179,8 +179,9 @@ export function fitted(choice: ChartChoice, notebook: Notebook): ChartChoice | u
   return { ...choice, y: known.filter((c) => alike.includes(c)), per };
 }
 
-/** Beyond rounding. */
+/** Beyond rounding; a single row shows nothing. */
 function varies(notebook: Notebook, column: string): boolean {
+  if (notebook.rows.length < 2) return true;
   const [low, high] = extentOf(notebook.rows.map((row) => row[column]));
   return high > low && !sameToRounding(low, high);
 }

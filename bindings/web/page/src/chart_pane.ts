@@ -6,6 +6,7 @@ import { chartsOf, columnsLike, fitted, type ChartChoice, type RunChart } from '
 import { inkNow, lightInk } from './colour';
 import { Choice, h, saveAs } from './dom';
 import { columnsAlong, numericColumns, type Run } from './run';
+import { Trail, type Tried } from './trail';
 
 type Drawing = typeof import('./chart');
 
@@ -29,6 +30,8 @@ export class ChartPane {
   private readonly empty = h('p.empty');
   private readonly frame = h('div.chart');
   private readonly note = h('p.caption');
+  private readonly trail = new Trail();
+  private readonly forget = h('button', { hidden: true, onclick: () => this.clear() }, 'Clear trail');
   private readonly body: HTMLElement;
 
   constructor(
@@ -37,21 +40,23 @@ export class ChartPane {
   ) {
     const save = h('button', { onclick: () => this.save() }, 'Save SVG');
     this.body = h('div.charts',
-      h('div.choices',
-        this.which.element,
-        h('details.axes',
-          h('summary', 'Axes'),
+      this.which.element,
+      this.frame,
+      h('div.below',
+        this.note,
+        this.forget,
+        h('details.view',
+          h('summary', 'View'),
           h('div.choices',
             this.x.element,
             this.y.element,
             this.more.element,
             this.per.element,
             h('span.pair', h('label', this.logX, ' log x'), h('label', this.logY, ' log y')),
+            save,
           ),
         ),
       ),
-      this.frame,
-      h('div.below', this.note, save),
     );
     element.append(this.empty, this.body);
     new ResizeObserver(() => this.draw()).observe(this.frame);
@@ -65,6 +70,18 @@ export class ChartPane {
     this.body.hidden = !any;
     this.empty.textContent = run?.active ? 'No row yet.' : 'Columns of a notebook are drawn here against each other.';
     if (any) this.draw();
+  }
+
+  /** Stays in the chart, faint, while other values of the knobs are tried. */
+  tried(run: Run): void {
+    this.trail.add(run);
+  }
+
+  private clear(): void {
+    this.trail.clear();
+    if (this.run) this.trail.add(this.run);
+    this.draw();
+    this.element.querySelector('summary')!.focus();
   }
 
   async library(): Promise<Drawing> {
@@ -118,19 +135,27 @@ export class ChartPane {
       return;
     }
     const [width, height] = [Math.max(280, this.frame.clientWidth), Math.max(220, this.frame.clientHeight)];
-    const { element, summary, left } = this.drawing.drawChart(notebook, choice, width, height, inkNow());
+    const before = this.trail.before(this.run!, notebook.name);
+    this.forget.hidden = before.length === 0;
+    const { element, summary, left } = this.drawing.drawChart(notebook, choice, width, height, inkNow(), before);
     this.frame.replaceChildren(element);
     const why = choice.log_x || choice.log_y ? ', or none above zero for a logarithmic axis' : ' in both columns';
     const rows = left ? ` ${left} ${left === 1 ? 'row is' : 'rows are'} left out: no number${why}.` : '';
-    this.note.textContent = `${summary}.${rows}`;
+    this.note.textContent = `${summary}.${rows}${triedText(before)}`;
   }
 
   private save(): void {
     const shown = this.shown();
     if (!shown || !this.drawing) return;
     const { notebook, choice } = shown;
-    const { element } = this.drawing.drawChart(notebook, choice, 900, 560, lightInk);
+    const before = this.trail.before(this.run!, notebook.name);
+    const { element } = this.drawing.drawChart(notebook, choice, 900, 560, lightInk, before);
     const name = `${notebook.name} ${choice.y.join(' ')} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_');
     saveAs(name, new Blob([new XMLSerializer().serializeToString(element)], { type: 'image/svg+xml' }));
   }
+}
+
+function triedText(before: Tried[]): string {
+  const last = before.at(-1)?.values;
+  return last ? ` Faint: ${before.length > 1 ? `${before.length} values tried before, the last ${last}` : last}.` : '';
 }

@@ -131,43 +131,45 @@ export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny
   canvas.getContext('2d')!.putImageData(pixels, 0, 0);
 }
 
-/** `height` in px. */
-export function legend(field: string, unit: string, range: Range, height: number, ink: string): SVGElement {
+export const legendHeight = 42; // px
+
+/** `width` in px. */
+export function legend(field: string, unit: string, range: Range, width: number, ink: string): SVGElement {
   const scale = scaleFor(unit, Math.max(Math.abs(range.low), Math.abs(range.high)));
+  const [low, high] = [range.low / scale.factor, range.high / scale.factor];
   const root = svg('svg', {
-    width: 100,
-    height,
-    viewBox: `0 0 100 ${height}`,
+    width,
+    height: legendHeight,
+    viewBox: `0 0 ${width} ${legendHeight}`,
     role: 'img',
     'font-family': 'system-ui, sans-serif',
     'font-size': 15,
     fill: ink,
-    'aria-label': `Colours: ${field} from ${numberText(range.low / scale.factor)} to ${numberText(range.high / scale.factor)} ${scale.unit}`,
+    'aria-label': `Colours: ${field} from ${numberText(low)} to ${numberText(high)} ${scale.unit}`,
   });
   const measure = scale.unit ? `[${scale.unit}]` : field === 'contact' ? 'share' : '';
-  root.append(svg('text', { x: 4, y: 16 }, field), svg('text', { x: 4, y: 34, 'font-size': 14 }, measure));
-  const top = 46;
+  root.append(svg('text', { x: 4, y: 16 }, field), svg('text', { x: 4, y: 36, 'font-size': 14 }, measure));
   const none = noneOf(field);
-  const bottom = height - (none ? 40 : 10);
-  const frame = { x: 4, width: 20, stroke: ink, 'stroke-opacity': 0.5 };
+  const left = 18 + Math.max(64, 8.6 * field.length) + (none ? 48 : 0);
+  const frame = { y: 4, height: 14, stroke: ink, 'stroke-opacity': 0.5 };
   if (none)
     root.append(
-      svg('rect', { ...frame, y: height - 28, height: 18, fill: `rgb(${none.join(',')})` }),
-      svg('text', { x: 33, y: height - 14 }, 'none'),
+      svg('rect', { ...frame, x: left - 44, width: 20, fill: `rgb(${none.join(',')})` }),
+      svg('text', { x: left - 34, y: 36, 'text-anchor': 'middle' }, 'none'),
     );
   const canvas = document.createElement('canvas');
-  drawFlat(canvas, { nx: 1, ny: 256 }, tableOf(field));
-  const bar = { x: 4, width: 20, y: top, height: bottom - top };
+  drawFlat(canvas, { nx: 256, ny: 1 }, tableOf(field));
+  const bar = { ...frame, x: left, width: width - 24 - left };
   root.append(
     svg('image', { ...bar, href: canvas.toDataURL(), preserveAspectRatio: 'none' }),
-    svg('rect', { ...frame, ...bar, fill: 'none' }),
+    svg('rect', { ...bar, fill: 'none' }),
   );
-  const place = scaleLinear([range.low / scale.factor, range.high / scale.factor], [bottom, top]);
-  for (const tick of place.ticks(Math.max(2, Math.floor(height / 55)))) {
-    const y = place(tick);
+  const place = scaleLinear([low, high], [bar.x, bar.x + bar.width]);
+  for (const tick of place.ticks(Math.max(2, Math.floor(bar.width / 70)))) {
+    const x = place(tick);
     root.append(
-      svg('line', { x1: 24, x2: 29, y1: y, y2: y, stroke: ink }),
-      svg('text', { x: 33, y: y + 5 }, numberText(tick, 5)),
+      svg('line', { x1: x, x2: x, y1: 18, y2: 22, stroke: ink }),
+      svg('text', { x, y: 36, 'text-anchor': 'middle' }, numberText(tick, 5)),
     );
   }
   return root;

@@ -2,7 +2,7 @@
 // Views as self-contained drawings with legend, labels and caption, in light colours for paper: pressure of a
 // press, heights of a surface.
 
-import { coloursOf, drawFlat, legend, lightInk, rangeOf } from './colour';
+import { coloursOf, drawFlat, legend, legendHeight, lightInk, rangeOf } from './colour';
 import { svg } from './dom';
 import {
   anchorText,
@@ -56,9 +56,9 @@ export async function drawingsOf(
     }
     const element = svg('svg', {
       xmlns: 'http://www.w3.org/2000/svg',
-      viewBox: `0 0 ${width + 120} ${height}`,
-      width: width + 120,
-      height,
+      viewBox: `0 0 ${width} ${height + legendHeight}`,
+      width,
+      height: height + legendHeight,
       role: 'img',
       'aria-label': `${title}: ${describe(field)}`,
       'font-family': 'system-ui, sans-serif',
@@ -71,9 +71,8 @@ export async function drawingsOf(
       const place = { x: anchor.left, y: anchor.top + (anchor.name === 'z' ? 20 : 24), 'text-anchor': end };
       element.append(svg('text', place, anchorText(anchor.name, field, relief)));
     }
-    const bar = legend(field.name, field.unit, range, 320, lightInk.text);
-    bar.setAttribute('x', String(width + 4));
-    bar.setAttribute('y', '60');
+    const bar = legend(field.name, field.unit, range, width, lightInk.text);
+    bar.setAttribute('y', String(height));
     element.append(bar);
     result.push({ title, caption: captionOf(field, relief, exaggeration), text: describe(field), element });
   }

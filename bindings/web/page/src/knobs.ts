@@ -3,10 +3,11 @@
 // at rest, a recorded run with the new values replaces a current run.
 
 import type { Api } from './api';
-import { h, slider } from './dom';
+import { h } from './dom';
 import type { Followed } from './live';
+import { quantityIn, QuantityError } from './quantity';
 import type { Run } from './run';
-import { numberText, shareOf, withUnit } from './units';
+import { numberText, sameToRounding, withUnit } from './units';
 
 export interface Knob {
   name: string;
@@ -17,7 +18,6 @@ export interface Knob {
   unit: string;
 }
 
-const steps = 400; // of a slider
 const rest = 250; // ms without a move
 const restAlive = 900; // ms, live script
 
@@ -42,20 +42,38 @@ export async function readKnobs(run: Run, api: Api): Promise<boolean> {
   }
 }
 
-/** The end positions give the exact bounds. */
-export function placeOf(knob: Knob, value: number): number {
-  return Math.round(steps * Math.min(1, Math.max(0, shareOf(value, [knob.from, knob.to], knob.log))));
+/** The largest of …, 1, 2, 5, 10, … up to `size`. */
+function stepUpTo(size: number): number {
+  const power = 10 ** Math.floor(Math.log10(size * (1 + 1e-9)));
+  const most = (size / power) * (1 + 1e-9);
+  return (most >= 5 ? 5 : most >= 2 ? 2 : 1) * power;
 }
 
-export function valueAt(knob: Knob, place: number): number {
-  if (place <= 0) return knob.from;
-  if (place >= steps) return knob.to;
-  const share = place / steps;
-  const value = knob.log ? knob.from * (knob.to / knob.from) ** share : knob.from + share * (knob.to - knob.from);
-  // To a quarter of a step; four digits if possible.
-  const next = knob.log ? value * ((knob.to / knob.from) ** (1 / steps) - 1) : (knob.to - knob.from) / steps;
-  const digits = Math.ceil(Math.log10((4 * Math.abs(value)) / next));
-  return Math.min(knob.to, Math.max(knob.from, Number(value.toPrecision(Math.min(17, Math.max(4, digits))))));
+/** Round values of the slider and both bounds. Steps are 1, 2 or 5 times a power of ten: a hundredth of a linear
+    slider, 4 to 10 % of a logarithmic value. */
+export function stopsOf({ from, to, log }: Knob): number[] {
+  const stops = [from];
+  for (let at = from; at < to; stops.push(Math.min(at, to))) {
+    const step = stepUpTo(log && to >= 5 * from ? at / 10 : (to - from) / 100);
+    const next = Number(((Math.floor(at / step + 1e-6) + 1) * step).toPrecision(12));
+    at = sameToRounding(next, to) ? to : next;
+  }
+  return stops;
+}
+
+/** The next value of an arrow key: 1, 2, 5, 10, … of a logarithmic knob, a tenth of a linear one. */
+export function keyed(knob: Knob, stops: number[], up: boolean): number {
+  const { from, to, log, value } = knob;
+  const step = stepUpTo((to - from) / 10);
+  const main = (v: number): boolean =>
+    v === from || v === to || Math.abs((log && to >= 5 * from ? stepUpTo(v) : Math.round(v / step) * step) - v) < 1e-6 * step;
+  const beyond = (v: number): boolean => main(v) && (up ? v > value : v < value);
+  return stops.filter(beyond).at(up ? 0 : -1) ?? value;
+}
+
+function placeOf(stops: number[], value: number): number {
+  const away = stops.map((s) => Math.abs(s - value));
+  return away.indexOf(Math.min(...away));
 }
 
 export function knobText(knob: Knob, value = knob.value): string {
@@ -82,7 +100,7 @@ export class KnobsPane {
       keyOf: (run: Run) => string; // document key
       touched: (of: Followed) => void; // pointer or focus
       answering: () => boolean;
-      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // false: not live
+      follow: (of: Followed, knobs: Knob[], began: number) => boolean; // false: not live
     },
   ) {}
 
@@ -153,28 +171,76 @@ export class KnobsPane {
   }
 
   private slider(knob: Knob): HTMLElement {
+    const stops = stopsOf(knob);
+    const set = (value: number, began: number): void => {
+      knob.value = value;
+      tell();
+      this.moved(began);
+    };
     const touched = (): void => {
       if (this.of) this.actions.touched(this.of);
     };
-    const moved = (place: number, event: Event): void => {
-      knob.value = valueAt(knob, place);
-      made.tell(place, knobText(knob));
-      this.moved(event.timeStamp);
+    const range = h('input', {
+      type: 'range',
+      min: '0',
+      max: String(stops.length - 1),
+      'aria-label': knob.name,
+      onpointerenter: touched,
+      onfocus: touched,
+      oninput: (event: Event) => set(stops[Number(range.value)], event.timeStamp),
+      onkeydown: (event: KeyboardEvent) => {
+        const up = { ArrowRight: true, ArrowUp: true, ArrowLeft: false, ArrowDown: false }[event.key];
+        if (up === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
+        event.preventDefault();
+        const value = keyed(knob, stops, up);
+        if (value !== knob.value) set(value, event.timeStamp);
+      },
+    });
+    const problem = h('p.problem', { id: `knob-${this.tell.length}`, role: 'status', hidden: true });
+    const field = h('input', {
+      type: 'text',
+      autocomplete: 'off',
+      spellcheck: false,
+      'aria-label': `${knob.name}, as a number`,
+      'aria-describedby': problem.id,
+      onfocus: () => (touched(), field.select()),
+      onchange: (event: Event) => {
+        try {
+          const value = typed(knob, field.value);
+          tell();
+          if (value !== knob.value) set(value, event.timeStamp);
+        } catch (error) {
+          if (!(error instanceof QuantityError)) throw error;
+          complain(error.message);
+        }
+      },
+      onkeydown: (event: KeyboardEvent) => event.key === 'Escape' && tell(),
+    });
+    const complain = (words: string): void => {
+      problem.textContent = words;
+      problem.hidden = words === '';
+      field.setAttribute('aria-invalid', String(words !== ''));
     };
-    const made = slider(knob.name, steps, moved, { onpointerenter: touched, onfocus: touched });
-    const tell = (): void => made.tell(placeOf(knob, knob.value), knobText(knob));
+    const tell = (): void => {
+      range.value = String(placeOf(stops, knob.value));
+      range.setAttribute('aria-valuetext', knobText(knob));
+      field.value = knobText(knob);
+      complain('');
+    };
     this.tell.push(tell);
     tell();
-    return made.element;
+    return h('div.knob', h('span', { title: knob.name }, knob.name), range, field, problem);
   }
 
-  private values(): Record<string, string> {
-    return Object.fromEntries(this.knobs.map((k) => [k.name, String(k.value)]));
+  /** Pointer or keyboard is at a slider. */
+  get held(): boolean {
+    return this.element.querySelector('input[type=range]:is(:hover, :focus-visible)') !== null;
   }
 
   private moved(began: number): void {
     clearTimeout(this.timer);
-    const follows = this.of !== undefined && this.actions.follow(this.of, this.values(), began);
+    const knobs = this.knobs.map((k) => ({ ...k }));
+    const follows = this.of !== undefined && this.actions.follow(this.of, knobs, began);
     const rests = (): void => {
       this.timer = 0;
       if (follows && this.actions.answering()) this.timer = window.setTimeout(rests, restAlive);
@@ -193,7 +259,7 @@ export class KnobsPane {
     if (!of) return;
     this.starting = true;
     try {
-      const begun = await this.actions.again(of, this.values());
+      const begun = await this.actions.again(of, valuesOf(this.knobs));
       if (begun && !this.waiting) return;
       // The end of the active run starts one with the present values.
       this.waiting = true;
@@ -206,6 +272,22 @@ export class KnobsPane {
     }
     if (this.waiting && this.current?.active === false) this.go();
   }
+}
+
+export function valuesText(knobs: Knob[]): string {
+  return knobs.map((k) => `${k.name} ${knobText(k)}`).join(', ');
+}
+
+/** As the server takes them. */
+export function valuesOf(knobs: Knob[]): Record<string, string> {
+  return Object.fromEntries(knobs.map((k) => [k.name, String(k.value)]));
+}
+
+function typed(knob: Knob, text: string): number {
+  const value = quantityIn(text, knob.unit, knob.value);
+  if (value >= knob.from && value <= knob.to) return value;
+  const shown = knobText(knob, value);
+  throw new QuantityError(`${knob.name} goes from ${knobText(knob, knob.from)} to ${knobText(knob, knob.to)}; ${shown} is outside.`);
 }
 
 /** Equal except for the value. */

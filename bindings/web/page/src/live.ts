@@ -4,6 +4,7 @@
 
 import { ApiError, type Api, type FieldFacts, type RunEvent, type View } from './api';
 import { fieldOf, type Field } from './pictures';
+import { valuesOf, type Knob } from './knobs';
 import { Run } from './run';
 
 export interface Followed {
@@ -33,7 +34,7 @@ export interface LivePicture {
 
 interface Move {
   of: Followed;
-  values: Record<string, string>;
+  knobs: Knob[];
   began: number; // performance.now() of the event
 }
 
@@ -85,9 +86,9 @@ export class Live {
     if (!this.failed) this.open(of.script).catch(() => undefined);
   }
 
-  move(of: Followed, values: Record<string, string>, began: number): void {
+  move(of: Followed, knobs: Knob[], began: number): void {
     if (this.failed) return;
-    this.wanted = { of, values, began };
+    this.wanted = { of, knobs, began };
     if (this.going) this.hurry();
     else void this.go();
   }
@@ -163,7 +164,7 @@ export class Live {
         this.take(move, facts, numbers);
         this.hurry();
       };
-      await this.api.moveLive(id, move.values, this.on.view(), take, under.stop.signal);
+      await this.api.moveLive(id, valuesOf(move.knobs), this.on.view(), take, under.stop.signal);
       if (gone && !under.stop.signal.aborted) {
         this.session = undefined;
         if (again && mine) await this.ask(move, false);
@@ -188,6 +189,7 @@ export class Live {
     if (facts.part === 'whole') this.took = 1000 * facts.seconds;
     const run = new Run('', of.name, of.script);
     run.live = { ...facts, fields: (name) => this.look(move, name) };
+    run.knobs = move.knobs;
     run.status = 'done';
     for (const event of facts.events) run.take(event);
     if (run.errors.length > 0) run.status = 'failed';
@@ -202,7 +204,7 @@ export class Live {
       const picture = facts.part === 'whole' ? pictureIn(facts, numbers) : undefined;
       if (picture?.name === name) found = picture.fields;
     };
-    await this.api.moveLive(id, move.values, name, take, new AbortController().signal);
+    await this.api.moveLive(id, valuesOf(move.knobs), name, take, new AbortController().signal);
     return found;
   }
 }

@@ -7,7 +7,7 @@ import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
-import { KnobsPane } from './knobs';
+import { KnobsPane, readKnobs } from './knobs';
 import { divider, Filling, goRound, Messages, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Live, type Followed, type LivePicture } from './live';
@@ -25,6 +25,11 @@ const newcomer = `local lab = require "asperity"
 
 -- A rough face, pressed by a rigid flat:
 -- how much of it touches?
+-- Run it, then move the slider.
+local pressure = lab.knob{ name="pressure",
+  from="1 MPa", to="500 MPa",
+  value="50 MPa", log=true }
+
 local face = lab.surface.self_affine{
   cells=256, size="100 um", hurst=0.8,
   ra="0.2 um", short_wave="3 um",
@@ -34,14 +39,14 @@ local contact = lab.contact{
   boundary="periodic",
   effects={ elasticity="half_space" } }
 
+local st = contact:press{
+  pressure=pressure }
+local area = st.area_fraction
+print(("%.2f %% touches"):format(100 * area))
+
 local book = lab.notebook "area"
-for _, MPa in ipairs{ 10, 20, 50, 100 } do
-  local p = MPa * lab.units.MPa
-  local st = contact:press{ pressure=p }
-  local area = st.area_fraction
-  print(MPa, ("%.2f %%"):format(100 * area))
-  book:write{ ["pressure [Pa]"]=p, area=area }
-end
+book:write{
+  ["pressure [Pa]"]=pressure, area=area }
 `;
 
 const oneColumn = 1150; // px, as in page.css
@@ -90,7 +95,7 @@ const editor = new Editor(byId('editor'), api, {
 const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
 const table = new TablePane(byId('table'));
 const charts = new ChartPane(byId('chart'), failed);
-const pictures = new PicturePane(byId('picture'), api, failed);
+const pictures = new PicturePane(byId('picture'), api, failed, (): boolean => knobs.held);
 const files = new FilesPane(byId('files'), api, failed);
 const live = new Live(api, { answered, changed: draw, failed, view: () => pictures.lookedAt });
 const knobs = new KnobsPane(api, {
@@ -288,6 +293,7 @@ function answered(next: Run, of: Followed, picture: LivePicture | undefined, beg
   if (run?.active) return;
   run = next;
   runOf = of.key;
+  if (next.live?.part === 'whole') charts.tried(next);
   pictures.succeed(next, picture, began);
   draw();
 }
@@ -359,6 +365,8 @@ function ended(done: Run): void {
   if (waitsForEnd) messages.clear();
   waitsForEnd = false;
   recorded.add(done);
+  charts.tried(done);
+  if (!knobs.element.hidden) void readKnobs(done, api).then(draw); // for the trail
   if (tabs.selected === 'output') output.show(done); // before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
@@ -367,12 +375,12 @@ function ended(done: Run): void {
   say(`${endText(done)}. ${errorText(done.errors[0])}`.trim());
 }
 
-/** Charts of the script, then pictures, then output. */
+/** Charts of the script, then pictures, then output. A picture follows knobs, printed lines do not. */
 function madeBy(done: Run): string {
   if (chartsOf(done).some((c) => c.asked)) return 'chart';
   if ([...done.files.keys()].some((name) => name.endsWith('.png'))) return 'files';
+  if (done.views.length > 0 && (done.output.length === 0 || !knobs.element.hidden)) return 'picture';
   if (done.output.length > 0) return 'output';
-  if (done.views.length > 0) return 'picture';
   return done.notebooks.size > 0 ? 'table' : 'output';
 }
 

@@ -58,7 +58,8 @@ export class PicturePane {
   private readonly key = h('div.key');
   private readonly caption = h('p.caption', { id: 'picture-caption' });
   private readonly leftOut = h('p.caption.left-out', { hidden: true });
-  private readonly stage = h('div.stage', this.canvas, this.map, this.labels);
+  private readonly name = h('p.tag.name', { 'aria-hidden': 'true' });
+  private readonly stage = h('div.stage', this.canvas, this.map, this.labels, this.name);
   private readonly body: HTMLElement;
   private readonly empty = h('p.empty');
 
@@ -66,20 +67,30 @@ export class PicturePane {
     readonly element: HTMLElement,
     private readonly api: Api,
     private readonly failed: (error: unknown) => void,
+    private readonly held: () => boolean, // a slider is in use
   ) {
     const reset = h('button', { onclick: () => this.turn({ ...resting }) }, 'Oblique');
     const above = h('button', { onclick: () => this.turn({ turn: 0, tilt: 89.9, zoom: 1 }) }, 'Above');
     this.body = h('div.pictures', { hidden: true },
-      h('div.choices',
-        this.which.element,
-        this.colourChoice.element,
-        this.reliefChoice.element,
-        this.exaggerate.element,
+      this.stage,
+      this.key,
+      h('div.below',
+        this.caption,
+        h('details.view',
+          h('summary', 'View'),
+          h('div.choices',
+            this.which.element,
+            this.colourChoice.element,
+            this.reliefChoice.element,
+            this.exaggerate.element,
+            reset,
+            above,
+            h('p', 'Drag the picture, or use the arrow keys.'),
+          ),
+        ),
       ),
-      h('div.picture', this.stage, this.key),
-      this.caption,
       this.leftOut,
-      h('div.below', this.scrubber.element, h('p', 'Drag it, or use the arrow keys.'), reset, above),
+      this.scrubber.element,
     );
     element.append(this.empty, this.body);
     this.listen();
@@ -126,14 +137,8 @@ export class PicturePane {
     this.kept = run.views.some((v) => v.name === this.shown) ? this.shown : '';
     this.shown = '';
     this.began = began;
-    this.rest();
-    if (began !== undefined) {
-      this.map.hidden = false;
-      this.resting = window.setTimeout(() => {
-        this.rest();
-        this.draw();
-      }, rested);
-    }
+    if (began !== undefined || (!this.map.hidden && this.held())) this.flatten();
+    else this.map.hidden = true;
     this.show(run);
   }
 
@@ -148,10 +153,15 @@ export class PicturePane {
 
   private resting = 0;
 
-  /** A relief is too slow while a knob moves. */
-  private rest(): void {
+  /** A relief is too slow while a slider is in use: until then the map is flat. */
+  private flatten(): void {
+    this.map.hidden = false;
     clearTimeout(this.resting);
-    this.map.hidden = true;
+    this.resting = window.setTimeout(() => {
+      if (this.held()) return this.flatten();
+      this.map.hidden = true;
+      this.draw();
+    }, rested);
   }
 
   appear(): void {
@@ -261,9 +271,9 @@ export class PicturePane {
     this.exaggerate.tell(this.step, this.relief ? factorText(factor) : '', factorText(factor));
     this.exaggerate.input.disabled = !this.relief;
     this.exaggerate.input.setAttribute('aria-label', 'Exaggeration of heights');
+    const flat = this.map.hidden ? 'flat map' : 'flat map while the slider is in use';
     this.caption.textContent =
-      captionOf(colour, this.flat || !this.map.hidden ? undefined : this.relief, factor) +
-      (this.map.hidden ? '' : ' while the knob moves') +
+      captionOf(colour, this.flat || !this.map.hidden ? undefined : this.relief, factor).replace('flat map', flat) +
       (this.run?.live?.part === 'coarse' ? ' · coarse, the whole follows' : '') +
       (this.flat ? ' · this browser has no WebGL, so nothing can be turned' : '');
     this.canvas.setAttribute(
@@ -272,7 +282,8 @@ export class PicturePane {
     );
     const colours = coloursOf(colour.name, colour.values, range);
     const { width, height } = this.room();
-    this.key.replaceChildren(legend(colour.name, colour.unit, range, Math.min(340, height), ink.text));
+    this.name.textContent = this.title();
+    this.key.replaceChildren(legend(colour.name, colour.unit, range, Math.max(240, this.key.clientWidth), ink.text));
     if (this.flat || !this.map.hidden) {
       drawFlat(this.flat ? this.canvas : this.map, colour, colours);
       this.labels.replaceChildren();
@@ -307,7 +318,7 @@ export class PicturePane {
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
       performance.clearMeasures('asperity-live');
-      performance.measure('asperity-live', { start: began, end: performance.now() });
+      performance.measure('asperity-live', { start: began, end: performance.now(), detail: this.run?.live?.part });
     };
     channel.port2.postMessage(0);
   }

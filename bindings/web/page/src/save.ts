@@ -8,7 +8,7 @@ import type { ChartPane } from './chart_pane';
 import { h, prose } from './dom';
 import { pictureClass, pictureType } from './files_pane';
 import { lightInk } from './colour';
-import { knobText, readKnobs, type Knob } from './knobs';
+import { knobText, readKnobs, valuesText, type Knob } from './knobs';
 import { expectationItem } from './output_pane';
 import { leftOutText, type PicturePane } from './picture_pane';
 import { endText, errorText, type Run } from './run';
@@ -65,10 +65,10 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
     const at = Object.fromEntries(one.knobs.map((k) => [k.name, { value: k.value, text: knobText(k) }]));
     const first = one === run || undefined;
     const results = h('section.results', { 'data-at': JSON.stringify(at), 'data-first': first });
-    if (several) results.append(h('h2', `Recorded at ${valuesText(one)}`), aboutOf(one, ''));
+    if (several) results.append(h('h2', `Recorded at ${valuesText(one.knobs)}`), aboutOf(one, ''));
     const lacking: string[] = [];
     await addResults(results, one, { from, missing: lacking, most, steps });
-    missing.push(...lacking.map((m) => (several ? `${m} (${valuesText(one)})` : m)));
+    missing.push(...lacking.map((m) => (several ? `${m} (${valuesText(one.knobs)})` : m)));
     body.append(results);
   }
   if (missing.length > 0)
@@ -83,10 +83,6 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
 function aboutOf(run: Run, lead: string): HTMLElement {
   const began = new Date(run.began).toLocaleString('en-GB');
   return h('p.about', `${lead}${began} · ${endText(run)}`);
-}
-
-function valuesText(run: Run): string {
-  return run.knobs.map((k) => `${k.name} ${knobText(k)}`).join(', ');
 }
 
 const boundsText = (k: Knob): string => `${knobText(k, k.from)} to ${knobText(k, k.to)}`;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How soon does the page's picture follow a slider? From the slider's event to the painted picture, for a press
+// on 256 x 256 nodes, in headless Chromium without a graphics card. Two paces: one move every 300 ms and every
+// 700 ms. Every move has a new value, so that no press comes from memory.
+//   taskset -c 0,1 sh tests/page/run.sh bench/page_follow.mjs build/release build/release/asperity
+
+import { spawn, spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { availableParallelism, loadavg, tmpdir } from 'node:os';
+import { join } from 'node:path';
+import * as on from '../tests/page/browser.mjs';
+
+const moves = 40; // at each pace
+const script = `local lab = require "asperity"
+local p = lab.knob{ name="pressure", from="1 MPa", to="900 MPa", value="1 MPa", log=true }
+local s = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_height="1 um", short_wave="20 um",
+  material=lab.material "Al-2011" }
+local c = lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+print("area", c:press{ pressure=p }.area_fraction)
+`;
+
+function processor() {
+  const facts = readFileSync('/proc/cpuinfo', 'utf8');
+  const model = /model name\s*: (.*)/.exec(facts)?.[1] ?? 'unknown processor';
+  const widths = ['avx512f', 'avx2'].filter((flag) => new RegExp(`\\b${flag}\\b`).test(facts));
+  const [, vectors] = /(vectors? .*)/.exec(spawnSync(process.env.ASPERITY_PROGRAM, ['version']).stdout) ?? [];
+  const load = loadavg()[0].toFixed(1);
+  return `${model} (${widths.join(', ')}), ${availableParallelism()} cores, load ${load} before; program: ${vectors}`;
+}
+
+async function addressOf(server) {
+  let said = '';
+  for await (const data of server.stdout) {
+    said += data;
+    const found = /http:\/\/\S+#\S+/.exec(said);
+    if (found) return found[0];
+  }
+  throw new Error(`asperity serve ended: ${said}`);
+}
+
+const quantile = (sorted, share) => Math.round(sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]);
+
+/** Moves the slider by its pixels and waits `pace` ms from move to move. */
+async function follow(page, from, pace) {
+  await page.evaluate(() => (window.whole = []));
+  const { x, y, width, height } = await on.placeOf(page, '.knobs input[type=range]');
+  const move = (k) => page.mouse.move(x + 8 + ((width - 16) * k) / (2 * moves), y + height / 2);
+  await move(from);
+  await page.mouse.down();
+  for (let k = from + 1; k <= from + moves; ++k) {
+    await move(k);
+    await on.pause(pace);
+  }
+  await page.mouse.up();
+  const times = await page.evaluate(() => window.whole);
+  const sorted = times.sort((a, b) => a - b);
+  console.log(
+    `a move every ${pace} ms: median ${quantile(sorted, 0.5)} ms, 95 % ${quantile(sorted, 0.95)} ms, ` +
+      `most ${quantile(sorted, 1)} ms; ${sorted.length} pictures of ${moves} moves`,
+  );
+}
+
+console.log(processor());
+const folder = mkdtempSync(join(tmpdir(), 'asperity-follow-'));
+const server = spawn(process.env.ASPERITY_PROGRAM, ['serve', '--out', folder], { stdio: ['ignore', 'pipe', 'ignore'] });
+const browser = await on.openBrowser();
+try {
+  const page = await on.openPage(browser, await addressOf(server));
+  await on.ready(page);
+  await on.run(page, script);
+  await on.finished(page);
+  await page.click('#tab-picture');
+  await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+  await page.evaluate(() => {
+    const take = (list) =>
+      list.getEntries().forEach((e) => e.name === 'asperity-live' && e.detail !== 'coarse' && window.whole.push(e.duration));
+    new PerformanceObserver(take).observe({ entryTypes: ['measure'] });
+  });
+  await follow(page, 0, 300);
+  await follow(page, moves, 700);
+} finally {
+  await browser.close();
+  server.kill('SIGINT');
+  await new Promise((r) => server.on('exit', r));
+  rmSync(folder, { recursive: true });
+}
