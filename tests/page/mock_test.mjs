@@ -675,7 +675,10 @@ test('Knob, StepsAreRoundAndReachBothBounds', () =>
         return parseFloat(e.getAttribute('aria-valuetext'));
       }),
     );
-    assert.deepEqual(drawn, [1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2, 2.2, 2.4, 2.6, 2.8, 3, 3.2, 3.4, 3.6, 3.8, 4, 4.2, 4.4, 4.6]);
+    assert.equal(
+      drawn.join(' '),
+      '1 1.1 1.2 1.3 1.4 1.5 1.6 1.7 1.8 1.9 2 2.2 2.4 2.6 2.8 3 3.2 3.4 3.6 3.8 4 4.2 4.4 4.6',
+    );
     await on.release(page);
     await on.run(page, '-- mock.knob a -0.03 0.25 0.03 rad\n');
     await knobSays(page, '0.03 rad');
@@ -713,8 +716,8 @@ test('Knob, TakesANumberWithItsUnit', () =>
     for (const [given, words] of [
       ['fast', '“fast” is no number. Give a number with its unit, for example 1.5 MPa.'],
       ['5 Mpa', '“Mpa” is no unit. Give a number with its unit, for example 1.5 MPa.'],
-      ['5 mm', '“mm” is a unit of something else. Give Pa, for example 1.5 MPa.'],
-      ['5 GPa', 'pressure goes from 1 MPa to 300 MPa; 5 GPa is outside.'],
+      ['5 mm', '“mm” is no unit of this. Give Pa, for example 1.5 MPa.'],
+      ['5 GPa', '5 GPa is out of bounds. Give pressure from 1 MPa to 300 MPa.'],
     ]) {
       await on.typeKnob(page, given);
       assert.equal(await on.text(page, '.problem'), words);

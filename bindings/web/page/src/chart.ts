@@ -54,7 +54,8 @@ export function drawChart(
   const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 + Math.max(0, tall - fontSize) };
   const upright = height - margin.top - margin.bottom;
   const bars = lines.map((l) => (choice.spread ? l.means.map((m) => barOf(m, choice.log_y)) : []));
-  const up = [...[...lines, ...faint].flatMap((l) => l.points.map((p) => p.y)), ...bars.flat().flatMap((bar) => [bar.y1, bar.y2])];
+  const shown = [...lines, ...faint].flatMap((l) => l.points);
+  const up = [...shown.map((p) => p.y), ...bars.flat().flatMap((bar) => [bar.y1, bar.y2])];
   const y = axisFor(up, choice.log_y, apartBy(() => 1.6 * fontSize, upright));
   margin.left = Math.max(58, 46 + Math.max(...y.labels.map(widthOf)));
   const inside = width - margin.left - margin.right;
@@ -62,7 +63,7 @@ export function drawChart(
   const written = turned ? names.map((n) => shortened(n, tall)) : names;
   const x = named
     ? axisOfNames(written, turned ? apart : () => true)
-    : axisFor([...lines, ...faint].flatMap((l) => l.points.map((p) => p.x)), choice.log_x, apart);
+    : axisFor(shown.map((p) => p.x), choice.log_x, apart);
 
   const place = (p: Point): Point => ({
     x: inside * shareOf(p.x, x.domain, x.log),

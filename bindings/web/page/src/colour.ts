@@ -132,6 +132,7 @@ export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny
 }
 
 export const legendHeight = 42; // px
+let legends = 0; // of this page
 
 /** `width` in px. */
 export function legend(field: string, unit: string, range: Range, width: number, ink: string): SVGElement {
@@ -157,13 +158,13 @@ export function legend(field: string, unit: string, range: Range, width: number,
       svg('rect', { ...frame, x: left - 44, width: 20, fill: `rgb(${none.join(',')})` }),
       svg('text', { x: left - 34, y: 36, 'text-anchor': 'middle' }, 'none'),
     );
-  const canvas = document.createElement('canvas');
-  drawFlat(canvas, { nx: 256, ny: 1 }, tableOf(field));
   const bar = { ...frame, x: left, width: width - 24 - left };
-  root.append(
-    svg('image', { ...bar, href: canvas.toDataURL(), preserveAspectRatio: 'none' }),
-    svg('rect', { ...bar, fill: 'none' }),
+  const id = `colours-${++legends}`;
+  const { colours } = paletteOf(field);
+  const stops = colours.map((c, k) =>
+    svg('stop', { offset: k / (colours.length - 1), 'stop-color': `rgb(${bytesOf(c).join(',')})` }),
   );
+  root.append(svg('linearGradient', { id }, ...stops), svg('rect', { ...bar, fill: `url(#${id})` }));
   const place = scaleLinear([low, high], [bar.x, bar.x + bar.width]);
   for (const tick of place.ticks(Math.max(2, Math.floor(bar.width / 70)))) {
     const x = place(tick);

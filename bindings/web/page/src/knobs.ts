@@ -49,24 +49,27 @@ function stepUpTo(size: number): number {
   return (most >= 5 ? 5 : most >= 2 ? 2 : 1) * power;
 }
 
+const stepsByRatio = ({ from, to, log }: Knob): boolean => log && to >= 5 * from;
+
 /** Round values of the slider and both bounds. Steps are 1, 2 or 5 times a power of ten: a hundredth of a linear
     slider, 4 to 10 % of a logarithmic value. */
-export function stopsOf({ from, to, log }: Knob): number[] {
+function stopsOf(knob: Knob): number[] {
+  const { from, to } = knob;
   const stops = [from];
-  for (let at = from; at < to; stops.push(Math.min(at, to))) {
-    const step = stepUpTo(log && to >= 5 * from ? at / 10 : (to - from) / 100);
-    const next = Number(((Math.floor(at / step + 1e-6) + 1) * step).toPrecision(12));
-    at = sameToRounding(next, to) ? to : next;
+  for (let at = from; at < to; stops.push(at)) {
+    const step = stepUpTo(stepsByRatio(knob) ? at / 10 : (to - from) / 100);
+    const next = Number(((Math.floor(at / step + 1e-6) + 1) * step).toPrecision(14));
+    at = next > at && next < to && !sameToRounding(next, to) ? next : to;
   }
   return stops;
 }
 
 /** The next value of an arrow key: 1, 2, 5, 10, … of a logarithmic knob, a tenth of a linear one. */
-export function keyed(knob: Knob, stops: number[], up: boolean): number {
-  const { from, to, log, value } = knob;
+function keyed(knob: Knob, stops: number[], up: boolean): number {
+  const { from, to, value } = knob;
   const step = stepUpTo((to - from) / 10);
-  const main = (v: number): boolean =>
-    v === from || v === to || Math.abs((log && to >= 5 * from ? stepUpTo(v) : Math.round(v / step) * step) - v) < 1e-6 * step;
+  const round = (v: number): number => (stepsByRatio(knob) ? stepUpTo(v) : Math.round(v / step) * step);
+  const main = (v: number): boolean => v === from || v === to || Math.abs(round(v) - v) <= 1e-6 * Math.abs(v);
   const beyond = (v: number): boolean => main(v) && (up ? v > value : v < value);
   return stops.filter(beyond).at(up ? 0 : -1) ?? value;
 }
@@ -174,7 +177,7 @@ export class KnobsPane {
     const stops = stopsOf(knob);
     const set = (value: number, began: number): void => {
       knob.value = value;
-      tell();
+      tell(true);
       this.moved(began);
     };
     const touched = (): void => {
@@ -207,24 +210,27 @@ export class KnobsPane {
       onchange: (event: Event) => {
         try {
           const value = typed(knob, field.value);
-          tell();
+          tell(true);
           if (value !== knob.value) set(value, event.timeStamp);
         } catch (error) {
           if (!(error instanceof QuantityError)) throw error;
           complain(error.message);
         }
       },
-      onkeydown: (event: KeyboardEvent) => event.key === 'Escape' && tell(),
+      onkeydown: (event: KeyboardEvent) => event.key === 'Escape' && tell(true),
     });
     const complain = (words: string): void => {
       problem.textContent = words;
       problem.hidden = words === '';
       field.setAttribute('aria-invalid', String(words !== ''));
     };
-    const tell = (): void => {
+    let written = '';
+    const tell = (over = false): void => {
       range.value = String(placeOf(stops, knob.value));
       range.setAttribute('aria-valuetext', knobText(knob));
-      field.value = knobText(knob);
+      // A number that is being typed stays.
+      if (!over && document.activeElement === field && field.value !== written) return;
+      field.value = written = knobText(knob);
       complain('');
     };
     this.tell.push(tell);
@@ -234,7 +240,7 @@ export class KnobsPane {
 
   /** Pointer or keyboard is at a slider. */
   get held(): boolean {
-    return this.element.querySelector('input[type=range]:is(:hover, :focus-visible)') !== null;
+    return this.element.querySelector('input[type=range]:is(:hover, :active, :focus-visible)') !== null;
   }
 
   private moved(began: number): void {
@@ -286,8 +292,8 @@ export function valuesOf(knobs: Knob[]): Record<string, string> {
 function typed(knob: Knob, text: string): number {
   const value = quantityIn(text, knob.unit, knob.value);
   if (value >= knob.from && value <= knob.to) return value;
-  const shown = knobText(knob, value);
-  throw new QuantityError(`${knob.name} goes from ${knobText(knob, knob.from)} to ${knobText(knob, knob.to)}; ${shown} is outside.`);
+  const [shown, from, to] = [value, knob.from, knob.to].map((v) => knobText(knob, v));
+  throw new QuantityError(`${shown} is out of bounds. Give ${knob.name} from ${from} to ${to}.`);
 }
 
 /** Equal except for the value. */

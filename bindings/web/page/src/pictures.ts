@@ -100,8 +100,12 @@ export function captionOf(colour: Field, relief: Field | undefined, exaggeration
 
 export function describe(colour: Field): string {
   const [least, most] = extentOf(colour.values);
-  const known = colour.values.filter((v) => !Number.isNaN(v));
-  const sum = known.reduce((all, v) => all + v, 0);
-  const mean = Math.abs(sum) > 1e-6 * (most - least) * known.length ? sum / known.length : 0;
+  let [sum, known] = [0, 0];
+  for (const v of colour.values) {
+    if (Number.isNaN(v)) continue;
+    sum += v;
+    ++known;
+  }
+  const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;
   return `${colour.name} from ${withUnit(least, colour.unit)} to ${withUnit(most, colour.unit)}, mean ${withUnit(mean, colour.unit)}`;
 }

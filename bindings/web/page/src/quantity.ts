@@ -78,6 +78,6 @@ export function quantityIn(text: string, unit: string, shown: number): number {
   if (found[2] === '') return Number((number * scale.factor).toPrecision(15));
   if (!given) throw new QuantityError(`“${found[2]}” is no unit. Give a number with its unit, ${example}.`);
   if (wanted.some((power, k) => k > 0 && power !== given[k]))
-    throw new QuantityError(`“${found[2]}” is a unit of something else. Give ${unit ? unitText(unit) : 'a plain number'}, ${example}.`);
+    throw new QuantityError(`“${found[2]}” is no unit of this. Give ${unitText(unit) || 'a plain number'}, ${example}.`);
   return Number((number * (given[0] / wanted[0])).toPrecision(15));
 }
