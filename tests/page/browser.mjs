@@ -199,6 +199,14 @@ export const text = (page, selector) => page.$eval(selector, (e) => e.textConten
 /** The number field of the first knob. */
 export const knobText = (page) => page.$eval('.knobs input[type=text]', (e) => e.value);
 
+export const knobSays = (page, words) =>
+  until(
+    page,
+    (w) => document.querySelector('.knobs input[type=text]')?.value === w,
+    `the first knob should say ${words}`,
+    words,
+  );
+
 /** By keys: replaces the number of the first knob. */
 export async function typeKnob(page, words) {
   await page.focus('.knobs input[type=text]');

@@ -576,13 +576,6 @@ test('Picture, AloneHasNothingToGoThrough', () =>
     assert.equal(await page.$eval('.scrubber', (e) => e.hidden), true);
   }));
 
-const knobSays = (page, text) =>
-  on.until(
-    page,
-    (t) => document.querySelector('.knobs input[type=text]')?.value === t,
-    `the knob should say ${text}`,
-    text,
-  );
 const printed = (page, text) =>
   on.until(page, (t) => document.querySelector('#output').textContent.includes(t), `it should print ${text}`, text);
 
@@ -592,13 +585,13 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     await tab(page, 'output');
     await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa 5e7\n-- mock.knob cells 1 5 3 one\n');
     await printed(page, 'pressure is 10000000');
-    await knobSays(page, '10 MPa');
+    await on.knobSays(page, '10 MPa');
     await page.focus('.knobs input');
     const before = runs();
     await on.hold(page);
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowRight');
-    await knobSays(page, '50 MPa');
+    await on.knobSays(page, '50 MPa');
     await on.release(page);
     await printed(page, 'pressure is 50000000');
     await printed(page, 'cells is 3');
@@ -606,19 +599,19 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     assert.equal(await on.focused(page), 'pressure', 'the slider keeps the focus');
     // An error at one value only.
     await page.keyboard.press('End');
-    await knobSays(page, '100 MPa');
+    await on.knobSays(page, '100 MPa');
     await printed(page, 'pressure is too much');
     await on.assertAccessible(page, 'with knobs');
     await on.assertFits(page, 'with knobs');
     await page.focus('.knobs input');
     await page.keyboard.press('Home');
-    await knobSays(page, '1 MPa');
+    await on.knobSays(page, '1 MPa');
     await printed(page, 'pressure is 1000000');
     await on.finished(page);
     // Run uses the script's own values.
     await page.click('#run');
     await printed(page, 'pressure is 10000000');
-    await knobSays(page, '10 MPa');
+    await on.knobSays(page, '10 MPa');
     await on.run(page, 'print "plain"\n');
     await printed(page, 'plain');
     await on.until(page, () => document.querySelector('.knobs').hidden, 'no knob should be left');
@@ -629,7 +622,7 @@ test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
     await tab(page, 'output');
     await on.run(page, '-- mock.knob p 0 4 1 one\n-- mock.waits 1\n');
     await printed(page, 'p is 1');
-    await knobSays(page, '1 one');
+    await on.knobSays(page, '1 one');
     await on.finished(page);
     const before = mock.runs.size;
     mock.full = true;
@@ -662,7 +655,7 @@ test('Knob, StepsAreRoundAndReachBothBounds', () =>
       return found.join();
     };
     await on.run(page, '-- mock.knob p 1e6 3e8 1.55e7 Pa\n');
-    await knobSays(page, '15.5 MPa');
+    await on.knobSays(page, '15.5 MPa');
     await on.hold(page);
     assert.equal(await values('ArrowLeft'), '15.5 MPa,10 MPa,5 MPa,2 MPa,1 MPa');
     assert.equal(await values('ArrowRight'), '1 MPa,2 MPa,5 MPa,10 MPa,20 MPa,50 MPa,100 MPa,200 MPa,300 MPa');
@@ -681,7 +674,7 @@ test('Knob, StepsAreRoundAndReachBothBounds', () =>
     );
     await on.release(page);
     await on.run(page, '-- mock.knob a -0.03 0.25 0.03 rad\n');
-    await knobSays(page, '0.03 rad');
+    await on.knobSays(page, '0.03 rad');
     await on.hold(page);
     assert.equal(await values('ArrowDown'), '0.03 rad,0.02 rad,0 rad,−0.02 rad,−0.03 rad');
     await page.keyboard.press('End');
@@ -693,7 +686,7 @@ test('Knob, TakesANumberWithItsUnit', () =>
   visit({}, async (page) => {
     await tab(page, 'output');
     await on.run(page, '-- mock.knob pressure 1e6 3e8 2e7 Pa\n');
-    await knobSays(page, '20 MPa');
+    await on.knobSays(page, '20 MPa');
     await on.finished(page);
     await page.focus('.knobs input');
     await page.keyboard.press('Tab');
@@ -707,7 +700,7 @@ test('Knob, TakesANumberWithItsUnit', () =>
       ['3 N/mm^2', '3 MPa'],
     ]) {
       await on.typeKnob(page, given);
-      await knobSays(page, shown);
+      await on.knobSays(page, shown);
       assert.equal(await page.$eval('.knobs input[type=range]', (e) => e.getAttribute('aria-valuetext')), shown);
       assert.equal(await page.$eval('.problem', (e) => e.hidden), true, given);
     }
@@ -958,7 +951,7 @@ test('Save, OneFileThatOpensAnywhere', async () => {
         '-- </script><script>window.injected=1</script> & "quoted"\n-- mock.knob pressure 1e6 1e8 1e7 Pa\nprint "</pre><b>bold</b>"\nfor N = 1, 8 do end\n',
       );
       await on.finished(page);
-      await knobSays(page, '10 MPa');
+      await on.knobSays(page, '10 MPa');
       file = await on.save(page, downloads);
     });
     assert.equal(basename(file), 'what-roughness-is-and-what-a-stylus-misses.html');

@@ -138,7 +138,7 @@ test('Saved, AKnobAtOneValueIsFixedAndSaysSo', () =>
     async (page) => {
       await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa\n');
       await on.finished(page);
-      await on.until(page, () => document.querySelector('.knobs input[type=text]')?.value === '10 MPa', 'the slider should come');
+      await on.knobSays(page, '10 MPa');
     },
     async (page) => {
       assert.match(

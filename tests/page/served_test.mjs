@@ -106,11 +106,7 @@ function processes() {
 test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
   visit({}, async (page) => {
     await on.write(page, pressed);
-    await on.until(
-      page,
-      () => document.querySelector('.knobs input[type=text]')?.value === '20 MPa',
-      'a slider should come before the first run',
-    );
+    await on.knobSays(page, '20 MPa'); // before the first run
     await page.click('#tab-picture');
     const begun = [];
     page.on('request', (r) => r.method() === 'POST' && begun.push(new URL(r.url()).pathname));
@@ -141,7 +137,7 @@ test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
 test('Knob, OfATextThatIsNoMoreHasNoSlider', () =>
   visit({}, async (page) => {
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
-    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.knobSays(page, '1');
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2 })\n');
     await on.until(page, () => document.querySelector('#problems li.error'), 'the check should find it');
     assert.ok(await page.$('.knobs input'), 'a mistake takes no slider');
@@ -156,7 +152,7 @@ test('Knob, OfAScriptWithoutPicturesShowsNoneOfAnother', () =>
     await page.click('#tab-picture');
     await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
-    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.knobSays(page, '1');
     await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
@@ -173,7 +169,7 @@ test('Knob, OfAScriptWithoutPicturesShowsNoneOfAnother', () =>
 test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
   visit({}, async (page) => {
     await on.write(page, pressed.replace('cells=256', 'cells=1024').replace('20 um', '80 um').replace('print("area",', 'print("at " .. p / 1e6 .. " MPa\\n",'));
-    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.knobSays(page, '20 MPa');
     await on.listen(page);
     await page.focus('.knobs input');
     // The first move computes the surface, the second measures the full time. The full answer may hide the
@@ -181,7 +177,7 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
     let coarse;
     let pressure = 20;
     await on.comesTrue(async () => {
-      await on.typeKnob(page, `${++pressure} MPa`);
+      await on.typeKnob(page, `${++pressure}.5 MPa`);
       await on.until(
         page,
         (p) =>
@@ -200,7 +196,7 @@ test('Knob, ItsProcessGoesWithTheTab', async () => {
   const before = processes();
   await visit({}, async (page) => {
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
-    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.knobSays(page, '1');
     await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
@@ -218,7 +214,7 @@ test('Knob, ItsProcessGoesWithTheTab', async () => {
 test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
   visit({}, async (page) => {
     await on.write(page, pressed.replace('cells=256', 'cells=64').replace('20 um', '80 um'));
-    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.knobSays(page, '20 MPa');
     const before = processes();
     const answered = () => on.untilSaid(page, /^Live in .*2 computed, 0 from memory/); // an empty memory
     await on.listen(page);
@@ -239,7 +235,7 @@ test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
   visit({}, async (page) => {
     await on.run(page, pressed);
     await on.finished(page);
-    await on.until(page, () => document.querySelector('.knobs input[type=text]')?.value === '20 MPa', 'a slider should come');
+    await on.knobSays(page, '20 MPa');
     await page.click('#tab-picture');
     await titled(page, 'contact:press at 20 MPa');
     await page.focus('.knobs input');
