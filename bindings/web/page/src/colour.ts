@@ -131,8 +131,19 @@ export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny
   canvas.getContext('2d')!.putImageData(pixels, 0, 0);
 }
 
+const strips = new Map<string, string>(); // a canvas takes long to read
+
+/** All colours of a field from left to right, as an address. */
+function stripOf(field: string): string {
+  const canvas = document.createElement('canvas');
+  if (!strips.has(field)) {
+    drawFlat(canvas, { nx: 256, ny: 1 }, tableOf(field));
+    strips.set(field, canvas.toDataURL());
+  }
+  return strips.get(field)!;
+}
+
 export const legendHeight = 42; // px
-let legends = 0; // of this page
 
 /** `width` in px. */
 export function legend(field: string, unit: string, range: Range, width: number, ink: string): SVGElement {
@@ -159,12 +170,10 @@ export function legend(field: string, unit: string, range: Range, width: number,
       svg('text', { x: left - 34, y: 36, 'text-anchor': 'middle' }, 'none'),
     );
   const bar = { ...frame, x: left, width: width - 24 - left };
-  const id = `colours-${++legends}`;
-  const { colours } = paletteOf(field);
-  const stops = colours.map((c, k) =>
-    svg('stop', { offset: k / (colours.length - 1), 'stop-color': `rgb(${bytesOf(c).join(',')})` }),
+  root.append(
+    svg('image', { ...bar, href: stripOf(field), preserveAspectRatio: 'none' }),
+    svg('rect', { ...bar, fill: 'none' }),
   );
-  root.append(svg('linearGradient', { id }, ...stops), svg('rect', { ...bar, fill: `url(#${id})` }));
   const place = scaleLinear([low, high], [bar.x, bar.x + bar.width]);
   for (const tick of place.ticks(Math.max(2, Math.floor(bar.width / 70)))) {
     const x = place(tick);
