@@ -134,8 +134,9 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
         );
         labels.forEach((l) => assert.ok(l.left >= chart.x && l.bottom <= titled.top + 1, `${width}: ${JSON.stringify([l, titled, chart])}`));
         // Two dots per name, at one position.
-        const across = await page.$$eval('.chart .dot circle, .chart .dot path', (all) => all.filter((c) => c.querySelector('title')).map((c) => c.getBoundingClientRect()).map((b) => Math.round(b.left + b.width / 2)));
-        assert.equal(new Set(across).size, n);
+        const across = await page.$$eval('.chart .dot circle, .chart .dot path', (all) => all.filter((c) => c.querySelector('title')).map((c) => c.getBoundingClientRect()).map((b) => b.left + b.width / 2));
+        const places = across.sort((a, b) => a - b).filter((x, k) => k === 0 || x - across[k - 1] > 1);
+        assert.equal(places.length, n);
         assert.equal((await page.$$('.chart .line path')).length, 0, 'no line goes from name to name');
       }
     }
@@ -233,7 +234,8 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran('-- mock.file map.png\n'), 'tab-files');
     assert.equal(await ran('-- mock.views 2\n'), 'tab-picture');
     assert.equal(await ran('-- mock.views 2\nprint "a"\n'), 'tab-output');
-    assert.equal(await ran('-- mock.knob p 1 9 3 one\nprint "a"\n'), 'tab-picture', 'a picture follows the slider');
+    await ran('-- mock.knob p 1 9 3 one\nprint "a"\n');
+    await on.until(page, () => document.querySelector('#tab-picture').ariaSelected === 'true', 'a picture follows a slider');
     assert.equal(await ran(`${made}error "at the end"\n`), 'tab-output');
     assert.equal(await ran(made), 'tab-chart');
     assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');

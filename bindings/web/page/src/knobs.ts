@@ -101,6 +101,7 @@ export class KnobsPane {
       stop: () => Promise<void>;
       failed: (error: unknown) => void;
       keyOf: (run: Run) => string; // document key
+      known: (run: Run) => void; // its knobs have come
       touched: (of: Followed) => void; // pointer or focus
       answering: () => boolean;
       follow: (of: Followed, knobs: Knob[], began: number) => boolean; // false: not live
@@ -139,7 +140,9 @@ export class KnobsPane {
   }
 
   private async fetch(run: Run): Promise<void> {
-    if (!(await readKnobs(run, this.api)) || this.asked !== run) return;
+    if (!(await readKnobs(run, this.api))) return;
+    if (run.knobs.length > 0) this.actions.known(run);
+    if (this.asked !== run) return;
     if (this.timer || this.starting || this.waiting) return;
     // After an early error, the user can go back.
     if (run.knobs.length === 0 && run.script === this.of?.script) return;

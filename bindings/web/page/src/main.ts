@@ -7,7 +7,7 @@ import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
-import { KnobsPane, readKnobs } from './knobs';
+import { KnobsPane } from './knobs';
 import { divider, Filling, goRound, Messages, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Live, type Followed, type LivePicture } from './live';
@@ -103,6 +103,10 @@ const knobs = new KnobsPane(api, {
   stop,
   failed,
   keyOf: () => runOf,
+  known: (done) => {
+    if (run === done && done.status === 'done' && done.errors.length === 0) tabs.offer(madeBy(done));
+    draw();
+  },
   answering: () => live.busy,
   touched: (of) => live.warm(of),
   follow: (of, values, began) => {
@@ -366,7 +370,6 @@ function ended(done: Run): void {
   waitsForEnd = false;
   recorded.add(done);
   charts.tried(done);
-  if (!knobs.element.hidden) void readKnobs(done, api).then(draw); // for the trail
   if (tabs.selected === 'output') output.show(done); // before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
@@ -379,7 +382,7 @@ function ended(done: Run): void {
 function madeBy(done: Run): string {
   if (chartsOf(done).some((c) => c.asked)) return 'chart';
   if ([...done.files.keys()].some((name) => name.endsWith('.png'))) return 'files';
-  if (done.views.length > 0 && (done.output.length === 0 || !knobs.element.hidden)) return 'picture';
+  if (done.views.length > 0 && (done.output.length === 0 || done.knobs.length > 0)) return 'picture';
   if (done.output.length > 0) return 'output';
   return done.notebooks.size > 0 ? 'table' : 'output';
 }

@@ -74,8 +74,9 @@ export class PicturePane {
     this.body = h('div.pictures', { hidden: true },
       this.stage,
       this.key,
+      this.caption,
       h('div.below',
-        this.caption,
+        this.scrubber.element,
         h('details.view',
           h('summary', 'View'),
           h('div.choices',
@@ -86,11 +87,10 @@ export class PicturePane {
             reset,
             above,
             h('p', 'Drag the picture, or use the arrow keys.'),
+            this.leftOut,
           ),
         ),
       ),
-      this.leftOut,
-      this.scrubber.element,
     );
     element.append(this.empty, this.body);
     this.listen();
