@@ -2,7 +2,7 @@
 // How soon does the page's picture follow a slider? From the slider's event to the painted picture, for a press
 // on 256 x 256 nodes, in headless Chromium without a graphics card. Two paces: one move every 300 ms and every
 // 700 ms. Every move has a new value, so that no press comes from memory.
-//   taskset -c 0,1 sh tests/page/run.sh bench/page_follow.mjs build/release build/release/asperity
+//   sh tests/page/run.sh $PWD/bench/page_follow.mjs $PWD/build/release $PWD/build/release/asperity
 
 import { spawn, spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -52,6 +52,7 @@ async function follow(page, from, pace) {
     await on.pause(pace);
   }
   await page.mouse.up();
+  await on.pause(1000);
   const times = await page.evaluate(() => window.whole);
   const sorted = times.sort((a, b) => a - b);
   console.log(
@@ -71,6 +72,8 @@ try {
   await on.finished(page);
   await page.click('#tab-picture');
   await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+  await on.typeKnob(page, '1.05 MPa'); // begins the process that follows
+  await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow');
   await page.evaluate(() => {
     const take = (list) => {
       const whole = list.getEntries().filter((e) => e.name === 'asperity-live' && e.detail === 'whole');

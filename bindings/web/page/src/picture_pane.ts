@@ -266,6 +266,9 @@ export class PicturePane {
   private build(): void {
     const colour = this.colour!;
     const ink = inkNow();
+    // Read before anything is written: the browser lays the page out once.
+    const { width, height } = this.room();
+    const along = Math.max(240, this.key.clientWidth);
     const range = rangeOf(colour.name, colour.values);
     const factor = exaggerations[this.step];
     this.exaggerate.tell(this.step, this.relief ? factorText(factor) : '', factorText(factor));
@@ -281,9 +284,8 @@ export class PicturePane {
       `${[this.title(), describe(colour)].filter(Boolean).join(': ')}. ${this.caption.textContent}. Arrow keys turn it.`,
     );
     const colours = coloursOf(colour.name, colour.values, range);
-    const { width, height } = this.room();
     this.name.textContent = this.title();
-    this.key.replaceChildren(legend(colour.name, colour.unit, range, Math.max(240, this.key.clientWidth), ink.text));
+    this.key.replaceChildren(legend(colour.name, colour.unit, range, along, ink.text));
     if (this.flat || !this.map.hidden) {
       drawFlat(this.flat ? this.canvas : this.map, colour, colours);
       this.labels.replaceChildren();
