@@ -68,9 +68,10 @@ book:expect("slope_kept", { where={ radius=tip },
   at_most=3 * kept.Ra_kept - 2, label="but far less of the slope" })
 lab.say("%.2f of Ra is left, and %.2f of the slope.", kept.Ra_kept,
   kept.slope_kept)
-guess{ said=my_guess.Ra, found=kept.Ra_kept, of="the share of Ra" }
-guess{ said=my_guess.slope, found=kept.slope_kept,
-  of="the share of the slope" }
+guess{ said=my_guess.Ra, name="Ra", found=kept.Ra_kept, near=0.05,
+  of="the share of Ra" }
+guess{ said=my_guess.slope, name="slope", found=kept.slope_kept,
+  near=0.2, of="the share of the slope" }
 prose([[
 Why: the ball follows the long waves, which carry Ra. It does not reach
 the ground between the short waves, which carry the slope of the fine

@@ -2,8 +2,7 @@
 -- Question: A profile was made with D = 1.5. Does a ruler walked along
 --   it find this D?
 -- Predict: From valley to peak it is 0.5 um, from end to end 50 um.
---   Which D does the ruler find: 1.0, 1.1, 1.3 or 1.5? And after the
---   heights alone are stretched a hundredfold?
+--   Which D does the ruler find: 1.0, 1.1, 1.3 or 1.5?
 -- Minutes: 20
 --
 -- A ruler of length s walks along a profile and measures a length L;
@@ -21,7 +20,8 @@
 local lab = require "asperity"
 local guess = require "asperity.guess"
 local prose = require "asperity.prose"
-local my_guess = nil -- the D that the ruler finds on heights of 0.5 um
+local my_guess = nil -- the ruler's D on heights of 0.5 um
+guess.choices(my_guess, "1.0", "1.1", "1.3", "1.5")
 local D = lab.knob{ name="D", from=1.2, to=1.8, value=1.5 }
 
 -- The profiles of a surface of dimension D + 1 have dimension D.
@@ -86,7 +86,11 @@ local steep = 5
 repeat
   steep = 1.02 * steep
 until (steep / one.slope * surface):fractal_dimension().resolved
-guess{ said=my_guess, found=one.length, of="the ruler's D", near=0.02 }
+guess{ said=my_guess, found=("%.1f"):format(one.length),
+  of="the ruler's D", replies={
+    ["1.1"]="With slopes of one in ten the path grows by 0.5 % only.",
+    ["1.3"]="With slopes of one in ten the path grows by 0.5 % only.",
+    ["1.5"]="A D that is built in is not a D that a ruler finds." } }
 prose([[
 On heights of 0.5 um the ruler found %.3f, stretched a hundredfold %.2f.
 

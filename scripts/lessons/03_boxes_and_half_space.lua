@@ -1,8 +1,8 @@
 -- Boxes against the half-space
 -- Question: Does a hill know that its neighbour is being pressed?
--- Predict: Two hills, one 0.2 um lower. A flat comes down on them. How
---   far below the top of the high hill is it when it meets the low one:
---   less than 0.2 um, exactly 0.2 um, or more?
+-- Predict: Two hills, one 0.2 um lower. A flat comes down on them. When
+--   it meets the low hill, is it less than 0.2 um below the top of the
+--   high hill, exactly 0.2 um (equal), or more?
 -- Minutes: 15
 --
 -- The simplest model of a rough body is a brush of springs: each point
@@ -17,7 +17,8 @@
 local lab = require "asperity"
 local guess = require "asperity.guess"
 local prose = require "asperity.prose"
-local my_guess = nil -- in um, of hills 20 um apart
+local my_guess = nil -- than 0.2 um, for hills 20 um apart
+guess.choices(my_guess, "less", "equal", "more")
 local R = lab.knob{ name="R", from="30 um", to="150 um", value=100e-6 }
 local lower = 0.2e-6 -- m below the high hill
 local metal = lab.material{ young="70 GPa", poisson=0.33 }
@@ -90,7 +91,11 @@ spots:expect("ratio", { at_least=1.5, label="more pieces" })
 local depth = 1e6 * book:max "half_space"
 lab.say("Hills 20 um apart: boxes meet the low one at %.3f [um], \z
   the half-space at %.3f um.", book:max "box", depth)
-guess{ said=my_guess, found=depth, of="depth", unit="um", near=0.05 }
+local beyond = book:max "half_space" / book:max "box" - 1
+guess{ said=my_guess, of="the depth", found=beyond > 0.01 and "more"
+    or beyond < -0.01 and "less" or "equal", replies={
+    less="Nothing bulges: a load lowers the surface around it.",
+    equal="So it is with boxes, and with springs." } }
 prose([[
 Why: the high hill pulls the surface around it down, by F/(pi E* d) at a
 distance d; boxes cannot. On a rough face the load then moves to tops

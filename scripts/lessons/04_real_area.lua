@@ -2,8 +2,8 @@
 -- Question: An aluminium block rests on a hard flat. On how much of its
 --   face does it really touch?
 -- Predict: At a mean pressure of 3 MPa (30 kg on a square centimetre),
---   which percentage touches? And with ten times the load, by how much
---   does the pressure inside the spots grow?
+--   which percentage touches? And with ten times the load, by which
+--   factor (growth) does the pressure inside the spots grow?
 -- Minutes: 20
 --
 -- Two faces touch on some of their tops, and these spots carry all the
@@ -79,9 +79,10 @@ book:expect("in_spots", { where={ body="elastic" },
   label="without a hardness they would carry far more" })
 lab.say("At 3 MPa %.2f [%] touches. Ten times the load multiplies the \z
   pressure in the spots by %.2f.", first.area, growth)
-guess{ said=my_guess.percent, found=100 * first.area, unit="%",
-  of="the share that touches" }
-guess{ said=my_guess.growth, found=growth, of="the growth" }
+guess{ said=my_guess.percent, name="percent", unit="%", near=0.3,
+  found=100 * first.area, of="the share that touches" }
+guess{ said=my_guess.growth, name="growth", found=growth, near=0.1,
+  of="the growth" }
 prose([[
 Why: a higher load makes more spots, not fuller ones. Elastic bodies
 touch on k p / (E* h') of the face, with k between 1.6 (Persson's

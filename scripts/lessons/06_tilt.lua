@@ -2,9 +2,9 @@
 -- Question: You tilt a plate until the block on it slides. Which block
 --   holds on longer: a rough one or a smooth one? A light one or a
 --   heavy one?
--- Predict: The rough block slides at about 10 degrees. At which angle
---   does it slide if all its heights are halved: about 5, 10 or 14
---   degrees? And the rough block under thirty times the load?
+-- Predict: The rough block slides at about 10 degrees. Does it slide
+--   at a smaller, the same or a larger angle if all its heights are
+--   halved? And the rough block under thirty times the load (heavy)?
 -- Minutes: 15
 --
 -- Friction acts where the faces really touch. A junction of area A
@@ -23,8 +23,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
 local guess = require "asperity.guess"
-local my_guess = { halved=nil, heavy=nil } -- in degrees
+local my_guess = { halved=nil, heavy=nil } -- angle of each block
 guess.names(my_guess, "halved", "heavy")
+guess.choices(my_guess, "smaller", "same", "larger")
 local law = lab.friction{ tau0="300 MPa",
   alpha=lab.knob{ name="alpha", from=0, to=0.3, value=0.1 } }
 local rough = lab.surface.self_affine{ cells=256, size="500 um",
@@ -81,10 +82,19 @@ whole:expect("angle", { near=whole:sum "angle" / 4, rel=0.1,
   label="thirty times the load: the same angle, to a tenth" })
 angles:expect("yielding", { where={ height={ 1, 0.7, 0.5 } }, rel=0.1,
   near=yields, label="tops that yield: roughness does not matter" })
-guess{ said=my_guess.halved, of="half the height", unit="deg", near=0.1,
-  found=math.deg(angles:where{ height=0.5 }[1].elastic) }
-guess{ said=my_guess.heavy, of="the heavy load", unit="deg", near=0.1,
-  found=math.deg(whole:where{ ["pressure [MPa]"]=100 }[1].angle) }
+local function change(ratio)
+  return ratio > 1.1 and "larger" or ratio < 0.9 and "smaller" or "same"
+end
+guess{ said=my_guess.halved, name="halved", of="half the height",
+  found=change(angles:where{ height=0.5 }[1].elastic
+    / angles:where{ height=1 }[1].elastic), replies={
+    smaller="Rough faces interlock, but the quartz is flat.",
+    same="The load is the same, but the real area is not." } }
+guess{ said=my_guess.heavy, name="heavy", of="the heavy load",
+  found=change(whole:where{ ["pressure [MPa]"]=100 }[1].angle
+    / whole:where{ ["pressure [MPa]"]=3 }[1].angle), replies={
+    smaller="The weight pulls it down, but also presses it on.",
+    larger="The weight presses it on, but also pulls it down." } }
 require "asperity.prose"([[Why: half the height is half the slope. The
 same load then needs twice the real area, so tau0 A/F doubles: smooth
 blocks slide *later*. More load makes more area in proportion and

@@ -109,10 +109,11 @@ finest:expect("expected", { at_least=1.5 * coarse.expected,
   label="the same nodes: 16 faces beat one finer face" })
 book:expect("found", { where={ faces=16 }, at_most=0.12,
   label="16 faces find the mean to 12 per cent" })
-guess{ said=my_guess.scatter, found=100 * scatter, unit="%",
-  of="scatter of the faces" }
-guess{ said=my_guess.cells, unit="%", of="error of 64 cells",
-  found=100 * book:where{ cells=64 }[1]["cells on a face"] }
+guess{ said=my_guess.scatter, name="scatter", unit="%", near=0.4,
+  found=100 * scatter, of="scatter of the faces" }
+guess{ said=my_guess.cells, name="cells", unit="%", near=0.5,
+  found=100 * book:where{ cells=64 }[1]["cells on a face"],
+  of="error of 64 cells" }
 require "asperity.prose"[[Why: independent errors add as squares, so the
 largest decides. One face is wrong by the scatter on any cells. Cells
 are fine enough if their error is well below the error of the mean; then

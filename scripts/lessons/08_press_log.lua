@@ -2,8 +2,9 @@
 -- Question: A logger recorded the load and the angle of a press for
 --   eleven minutes. Which press did the damage?
 -- Predict: The loads were 60, 100 and 60 kN. Then the upper disc was
---   turned and pressed with 60 kN again. Sort the four presses by the
---   volume that they remove. How much does the third press remove?
+--   turned and pressed with 60 kN again. Compared with the first press,
+--   does the third remove nothing, little or much (over a third)? And
+--   the fourth?
 -- Minutes: 20
 --
 -- The record of a real press is a column of numbers: noisy, with a zero
@@ -24,7 +25,10 @@
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
-local my_guess = nil -- volume of the third press over that of the first
+local guess = require "asperity.guess"
+local my_guess = { third=nil, fourth=nil } -- volume of each press
+guess.names(my_guess, "third", "fourth")
+guess.choices(my_guess, "nothing", "little", "much")
 local turned_at = 98 -- the sample of the turn by 90 degrees
 local third = lab.knob{ name="third", from="20 kN", to="140 kN",
   value="60 kN" }
@@ -134,8 +138,15 @@ book:expect("share", { where={ new="another place" }, at_least=0.3,
   label="at another place the same load removes much again" })
 book:expect("share", { where={ way="without the turn", press=4 },
   at_least=0.3, should_fail=true, label="without the turn as well" })
-require "asperity.guess"{ said=my_guess, of="the third press",
-  found=book:where{ way="as recorded", press=3 }[1].share }
+for press, name in pairs{ [3]="third", [4]="fourth" } do
+  local share = book:where{ way="as recorded", press=press }[1].share
+  guess{ said=my_guess[name], name=name, of="the " .. name .. " press",
+    found=share < 1e-3 and "nothing" or share < 1 / 3 and "little"
+      or "much", replies={
+      nothing="A new place or more load brings other tops together.",
+      little="It depends on load and place: was either new?",
+      much="The faces fit each other up to the highest load here." } }
+end
 require "asperity.prose"[[Why: pressed faces fit each other up to the
 highest load at their place; a press below this load removes nothing. A
 turn brings other tops over each other, which yield as in a first press.

@@ -1,9 +1,9 @@
 -- What a roughness number hides
 -- Question: Two faces have the same Sa, the same Sq and the same Sdr,
 --   to the last digit. Does rubber touch both alike?
--- Predict: Both are pressed against rubber, first with 0.01 MPa, then
---   with 0.3 MPa. Divide the contact area of the honed face by the
---   area of its cast. Which ratio do you expect lightly, which hard?
+-- Predict: One face is honed, the other is its cast. Which of them
+--   touches rubber on more under 0.01 MPa (lightly)? Which under 0.3
+--   MPa (hard)? And which seals under the smaller load?
 -- Minutes: 15
 --
 -- **Sa** and **Sq** measure the distance of the heights from their
@@ -25,8 +25,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
 local guess = require "asperity.guess"
-local my_guess = { lightly=nil, hard=nil } -- area, honed over cast
-guess.names(my_guess, "lightly", "hard")
+local my_guess = { lightly=nil, hard=nil, seals=nil }
+guess.names(my_guess, "lightly", "hard", "seals")
+guess.choices(my_guess, "honed", "cast", "alike")
 local cut = lab.knob{ name="cut", from=0, to=0.7, value=0.5 }
 
 -- 1. A face of rubber with its hills cut off and a finer face on top,
@@ -91,10 +92,22 @@ if cut == 0.5 then
   book:where{ ["pressure [MPa]"]=0.1 }:expect("open",
     { where={ face="honed" }, at_most=0, label="0.1 MPa: tight" })
 end
-guess{ said=my_guess.lightly, found=light[1].areas,
-  of="the area under 0.01 MPa, times" }
-guess{ said=my_guess.hard, found=hard[1].areas, near=0.05,
-  of="the area under 0.3 MPa, times" }
+local function larger(ratio)
+  return ratio > 1.05 and "honed" or ratio < 0.95 and "cast" or "alike"
+end
+local function tight(face)
+  return book:where{ face=face, open=false }:min "pressure" or 1e9
+end
+local means = "Means do not distinguish hills from pits."
+guess{ said=my_guess.lightly, name="lightly", of="the light load",
+  found=larger(light[1].areas), replies={ alike=means,
+    cast="Light rubber touches tops, and the cast has few." } }
+guess{ said=my_guess.hard, name="hard", of="the hard load",
+  found=larger(hard[1].areas), replies={ alike=means,
+    honed="Under a hard load the bottoms decide: pits stay open." } }
+guess{ said=my_guess.seals, name="seals", of="the seal",
+  found=larger(tight "cast" / tight "honed"), replies={ alike=means,
+    cast="A small gap still leaks if the open ground is joined." } }
 require "asperity.prose"[[Why: Sa, Sq and Sdr are means over the face. A
 deep pit counts as much as a high hill. Light rubber touches the tops
 only: flat and fine on the honed face, few and steep on its cast. Rubber

@@ -22,11 +22,20 @@ for lesson in "$root"/scripts/lessons/*.lua; do
     done
     sed 's/^local my_guess = {.*}/local my_guess = 5/' "$lesson" > lesson.lua
     ! "$program" check lesson.lua > output 2>&1 || fail "a number for $lesson"
-    says "my_guess is 5; give its numbers by name, as in { $first=nil, " output
+    says "my_guess is 5; give its values by name, as in { $first=nil, " output
   done
   # As the page writes them.
-  sed "s/^\(local my_guess = { \)$first=nil/\1$first=0.5/" "$lesson" > lesson.lua
-  grep -q "$first=0.5" lesson.lua || fail "$lesson was not changed"
+  choice=$(sed -n 's/^guess.choices(my_guess, \("[^"]*"\).*/\1/p' "$lesson")
+  sed "s/^\(local my_guess = { \)$first=nil/\1$first=${choice:-0.5}/" "$lesson" > lesson.lua
+  grep -q "$first=${choice:-0.5}" lesson.lua || fail "$lesson was not changed"
   "$program" check lesson.lua > output 2>&1 || { cat output; fail "check of $lesson with a guess"; }
 done
-[ $tables = 5 ] || fail "$tables lessons have tables, and five were looked for"
+[ $tables = 7 ] || fail "$tables lessons have tables, and seven were looked for"
+choices=0
+for lesson in $(grep -l "^guess.choices(" "$root"/scripts/lessons/*.lua); do
+  choices=$((choices + 1))
+  sed 's/=nil/="mroe"/; s/^local my_guess = nil/local my_guess = "mroe"/' "$lesson" > lesson.lua
+  ! "$program" check lesson.lua > output 2>&1 || fail "an unknown choice for $lesson"
+  says 'my_guess is `mroe`; choose one of "' output
+done
+[ $choices = 5 ] || fail "$choices lessons have choices, and five were looked for"
