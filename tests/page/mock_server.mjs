@@ -42,6 +42,16 @@ const lessons = [
     text: 'Plain text.',
     script: '-- two\n' + '-- its head\n'.repeat(30) + 'local lab = require "asperity"\nprint(2)\n' + '-- its end\n'.repeat(60),
   },
+  {
+    name: '03_boxes',
+    title: 'Boxes against the half-space',
+    minutes: 15,
+    question: 'Does a hill know that its neighbour is being pressed?',
+    text: 'Plain text.',
+    script:
+      '-- three\nlocal my_guess = { depth=nil, spots=nil } -- than 0.2 um\nguess.choices(my_guess, "less", "equal", "more")\n' +
+      '-- mock.guess depth more\n-- mock.guess spots 47\n',
+  },
 ];
 
 function wave(n, scale) {
@@ -164,7 +174,7 @@ function chartsIn(script) {
 
 /** Lines with instructions: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`,
     `mock.flood`, `mock.alike`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`, `mock.file NAME`, `mock.names N`,
-    `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
+    `mock.waits N`, `mock.guess NAME FOUND`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs, mock) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
@@ -220,6 +230,8 @@ function* eventsOf(script, knobs, mock) {
       for (let k = 0; k < wide; ++k) row[`${columns}${k}`] = i * 1e-6 * (k + 1);
       yield { type: 'row', notebook: 'wide', row, units: Object.fromEntries(Object.keys(row).slice(1).map((c) => [c, 'm'])) };
     }
+    const [, guess, found] = /mock\.guess (\w+) (\S+)/.exec(line) ?? [];
+    if (guess) yield { type: 'row', notebook: 'guesses', row: { guess, found: Number(found) || found } };
     if (/lab\.work_precision/.test(line)) yield { type: 'study', name: 'work_precision' };
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
     for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
@@ -288,12 +300,30 @@ const people = [
     predictions: [
       { lesson: '01_roughness', name: 'Ra', value: 0.5 },
       { lesson: '01_roughness', name: 'slope', value: 0.1 },
+      { lesson: '03_boxes', name: 'depth', value: 'equal' },
     ],
+    whys: [{ lesson: '03_boxes', text: 'springs <b>do not</b> know' }],
   },
-  { name: 'Émilie', help: true, predictions: [{ lesson: '01_roughness', name: 'Ra', value: 0.9 }] },
+  {
+    name: 'Émilie',
+    help: true,
+    predictions: [
+      { lesson: '01_roughness', name: 'Ra', value: 0.9 },
+      { lesson: '03_boxes', name: 'depth', value: 'equal' },
+    ],
+    whys: [],
+  },
 ];
 
-export async function startMock(folder, { token = 'testtoken', port = 0, most = 2, room = '' } = {}) {
+/** Two dozen estimates around 30 and one of a million. */
+const many = Array.from({ length: 25 }, (_, k) => ({
+  name: `student ${k}`,
+  help: false,
+  predictions: [{ lesson: '03_boxes', name: 'spots', value: k === 9 ? 1e6 : 20 + k }],
+  whys: [],
+}));
+
+export async function startMock(folder, { token = 'testtoken', port = 0, most = 2, room = '', crowd = false } = {}) {
   const told = []; // students' predictions
   const runs = new Map();
   let cut = 0; // event streams to break
@@ -351,7 +381,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
         told.push({ what, ...body });
         return send(200, {});
       }
-      if (room === 'teacher' && what === 'people') return send(200, people);
+      if (room === 'teacher' && what === 'people') return send(200, crowd ? many : people);
       if (room === 'teacher' && what === 'room')
         return send(200, [
           { id: '1', name: '01_roughness', state: 'done', owner: 'Ada' },

@@ -784,6 +784,9 @@ test('Keyboard, Alone', () =>
     await page.keyboard.press('Tab');
     assert.doesNotMatch(await on.focused(page), /Script in Lua/, 'Escape, then Tab, leaves');
     await on.chord(page, 'Control', 'Enter');
+    assert.match(await on.focused(page), /Predict first/);
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter');
     await on.finished(page);
     await page.keyboard.press('F6');
     if (!(await on.focused(page)).startsWith('tab-')) await page.keyboard.press('F6');

@@ -505,11 +505,17 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
     await page.reload();
     await on.until(page, () => document.querySelector('.guesses input')?.value === '0.5', 'the number should be kept');
     const verdict = 'You said 0.5 of the share of Ra: it is 0.96, 1.9 times too little.';
-    await on.run(page, `local my_guess = { Ra=0.7, slope=nil }\nprint "${verdict}"\n`);
+    const reason = 'Why: the ball follows the long waves.';
+    await on.run(page, `local my_guess = { Ra=0.7, slope=nil }\nprint "before"\nprint "${verdict}"\nprint "${reason}"\n`);
     assert.equal(await page.$eval('.guesses input', (e) => e.value), '0.7');
     await on.finished(page);
     await on.until(page, () => !document.querySelector('.judged').hidden, 'it should be judged');
-    assert.equal(await on.text(page, '.judged'), verdict);
+    assert.deepEqual(await page.$$eval('.judged p', (all) => all.map((p) => p.textContent)), [verdict, reason]);
+    const { bar, grey } = await page.$eval('.judged', (e) => ({
+      bar: getComputedStyle(e).borderLeftColor,
+      grey: getComputedStyle(document.querySelector('.hint')).color,
+    }));
+    assert.equal(bar, grey, 'the verdict is neither good nor bad');
     const judged = await on.placeOf(page, '.judged');
     assert.ok(judged.y + judged.height < 720, 'it is seen without scrolling');
     await on.assertAccessible(page, 'a prediction that is judged');
@@ -521,6 +527,98 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
       ['', false],
       ['', false],
     ]);
+  }));
+
+test('Prediction, TakesCommaAndPointAndSaysWhatItUnderstood', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    await on.write(page, 'local my_guess = { Ra=nil, slope=nil }\n');
+    const input = await page.$('.guesses input');
+    for (const [typed, understood, script] of [
+      ['0,25', 'understood: 0.25', '0.25'],
+      ['0.25', 'understood: 0.25', '0.25'],
+      ['−,5', 'understood: -0.5', '-0.5'],
+      ['1.000,5', '“1.000,5” is not a number', 'nil'],
+      ['half', '“half” is not a number', 'nil'],
+      ['10 %', '“10 %” is not a number', 'nil'],
+    ]) {
+      await input.click({ count: 3 });
+      await page.keyboard.press('Backspace');
+      await page.keyboard.type(typed);
+      assert.equal(await on.text(page, '.guesses output'), understood, typed);
+      assert.match(await on.editorText(page), new RegExp(`\\{ Ra=${script}, slope=nil \\}`), typed);
+    }
+    await input.click({ count: 3 });
+    await page.keyboard.type('0.5');
+    await input.hover();
+    await page.mouse.wheel({ deltaY: 100 });
+    await on.painted(page);
+    assert.match(await on.editorText(page), /Ra=0\.5,/, 'a wheel changes nothing');
+    await page.keyboard.press('ArrowDown');
+    assert.match(await on.editorText(page), /Ra=0\.5,/, 'nor does an arrow');
+    await on.assertAccessible(page, 'a number that was understood');
+  }));
+
+test('Prediction, OfAChoiceIsChosenByKeys', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons li:nth-child(3) button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.deepEqual(await page.$$eval('.guesses legend', (all) => all.map((e) => e.textContent)), ['depth', 'spots']);
+    assert.deepEqual(await page.$$eval('.guesses fieldset:first-child label', (l) => l.map((e) => e.textContent)), ['less', 'equal', 'more']);
+    await page.focus('.guesses input');
+    await page.keyboard.press('Space');
+    assert.match(await on.editorText(page), /^local my_guess = \{ depth="less", spots=nil \} -- than 0\.2 um$/m);
+    await page.keyboard.press('ArrowDown');
+    assert.match(await on.editorText(page), /depth="equal", spots=nil/);
+    await page.reload();
+    const chosen = () => page.$$eval('.guesses input', (all) => all.flatMap((e) => (e.checked ? [`${e.name} ${e.value}`] : [])));
+    await on.until(page, () => document.querySelector('.guesses input:checked'), 'the choice should be kept');
+    assert.deepEqual(await chosen(), ['guess-depth equal']);
+    await on.write(page, 'local my_guess = { depth=nil, spots="more" }\nguess.choices(my_guess, "less", "equal", "more")\n');
+    assert.deepEqual(await chosen(), ['guess-spots more'], 'the script decides');
+    await on.assertFits(page, 'choices');
+    await on.assertAccessible(page, 'choices');
+  }));
+
+test('Prediction, IsAskedForOnceBeforeARunWithout', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    const asks = () => page.$eval('#banner', (e) => !e.hidden && e.textContent.startsWith('Run without a prediction?'));
+    await (await page.$('>>> .cm-content')).focus();
+    await on.chord(page, 'Control', 'Enter');
+    assert.equal(await asks(), true);
+    assert.equal(await on.text(page, '#results-of'), 'No run yet');
+    await on.assertAccessible(page, 'the question');
+    await page.keyboard.press('Enter'); // Predict first
+    assert.equal(await asks(), false);
+    assert.equal(await page.evaluate(() => document.activeElement === document.querySelector('.guesses input')), true);
+    await on.chord(page, 'Control', 'Enter');
+    assert.equal(await asks(), false, 'once');
+    await on.finished(page);
+    await page.reload();
+    await on.until(page, () => document.querySelector('.guesses input'), 'the lesson should be open again');
+    await page.click('#run');
+    assert.equal(await asks(), true);
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter'); // Run anyway
+    await on.finished(page);
+    assert.equal(await on.focused(page), 'run');
+    // No question with a prediction, or where none is asked for.
+    await page.reload();
+    await on.until(page, () => document.querySelector('.guesses input'), 'the lesson should be open again');
+    await page.type('.guesses input', '0,5');
+    await page.click('#run');
+    assert.equal(await asks(), false);
+    await on.finished(page);
+    await page.click('.back');
+    await page.waitForSelector('.lessons li:nth-child(2) button');
+    await page.click('.lessons li:nth-child(2) button');
+    await on.until(page, () => /Fractal/.test(document.querySelector('#lessons h2').textContent), 'the second should open');
+    await page.click('#run');
+    assert.equal(await asks(), false);
+    await on.finished(page);
   }));
 
 test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
@@ -559,7 +657,7 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
     assert.match(kept, /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
   }));
 
-test('Room, TheTeacherSeesPredictionsRunsAndWhoAsksForHelp', async () => {
+test('Room, TheTeacherSeesRunsAndWhoAsksForHelp', async () => {
   const server = await startMock(on.pageFolder, { room: 'teacher' });
   try {
     await visit(
@@ -569,26 +667,83 @@ test('Room, TheTeacherSeesPredictionsRunsAndWhoAsksForHelp', async () => {
         assert.equal(await page.$eval('#help-button', (e) => e.hidden), true);
         await page.focus('#room-button');
         await page.keyboard.press('Enter');
-        await on.until(page, () => document.querySelector('#room-predictions svg'), 'the histogram should come');
+        await on.until(page, () => document.querySelector('#room-people tbody tr'), 'the students should come');
         assert.deepEqual(await page.$$eval('#room-people tbody tr', (rows) => rows.map((r) => r.innerText.split('\t').map((t) => t.trim()))), [
           ['Émilie', '02_dimension, running', 'asks for help'],
           ['Ada', '01_roughness, done', ''],
         ]);
         assert.match(await on.text(page, '#room-runs'), /^Émilie: 02_dimension, runningStop$/);
-        assert.equal(
-          await on.text(page, '#room-predictions .caption'),
-          '01_roughness: Ra: 2 predictions, from 0.5 to 0.9, half of them up to 0.5.',
-        );
-        assert.equal((await page.$$('#room-predictions svg .bar rect, #room-predictions svg .rect rect')).length, 2);
-        await (await page.$('#room-predictions select')).select('01_roughness: slope');
-        await on.until(
-          page,
-          () => /slope: 1 prediction,/.test(document.querySelector('#room-predictions .caption').textContent),
-          'the other number should be shown',
-        );
         await on.assertAccessible(page, 'the room');
         await page.keyboard.press('Escape');
         assert.equal(await page.$eval('#room', (e) => e.open), false);
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
+
+test('Wall, ShowsPredictionsWithoutNamesAndTheAnswerAtLast', async () => {
+  const server = await startMock(on.pageFolder, { room: 'teacher' });
+  try {
+    await visit(
+      {},
+      async (page) => {
+        const caption = () => on.text(page, '#wall .caption');
+        const captioned = (words) =>
+          on.until(page, (w) => document.querySelector('#wall .caption').textContent.includes(w), `it should say ${words}`, words);
+        const choose = async (question, words) => {
+          await (await page.$('#wall select')).select(question);
+          await captioned(words);
+        };
+        await on.until(page, () => !document.querySelector('#wall-button').hidden, 'it should be offered');
+        await page.focus('#wall-button');
+        await page.keyboard.press('Enter');
+        await captioned('2 predictions');
+        assert.equal(await caption(), '2 predictions from 0.5 to 0.9, half of them up to 0.5.');
+        const box = await on.placeOf(page, '#wall');
+        assert.deepEqual([box.width, box.height], [1280, 720]);
+        assert.equal((await page.$$('#wall svg .rect rect')).length, 2);
+        await choose('01_roughness: slope', '1 prediction from 0.1');
+        await choose('03_boxes: depth', 'less 0, equal 2, more 0');
+        const shown = await on.text(page, '#wall');
+        assert.doesNotMatch(shown, /Ada|Émilie|answer:|✓/, 'no names, no answer');
+        await page.click('#wall summary');
+        assert.deepEqual(await page.$$eval('#wall li', (all) => all.map((e) => e.textContent)), ['springs <b>do not</b> know']);
+        await on.assertAccessible(page, 'the wall');
+        await page.click('#wall button[aria-pressed]');
+        await captioned('the answer is more');
+        assert.match(await on.text(page, '#wall svg'), /The answer: more/);
+        await choose('01_roughness: Ra', '2 predictions from');
+        assert.doesNotMatch(await caption(), /answer/, 'each question has its own answer');
+        await page.keyboard.press('Escape');
+        assert.equal(await page.$eval('#wall', (e) => e.open), false);
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
+
+test('Wall, AnOutlierIsBeyondTheBins', async () => {
+  const server = await startMock(on.pageFolder, { room: 'teacher', crowd: true });
+  try {
+    await visit(
+      {},
+      async (page) => {
+        await on.until(page, () => !document.querySelector('#wall-button').hidden, 'it should be offered');
+        await page.click('#wall-button');
+        await on.until(page, () => document.querySelector('#wall svg'), 'the histogram should come');
+        const caption = () => on.text(page, '#wall .caption');
+        assert.equal(await caption(), '25 predictions from 20 to 44 and 1 beyond, half of them up to 32.');
+        assert.ok((await page.$$('#wall svg .rect rect')).length > 4, 'the others are apart');
+        await page.click('#wall button[aria-pressed]');
+        await on.until(page, () => /answer/.test(document.querySelector('#wall .caption').textContent), 'the answer should come');
+        assert.match(await caption(), /and 1 beyond.*; the answer is 47\.$/);
+        await page.click('#wall button[aria-pressed]');
+        await on.until(page, () => !/answer/.test(document.querySelector('#wall .caption').textContent), 'and go');
       },
       server,
     );
@@ -610,14 +765,15 @@ test('Room, AStudentPredictsAndAsksForHelp', async () => {
         await page.click('.lessons button');
         await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
         await on.hold(page);
-        await page.type('.guesses input', '0.25');
+        await page.type('.guesses input', '0,25');
+        await page.type('.prediction textarea', 'it is a ball');
         await on.release(page);
         await on.comesTrue(() => server.told.length === 2, 'the prediction should be told');
         await page.click('#help-button');
         await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'false', 'and taken back');
         assert.deepEqual(server.told, [
           { what: 'help', wanted: true },
-          { what: 'predictions', lesson: '01_roughness', numbers: { Ra: 0.25 } },
+          { what: 'predictions', lesson: '01_roughness', guesses: { Ra: 0.25 }, why: 'it is a ball' },
           { what: 'help', wanted: false },
         ]);
         await on.assertFits(page, 'a student of a room');

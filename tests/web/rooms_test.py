@@ -74,29 +74,34 @@ def first_event(server, run, token):
 def test_the_teacher_sees_predictions_and_who_needs_help():
     with Server(runner.program, "--classroom", "127.0.0.1", "--students", "2") as server:
         one, two = server.tokens["student 1"], server.tokens["student 2"]
-        put = lambda token, numbers, lesson="real_area": server.ask(
-            "POST", "/api/predictions", {"lesson": lesson, "numbers": numbers}, token=token)
+        put = lambda token, guesses, lesson="real_area", why="": server.ask(
+            "POST", "/api/predictions", {"lesson": lesson, "guesses": guesses, "why": why}, token=token)
         assert put(one, {"percent": 10, "growth": 2.5}).status == 200
         assert put(one, {"percent": 3}).status == 200                  # instead of those before
         assert put(two, {"percent": 50}).status == 200 and put(two, {}).status == 200
+        assert put(two, {"heavy": "same"}, "tilt", "it presses, too").status == 200
         assert server.ask("POST", "/api/help", {"wanted": True}, token=two).status == 200
         assert server.ask("GET", "/api/about", token=two).json()["help"] is True
         assert server.ask("GET", "/api/people").json() == [
-            {"name": "student 1", "help": False, "predictions": [{"lesson": "real_area", "name": "percent", "value": 3}]},
-            {"name": "student 2", "help": True, "predictions": []}]
+            {"name": "student 1", "help": False, "predictions": [{"lesson": "real_area", "name": "percent", "value": 3}],
+             "whys": []},
+            {"name": "student 2", "help": True, "predictions": [{"lesson": "tilt", "name": "heavy", "value": "same"}],
+             "whys": [{"lesson": "tilt", "text": "it presses, too"}]}]
+        assert put(two, {}, "tilt").status == 200
+        assert server.ask("GET", "/api/people").json()[1] == {"name": "student 2", "help": True, "predictions": [], "whys": []}
         assert server.ask("GET", "/api/people", token=one).status == 404
         assert server.ask("POST", "/api/help", {"wanted": False}, token=two).status == 200
         assert [p["help"] for p in server.ask("GET", "/api/people").json()] == [False, False]
         # What is no prediction is refused, and one person cannot fill the memory.
-        for numbers in ("many", {"percent": "ten"}, {"percent": None}, {"n" * 61: 1}, {str(k): k for k in range(13)}):
-            answer = put(one, numbers)
-            assert answer.status == 400, (numbers, answer.status)
-        assert put(one, {"a": 1}, lesson="l" * 61).status == 400
+        for guesses in ("many", {"percent": "t" * 61}, {"percent": None}, {"n" * 61: 1}, {str(k): k for k in range(13)}):
+            answer = put(one, guesses)
+            assert answer.status == 400, (guesses, answer.status)
+        assert put(one, {"a": 1}, lesson="l" * 61).status == 400 and put(one, {}, why="w" * 2001).status == 400
         kept = [put(one, {"a": 1}, lesson=f"lesson {k}").status for k in range(60)]
         assert kept.count(200) == 39 and kept.count(400) == 21, kept
     # Outside a room there is nobody to see them.
     with Server(runner.program) as server:
-        assert server.ask("POST", "/api/predictions", {"lesson": "tilt", "numbers": {}}).status == 404
+        assert server.ask("POST", "/api/predictions", {"lesson": "tilt", "guesses": {}}).status == 404
         assert server.ask("GET", "/api/people").status == 404
 
 

@@ -166,24 +166,27 @@ HttpResponse PageFiles::answer(const HttpRequest& request) const {
   return response;
 }
 
-void RoomBoard::predict(std::size_t person, const std::string& lesson, const Json& numbers) {
-  if (!numbers.is_object())
-    throw Error(ErrorCode::bad_value, "`numbers` is no object", "give numbers by name");
-  if (numbers.members().size() > most_numbers)
-    throw Error(ErrorCode::bad_value, std::to_string(numbers.members().size()) + " numbers are predicted",
-                "give at most " + std::to_string(most_numbers));
-  std::map<std::string, double> given;
-  for (const auto& [name, value] : numbers.members()) {
-    if (name.size() > longest_name)
-      throw Error(ErrorCode::bad_value, "a name has " + std::to_string(name.size()) + " bytes",
+void RoomBoard::predict(std::size_t person, const std::string& lesson, const Json& guesses,
+                        const std::string& why) {
+  if (!guesses.is_object())
+    throw Error(ErrorCode::bad_value, "`guesses` is no object", "give numbers or choices by name");
+  if (guesses.members().size() > most_guesses)
+    throw Error(ErrorCode::bad_value, std::to_string(guesses.members().size()) + " guesses are given",
+                "give at most " + std::to_string(most_guesses));
+  Prediction given{.guesses = {}, .why = why};
+  for (const auto& [name, value] : guesses.members()) {
+    const std::size_t longest = std::max(name.size(), value.is_string() ? value.string().size() : 0);
+    if (longest > longest_name)
+      throw Error(ErrorCode::bad_value, "a name or a choice has " + std::to_string(longest) + " bytes",
                   "give at most " + std::to_string(longest_name));
-    if (!value.is_number() || !std::isfinite(value.number()))
-      throw Error(ErrorCode::bad_value, "the prediction `" + name + "` is no finite number", "give a number");
-    given[name] = value.number();
+    if (!value.is_string() && !(value.is_number() && std::isfinite(value.number())))
+      throw Error(ErrorCode::bad_value, "the guess `" + name + "` is no finite number and no text",
+                  "give a number or a choice");
+    given.guesses[name] = value;
   }
   const std::lock_guard lock(mutex_);
   auto& predictions = of_[person].predictions;
-  if (given.empty()) {
+  if (given.guesses.empty() && why.empty()) {
     predictions.erase(lesson);
     return;
   }
@@ -198,14 +201,10 @@ void RoomBoard::ask_for_help(std::size_t person, bool wanted) {
   of_[person].help = wanted;
 }
 
-Json RoomBoard::predictions_of(std::size_t person) const {
-  Json::List list;
+std::map<std::string, RoomBoard::Prediction> RoomBoard::predictions_of(std::size_t person) const {
   const std::lock_guard lock(mutex_);
-  if (const auto found = of_.find(person); found != of_.end())
-    for (const auto& [lesson, numbers] : found->second.predictions)
-      for (const auto& [name, value] : numbers)
-        list.push_back(Json::object({{"lesson", lesson}, {"name", name}, {"value", value}}));
-  return list;
+  const auto found = of_.find(person);
+  return found == of_.end() ? std::map<std::string, Prediction>{} : found->second.predictions;
 }
 
 bool RoomBoard::needs_help(std::size_t person) const {
@@ -407,19 +406,29 @@ HttpResponse Api::room() const {
 
 HttpResponse Api::people() const {
   Json::List list;
-  for (std::size_t person = 1; person < access_.people().size(); ++person)
+  for (std::size_t person = 1; person < access_.people().size(); ++person) {
+    Json::List predictions, whys;
+    for (const auto& [lesson, given] : board_.predictions_of(person)) {
+      for (const auto& [name, value] : given.guesses)
+        predictions.push_back(Json::object({{"lesson", lesson}, {"name", name}, {"value", value}}));
+      if (!given.why.empty()) whys.push_back(Json::object({{"lesson", lesson}, {"text", given.why}}));
+    }
     list.push_back(Json::object({{"name", access_.people()[person].name},
                                  {"help", board_.needs_help(person)},
-                                 {"predictions", board_.predictions_of(person)}}));
+                                 {"predictions", std::move(predictions)},
+                                 {"whys", std::move(whys)}}));
+  }
   return json_answer(list);
 }
 
+// {lesson, guesses, why?}
 HttpResponse Api::predict(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
-  const Json* given = body.find("numbers");
-  const Json numbers = given == nullptr ? Json() : *given;
-  board_.predict(person, text_member(body, "lesson", RoomBoard::longest_name), numbers);
-  return json_answer(Json::object({{"kept", numbers.members().size()}}));
+  const Json* given = body.find("guesses");
+  const Json guesses = given == nullptr ? Json() : *given;
+  const std::string why = body.find("why") != nullptr ? text_member(body, "why", RoomBoard::longest_why) : "";
+  board_.predict(person, text_member(body, "lesson", RoomBoard::longest_name), guesses, why);
+  return json_answer(Json::object({{"kept", guesses.members().size()}}));
 }
 
 HttpResponse Api::help(std::size_t person, const HttpRequest& request) {

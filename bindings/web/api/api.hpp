@@ -47,19 +47,25 @@ extern const char* const page_needs;
 // Predictions and requests for help in a classroom. In memory, bounded for each person. Thread-safe.
 class RoomBoard {
  public:
-  static constexpr std::size_t longest_name = 60, most_lessons = 40, most_numbers = 12;
+  static constexpr std::size_t longest_name = 60, most_lessons = 40, most_guesses = 12, longest_why = 2000;
 
-  // Replaces the person's predictions for a lesson; empty `numbers` (by name) delete them. Throws
-  // Error{bad_value} beyond these limits or for a value that is no finite number.
-  void predict(std::size_t person, const std::string& lesson, const Json& numbers);
+  struct Prediction {
+    std::map<std::string, Json> guesses;  // by name: numbers and choices
+    std::string why;
+  };
+
+  // Replaces the person's prediction for a lesson; no `guesses` (an object) and no `why` delete it. Throws
+  // Error{bad_value} beyond these limits, or for a guess that is no finite number and no text.
+  void predict(std::size_t person, const std::string& lesson, const Json& guesses, const std::string& why);
   void ask_for_help(std::size_t person, bool wanted);
 
-  Json predictions_of(std::size_t person) const;
+  // By lesson.
+  std::map<std::string, Prediction> predictions_of(std::size_t person) const;
   bool needs_help(std::size_t person) const;
 
  private:
   struct Notes {
-    std::map<std::string, std::map<std::string, double>> predictions;
+    std::map<std::string, Prediction> predictions;
     bool help = false;
   };
 

@@ -61,7 +61,8 @@ export interface RoomRun {
 export interface RoomPerson {
   name: string;
   help: boolean;
-  predictions: { lesson: string; name: string; value: number }[];
+  predictions: { lesson: string; name: string; value: number | string }[];
+  whys: { lesson: string; text: string }[];
 }
 
 /** A map without its numbers. */
@@ -189,8 +190,8 @@ export class Api {
     this.json('POST', '/api/runs', { script, name, views: true, knobs });
   room = (): Promise<RoomRun[]> => this.json('GET', '/api/room');
   people = (): Promise<RoomPerson[]> => this.json('GET', '/api/people');
-  predict = (lesson: string, numbers: Record<string, number>): Promise<unknown> =>
-    this.json('POST', '/api/predictions', { lesson, numbers });
+  predict = (lesson: string, guesses: Record<string, number | string>, why: string): Promise<unknown> =>
+    this.json('POST', '/api/predictions', { lesson, guesses, why });
   askForHelp = (wanted: boolean): Promise<unknown> => this.json('POST', '/api/help', { wanted });
   stop = (id: string): Promise<unknown> => this.json('DELETE', `/api/runs/${encodeURIComponent(id)}`);
   view = (id: string, name: string): Promise<View> =>

@@ -2,7 +2,7 @@
 // Charts of notebook columns as SVG, by Observable Plot. Every row is a point; a line connects the means of
 // rows with equal x. Colours are attributes: saved runs need no style sheet.
 
-import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
+import { axisX, axisY, dot, gridY, line, plot, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
 import { linesOf, namesAlong, type ChartChoice, type Line, type Mean, type Point } from './chart_choice';
 import { svg } from './dom';
 import type { Ink } from './colour';
@@ -11,7 +11,7 @@ import { axisFor, axisOfNames, type Axis } from './ticks';
 import type { Tried } from './trail';
 import { greatestOf, label, numberText, scaleFor, shareOf, type Scale } from './units';
 
-const fontSize = 15; // px
+export const fontSize = 15; // px
 const lineHeight = 24; // px
 const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
 const dashes = ['9 6', '12 5 3 5', '3 5', '6 4 12 4']; // px
@@ -132,28 +132,6 @@ function inUnits(l: Line, x: number, y: number): Line {
   return { ...l, points: l.points.map(scaled), means };
 }
 
-export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
-  const axis = axisFor(values, false, apartBy((text) => widthOf(text) + 16, width - 70));
-  const [low, high] = axis.domain;
-  const steps = Math.max(4, Math.min(12, Math.ceil(2 * Math.sqrt(values.length))));
-  const edge = (k: number): number => low + ((high - low) * k) / steps;
-  const bins = Array.from({ length: steps }, (_, k) => ({ from: edge(k), to: edge(k + 1), count: 0 }));
-  for (const v of values) ++bins[Math.min(steps - 1, Math.floor(shareOf(v, axis.domain, false) * steps))].count;
-  const most = Math.max(...bins.map((b) => b.count));
-  const counts = axisFor([0, most], false, apartBy(() => 1.6 * fontSize, height - 70));
-  const filled = bins.filter((b) => b.count > 0);
-  const bars = rectY(filled, { x1: 'from', x2: 'to', y: 'count', fill: ink.series[0], inset: 1 });
-  const margin = { left: 44, right: 24, top: 10, bottom: 52 };
-  const element = plotted({ width, height, margin, x: axis, y: counts, ink }, [bars], [
-    text([name], { fontSize, fill: ink.text, frameAnchor: 'bottom', dy: 46 }),
-  ]);
-  const sorted = [...values].sort((a, b) => a - b);
-  const summary =
-    `${name}: ${count(values.length, 'prediction')}, from ${numberText(sorted[0])} to ${numberText(sorted.at(-1)!)}, ` +
-    `half of them up to ${numberText(sorted[Math.floor((sorted.length - 1) / 2)])}`;
-  return { element: asPicture(element, summary, ink), summary, left: 0 };
-}
-
 interface Frame {
   width: number;
   height: number;
@@ -164,7 +142,7 @@ interface Frame {
 }
 
 /** Axes and grid, with marks behind and in front of the lower axis. */
-function plotted({ width, height, margin, x, y, ink }: Frame, behind: Markish[], front: Markish[]): SVGSVGElement {
+export function plotted({ width, height, margin, x, y, ink }: Frame, behind: Markish[], front: Markish[]): SVGSVGElement {
   const words = { fontSize, fill: ink.muted, label: null };
   return plot({
     className: 'columns',
@@ -219,7 +197,7 @@ function sentence(words: string, name: string, width: number, height: number, in
 
 /** Removes Plot's style sheet, which the content policy forbids, and merges aria attributes into one
     name. */
-function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
+export function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
   root.querySelector('style')?.remove();
   for (const part of root.querySelectorAll('[aria-label], [aria-hidden], [aria-description]')) {
     if (part.getAttribute('aria-label')) part.setAttribute('class', part.getAttribute('aria-label')!.replace(/\W+/g, '-'));
@@ -239,7 +217,7 @@ function barOf({ x, y, deviation }: Mean, log: boolean): { x: number; y1: number
   return { x, y1: log && y <= deviation ? y : y - deviation, y2: y + deviation };
 }
 
-function apartBy(size: (text: string) => number, length: number) {
+export function apartBy(size: (text: string) => number, length: number) {
   return (labels: string[], shares: number[]): boolean =>
     labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
 }
@@ -265,7 +243,7 @@ function fittedLabel(words: string, scale: Scale, room: number): string {
 
 const ruler = document.createElement('canvas').getContext('2d');
 
-function widthOf(text: string): number {
+export function widthOf(text: string): number {
   if (!ruler) return 8.6 * text.length;
   ruler.font = `${fontSize}px system-ui, sans-serif`;
   return ruler.measureText(text).width;
@@ -318,7 +296,7 @@ function legendMarks(rows: Entry[][], top: number, ink: Ink): Markish[] {
   );
 }
 
-function count(n: number, what: string): string {
+export function count(n: number, what: string): string {
   return `${n} ${what}${n === 1 ? '' : 's'}`;
 }
 

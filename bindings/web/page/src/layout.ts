@@ -174,7 +174,23 @@ export class Messages {
     const again = retry ? h('button', { onclick: retry }, 'Try again') : '';
     const close = h('button', { onclick: () => this.clear() }, 'Close');
     this.banner.replaceChildren(h('p', h('strong', title), ` ${hint}`), again, close);
+    this.banner.classList.remove('question');
     this.banner.hidden = false;
+  }
+
+  /** A question with its answers; the first has the focus. */
+  question(question: string, answers: Record<string, () => void>): void {
+    const buttons = Object.entries(answers).map(([text, act]) => {
+      const onclick = (): void => {
+        this.clear();
+        act();
+      };
+      return h('button', { onclick }, text);
+    });
+    this.banner.replaceChildren(h('p', h('strong', question)), ...buttons);
+    this.banner.hidden = false;
+    this.banner.classList.add('question');
+    buttons[0].focus();
   }
 
   clear(): void {

@@ -26,7 +26,7 @@ export class LessonsPane {
     private readonly open: (document: Opened) => void,
     private readonly own: () => void,
     private readonly script: ScriptAtHand,
-    private readonly predicted: (lesson: string, guesses: Guess[]) => void,
+    private readonly predicted: (lesson: string, guesses: Guess[], why: string) => void,
     private readonly failed: (error: unknown) => void,
   ) {
     addEventListener('popstate', () => {

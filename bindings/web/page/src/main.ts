@@ -20,6 +20,7 @@ import { RecordedRuns, savedRun } from './save';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
 import { TablePane } from './table_pane';
 import { bytes, duration } from './units';
+import { Wall } from './wall';
 
 const newcomer = `local lab = require "asperity"
 
@@ -153,11 +154,11 @@ const toldAfter = 600; // ms without change
 let toTell = 0;
 
 /** For the classroom's teacher. */
-function predicted(lesson: string, guesses: Guess[]): void {
+function predicted(lesson: string, guesses: Guess[], why: string): void {
   if (!about?.classroom) return;
-  const numbers = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
+  const given = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
   clearTimeout(toTell);
-  toTell = window.setTimeout(() => api.predict(lesson, numbers).catch(failed), toldAfter);
+  toTell = window.setTimeout(() => api.predict(lesson, given, why).catch(failed), toldAfter);
 }
 
 function showDocument(): void {
@@ -260,6 +261,27 @@ function announce(): void {
 }
 
 let waitsForEnd = false; // shown by the banner
+const askedWithout = new Set<string>(); // lessons
+
+/** Once for each lesson: whether to run without a prediction. */
+function asksFirst(): boolean {
+  const { prediction } = lessons;
+  if (!prediction?.isOpen || opened.key !== `lesson.${prediction.lesson}` || askedWithout.has(opened.key)) return false;
+  askedWithout.add(opened.key);
+  const before = document.activeElement as HTMLElement | null;
+  const back = (): void => (before === byId('editor') ? editor.focus() : before?.focus());
+  messages.question('Run without a prediction?', {
+    'Predict first': () => {
+      showLessons(true);
+      prediction.focus();
+    },
+    'Run anyway': () => {
+      back();
+      void start();
+    },
+  });
+  return true;
+}
 
 async function start(): Promise<void> {
   if (!api.hasToken) return;
@@ -268,6 +290,7 @@ async function start(): Promise<void> {
     messages.tell('A script is still running.', 'Stop it with Escape, or wait until it has ended; then run this one.');
     return;
   }
+  if (asksFirst()) return;
   const script = editor.text;
   leaveRecording();
   editor.showRunMarks([]);
@@ -469,6 +492,7 @@ async function greet(): Promise<void> {
     byId('about').textContent = limits(about);
     byId('documents').hidden = about.documents !== true;
     room.offer(about.teacher === true);
+    wall.offer(about.teacher === true);
     help.offer(about.classroom === true && about.teacher !== true, about.help === true);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
   } catch (error) {
@@ -529,6 +553,7 @@ chooser.addEventListener('change', () => {
 });
 byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
 const room = new Room(api, failed);
+const wall = new Wall(api, failed);
 const help = new HelpButton(api, failed);
 const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (on) => {
   byId('fill').textContent = on ? 'Put it back' : 'Fill the window';

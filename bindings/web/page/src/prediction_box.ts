@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lesson's predictions: numbers in the lesson's script, `local my_guess = nil -- in degrees` or `local
-// my_guess = { halved=nil, heavy=nil }`; words, stored in the browser; and the run's verdicts: printed lines
-// that begin with "You said".
+// A lesson's predictions: numbers or choices in the lesson's script, `local my_guess = nil -- in degrees` or `local
+// my_guess = { halved=nil, heavy=nil }` with perhaps `guess.choices(my_guess, "less", "more")`; words, stored in the
+// browser; and the run's verdicts, printed lines that begin with "You said". The paragraphs printed after the last
+// verdict are the reason.
 
-import { h } from './dom';
+import { h, prose } from './dom';
 import type { Run } from './run';
 import { keep, kept } from './storage';
 
@@ -12,10 +13,27 @@ export interface ScriptAtHand {
   replace: (script: string) => void;
 }
 
+export type Value = number | string;
+
+export interface Guess {
+  name: string; // empty if single
+  value: Value | undefined;
+}
+
+/** One predicted value. `show` displays the script's value; `lost`: the script has no my_guess. */
+interface Field {
+  name: string;
+  element: HTMLElement;
+  show: (value: Value | undefined, lost: boolean) => void;
+}
+
+const longestWhy = 500; // characters, as the server bounds bytes
+
 export class PredictionBox {
   readonly element: HTMLElement;
-  private readonly fields: { name: string; input: HTMLInputElement }[];
+  private readonly fields: Field[];
   private readonly missing = h('p.hint', { hidden: true }, 'The script has no my_guess any more; Reset brings it back.');
+  private readonly words: HTMLTextAreaElement;
   private said = '';
   private readonly judged = h('div.judged', { hidden: true });
 
@@ -23,31 +41,44 @@ export class PredictionBox {
     readonly lesson: string,
     original: string,
     private readonly script: ScriptAtHand,
-    private readonly changed: (lesson: string, guesses: Guess[]) => void,
+    private readonly changed: (lesson: string, guesses: Guess[], why: string) => void,
   ) {
     const guesses = guessesIn(original);
-    this.fields = (guesses?.list ?? []).map(({ name }) => ({
-      name,
-      input: h('input', { type: 'number', step: 'any', oninput: () => this.put(name) }),
-    }));
-    const words = h('textarea', {
+    const { note = '', choices = [] } = guesses ?? {};
+    const unit = /\bin (per cent|\S+)/.exec(note)?.[1] ?? '';
+    this.fields = (guesses?.list ?? []).map(({ name }) => {
+      const put = (value: Value | undefined): void => this.put(name, value);
+      return choices.length > 0 ? choiceField(name, choices, put) : numberField(name, unit, put);
+    });
+    this.words = h('textarea', {
       rows: 2,
+      maxLength: longestWhy,
       value: kept(`prediction.${lesson}`) ?? '',
-      oninput: () => keep(`prediction.${lesson}`, words.value || null),
+      oninput: () => {
+        keep(`prediction.${lesson}`, this.words.value || null);
+        this.tell();
+      },
       'aria-describedby': 'prediction-hint',
     });
-    const numbers = this.fields.map(({ name, input }) =>
-      h('label', h('span', name.replace(/_/g, ' ') || 'Number'), input),
-    );
-    const note = guesses?.note ? h('p.hint', guesses.note) : '';
     this.element = h('section.prediction', { 'aria-label': 'Your prediction' },
       h('b', 'Your prediction, before you run it'),
-      ...(guesses ? [h('div.guesses', ...numbers), note, this.missing, this.judged] : []),
-      h('label', h('span', guesses ? 'And why' : 'In words'), words),
+      ...(guesses ? [note && h('p.hint', note), h('div.guesses', ...this.fields.map((f) => f.element)), this.missing] : []),
+      this.judged,
+      h('label', h('span', guesses ? 'And why' : 'In words'), this.words),
       h('p.hint', { id: 'prediction-hint' }, 'Kept here and with a saved run.'),
-      guesses ? h('p.hint', 'Numbers stand in the script, and its run compares them.') : '',
+      guesses ? h('p.hint', 'Predictions stand in the script, and its run compares them.') : '',
     );
     this.read();
+  }
+
+  /** Whether the script asks for predictions and has none. */
+  get isOpen(): boolean {
+    const guesses = guessesIn(this.script.text());
+    return guesses !== undefined && guesses.list.every((g) => g.value === undefined);
+  }
+
+  focus(): void {
+    this.element.querySelector('input')?.focus();
   }
 
   /** From the edited script. */
@@ -55,62 +86,118 @@ export class PredictionBox {
     if (this.fields.length === 0) return;
     const guesses = guessesIn(this.script.text());
     this.missing.hidden = guesses !== undefined;
-    for (const { name, input } of this.fields) {
-      const value = guesses?.list.find((g) => g.name === name)?.value;
-      input.disabled = guesses === undefined;
-      if (document.activeElement !== input) input.value = value === undefined ? '' : String(value);
+    for (const { name, show } of this.fields) {
+      show(guesses?.list.find((g) => g.name === name)?.value, guesses === undefined);
     }
   }
 
   judge(run: Run | undefined): void {
-    const verdicts = run && !run.active ? verdictsOf(run) : [];
+    const { verdicts, reason } = run && !run.active ? judgedIn(run) : { verdicts: [], reason: [] };
     this.judged.hidden = verdicts.length === 0;
-    const said = verdicts.join('\n');
+    const said = [...verdicts, ...reason].join('\n');
     if (said === this.said) return;
     this.said = said;
-    this.judged.replaceChildren(...verdicts.map((v) => h('p', v)));
+    this.judged.replaceChildren(...verdicts.map((v) => h('p.verdict', v)), ...reason.map((r) => h('p', prose(r))));
     const pane = this.element.closest('.pane');
-    if (!pane || pane.scrollHeight <= pane.clientHeight) return; // in one column
-    const below = this.judged.getBoundingClientRect().bottom - pane.getBoundingClientRect().bottom;
-    if (said && below > 0) pane.scrollTop += below + 12;
+    if (!said || !pane || pane.scrollHeight <= pane.clientHeight) return; // in one column
+    const [shown, whole] = [this.judged, pane].map((e) => e.getBoundingClientRect());
+    const below = Math.min(shown.bottom - whole.bottom, shown.top - whole.top);
+    if (below > 0) pane.scrollTop += below + 12;
   }
 
-  private put(name: string): void {
-    const { input } = this.fields.find((f) => f.name === name)!;
-    const value = input.value.trim() === '' || !Number.isFinite(input.valueAsNumber) ? undefined : input.valueAsNumber;
+  private put(name: string, value: Value | undefined): void {
     this.script.replace(withGuess(this.script.text(), name, value));
-    this.changed(this.lesson, guessesIn(this.script.text())?.list ?? []);
+    this.tell();
+  }
+
+  private tell(): void {
+    this.changed(this.lesson, guessesIn(this.script.text())?.list ?? [], this.words.value.trim());
   }
 }
 
-export interface Guess {
-  name: string; // empty if single
-  value: number | undefined;
+function numberField(name: string, unit: string, put: (value: Value | undefined) => void): Field {
+  const understood = h('output.hint');
+  const input = h('input', {
+    type: 'text',
+    inputMode: 'decimal',
+    autocomplete: 'off',
+    oninput: () => {
+      tell();
+      put(numberTyped(input.value));
+    },
+  });
+  const tell = (): void => {
+    const text = input.value.trim();
+    const value = numberTyped(text);
+    const found = value === undefined ? `“${text}” is not a number` : `understood: ${value} ${unit}`.trim();
+    understood.textContent = text && found;
+  };
+  return {
+    name,
+    element: h('div.guess', h('label', h('span', labelOf(name) || 'Number'), input), understood),
+    show: (value, lost) => {
+      input.disabled = lost;
+      if (document.activeElement === input) return;
+      input.value = value === undefined ? '' : String(value);
+      tell();
+    },
+  };
+}
+
+function choiceField(name: string, choices: string[], put: (value: Value | undefined) => void): Field {
+  const radios = choices.map((value) =>
+    h('input', { type: 'radio', name: `guess-${name}`, value, onchange: () => put(value) }),
+  );
+  const legend = h('legend', labelOf(name) || 'Choice');
+  const element = h('fieldset.guess', legend, ...radios.map((radio) => h('label', radio, radio.value)));
+  return {
+    name,
+    element,
+    show: (value, lost) => {
+      element.disabled = lost;
+      for (const radio of radios) radio.checked = radio.value === value;
+    },
+  };
+}
+
+function labelOf(name: string): string {
+  return name.replace(/_/g, ' ');
+}
+
+/** With comma or point. */
+function numberTyped(text: string): number | undefined {
+  const plain = text.trim().replace('−', '-').replace(',', '.');
+  const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  return Number.isFinite(value) ? value : undefined;
 }
 
 interface Guesses {
   list: Guess[];
   note: string; // remark: unit, range
+  choices: string[]; // empty: numbers
 }
 
 const line = /^local my_guess = (\{[^}\n]*\}|[^{\n]*?)[ \t]*(?:--[ \t]*([^\n]*))?$/m;
 
 /** Undefined without guesses. */
-function guessesIn(script: string): Guesses | undefined {
+export function guessesIn(script: string): Guesses | undefined {
   const found = line.exec(script);
   if (!found) return undefined;
   const [, given, note = ''] = found;
-  if (!given.startsWith('{')) return { list: [{ name: '', value: numberOf(given) }], note };
-  const list = [...given.matchAll(/(\w+)\s*=\s*([^,}]+)/g)].map(([, name, value]) => ({
-    name,
-    value: numberOf(value.trim()),
-  }));
-  return { list, note };
+  const offered = /^guess\.choices\(my_guess((?:,\s*"[^"\n]*")+)\)/m.exec(script)?.[1] ?? '';
+  const choices = [...offered.matchAll(/"([^"]*)"/g)].map((m) => m[1]);
+  const valueOf = (literal: string): Value | undefined => {
+    const text = /^"([^"]*)"$/.exec(literal.trim())?.[1] ?? literal.trim();
+    return choices.length > 0 ? choices.find((c) => c === text) : numberTyped(/^[-+.,\deE]+/.exec(text.trim())?.[0] ?? '');
+  };
+  if (!given.startsWith('{')) return { list: [{ name: '', value: valueOf(given) }], note, choices };
+  const list = [...given.matchAll(/(\w+)\s*=\s*([^,}]+)/g)].map(([, name, value]) => ({ name, value: valueOf(value) }));
+  return { list, note, choices };
 }
 
-/** Unchanged without a place for the number. */
-function withGuess(script: string, name: string, value: number | undefined): string {
-  const literal = value === undefined ? 'nil' : String(value);
+/** Unchanged without a place for the value. */
+function withGuess(script: string, name: string, value: Value | undefined): string {
+  const literal = value === undefined ? 'nil' : JSON.stringify(value);
   return script.replace(line, (whole: string, given: string) => {
     const changed =
       name === ''
@@ -121,15 +208,10 @@ function withGuess(script: string, name: string, value: number | undefined): str
   });
 }
 
-function numberOf(literal: string): number | undefined {
-  const text = /^"\s*([-+.\deE]+).*"$/.exec(literal)?.[1] ?? literal;
-  return text.trim() === '' || Number.isNaN(Number(text)) ? undefined : Number(text);
-}
-
-function verdictsOf(run: Run): string[] {
-  const printed = run.output
-    .filter((part) => part.stream === 'out')
-    .map((part) => part.text)
-    .join('');
-  return printed.match(/^You said .*$/gm) ?? [];
+function judgedIn(run: Run): { verdicts: string[]; reason: string[] } {
+  const printed = run.output.map((part) => (part.stream === 'out' ? part.text : '')).join('');
+  const lines = printed.split('\n').filter((text) => text.trim() !== '');
+  const isVerdict = lines.map((text) => text.startsWith('You said '));
+  const last = isVerdict.lastIndexOf(true);
+  return { verdicts: lines.filter((_, k) => isVerdict[k]), reason: last < 0 ? [] : lines.slice(last + 1) };
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The teacher's view of the classroom, polled while open: runs, requests for help, histograms of predictions.
-// Also the student's help button.
+// The teacher's view of the classroom, polled while open: runs, names, requests for help. Also the student's help
+// button.
 
 import type { Api, RoomPerson, RoomRun } from './api';
-import { byId, Choice, h, table } from './dom';
-import { inkNow } from './colour';
-import { grouped } from './units';
+import { byId, h, table } from './dom';
 
 const askedAgain = 2000; // ms
 
@@ -13,17 +11,12 @@ export class Room {
   private readonly dialog = byId<HTMLDialogElement>('room');
   private readonly list = byId('room-runs');
   private readonly people = byId('room-people');
-  private readonly which = new Choice('Of', () => void this.drawPredictions());
-  private readonly figure = h('figure');
-  private readonly caption = h('p.caption');
-  private present: RoomPerson[] = [];
   private timer = 0;
 
   constructor(
     private readonly api: Api,
     private readonly failed: (error: unknown) => void,
   ) {
-    byId('room-predictions').append(this.which.element, this.figure, this.caption);
     byId('room-button').addEventListener('click', () => {
       this.dialog.showModal();
       void this.ask();
@@ -42,8 +35,6 @@ export class Room {
       const [runs, people] = await Promise.all([this.api.room(), this.api.people()]);
       this.show(runs.filter((run) => run.state === 'running' || run.state === 'waiting'));
       this.showPeople(people, runs);
-      this.present = people;
-      await this.drawPredictions();
     } catch (error) {
       this.dialog.close();
       this.failed(error);
@@ -76,24 +67,6 @@ export class Room {
     const made = table(['Student', 'Last run', 'Help'].map((t) => h('th', { scope: 'col' }, t)), rows);
     sorted.forEach((p, k) => made.tBodies[0].rows[k].classList.toggle('asks', p.help));
     this.people.replaceChildren(made);
-  }
-
-  private async drawPredictions(): Promise<void> {
-    const all = this.present.flatMap((p) => p.predictions);
-    const groups = grouped(all, ({ lesson, name }) => (name ? `${lesson}: ${name.replace(/_/g, ' ')}` : lesson));
-    const names = [...groups.keys()].sort();
-    const chosen = names.includes(this.which.value) ? this.which.value : names[0];
-    this.which.element.hidden = names.length === 0;
-    this.figure.hidden = names.length === 0;
-    if (chosen === undefined) {
-      this.caption.textContent = 'Nobody has predicted a number yet.';
-      return;
-    }
-    this.which.choose(names, chosen);
-    const { drawHistogram } = await import('./chart');
-    const drawn = drawHistogram(groups.get(chosen)!.map((p) => p.value), chosen, 560, 200, inkNow());
-    this.figure.replaceChildren(drawn.element);
-    this.caption.textContent = `${drawn.summary}.`;
   }
 
   private async stop(id: string): Promise<void> {
