@@ -1568,7 +1568,7 @@ function Notebook:expect(column, options) end
 ---@return asperity.Table
 function Notebook:where(filter) end
 
----The cells of a column as a list: numbers, nan where a cell is empty; or texts, "" where one is.
+---The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, "" where one is. print shows the numbers in the column's unit.
 ---@param column string its name
 ---@return any[]
 function Notebook:column(column) end
@@ -1735,7 +1735,7 @@ function Table:expect(column, options) end
 ---@return asperity.Table
 function Table:where(filter) end
 
----The cells of a column as a list: numbers, nan where a cell is empty; or texts, "" where one is.
+---The cells of a column as a list: numbers in SI, nan where a cell is empty; or texts, "" where one is. print shows the numbers in the column's unit.
 ---@param column string its name
 ---@return any[]
 function Table:column(column) end

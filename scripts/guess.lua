@@ -6,8 +6,8 @@
 -- `{ said=my_guess, found="more", of="the depth", replies={ less="…", equal="…" } }`.
 --
 -- Notebook "guesses" stores the guess and the result. Without a guess nothing is printed.
--- `guess.names(my_guess, "percent", "growth")` declares a table of guesses, and `guess.choices(my_guess, "less", "equal",
--- "more")` the choices: other names and choices are errors before the computation.
+-- `guess.names(my_guess, "percent", "growth")` declares a table of guesses, `guess.choices(my_guess, "less", "more")`
+-- the choices: other names and choices are errors before the computation.
 local lab = require "asperity"
 local keys = { said=true, name=true, found=true, of=true, unit=true, near=true, replies=true }
 

@@ -23,6 +23,7 @@
 #include "bindings/cli/commands/shared_options.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/web/api/api.hpp"
+#include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/confined/confined_process.hpp"
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
@@ -147,6 +148,20 @@ fs::path session_folder(const ServeCommand& command) {
     if (::mkdir(folder.c_str(), 0700) == 0) return fs::canonical(folder);
     if (errno != EEXIST) throw_file_error("make the folder", folder, errno);
   }
+}
+
+// Absolute, or empty. Prints the faults of its lessons.
+fs::path lesson_folder(const ServeCommand& command) {
+  if (command.lessons.empty()) return {};
+  std::error_code problem;
+  const fs::path folder = fs::canonical(command.lessons, problem);
+  if (problem || !fs::is_directory(folder, problem))
+    throw Error(ErrorCode::bad_file,
+                "`--lessons` names " + asperity::quoted(command.lessons) + ", which is no folder",
+                "give a folder with lessons, files such as 01_tilt.lua");
+  for (const lua::Lesson& lesson : lessons_with(folder))
+    if (!lesson.problem.empty()) std::fprintf(stderr, "asperity: %s\n", plain_text(lesson.problem).c_str());
+  return folder;
 }
 
 // In URL form.
@@ -285,6 +300,7 @@ int serve_until_stopped(const ServeCommand& command) {
   allow_many_files();
 
   const std::vector<Person> people = people_of(command);
+  const fs::path lessons = lesson_folder(command);
   QueueSetup queue = queue_of(command);
   LateHandler handler;
   const std::unique_ptr<HttpServer> server = listen(command, handler);
@@ -309,8 +325,8 @@ int serve_until_stopped(const ServeCommand& command) {
   RunQueue runs(std::move(queue));
   const bool room = !command.classroom.empty();
   LiveSessions live({scratch, limits, barriers.made, at_once, room ? people.size() : 16, room ? 2U : 8U});
-  handler.api = std::make_unique<Api>(ApiSetup{limits, at_once, room, barriers.made, scratch}, access, runs,
-                                      live, page, shared_folder("site", "build/site"));
+  handler.api = std::make_unique<Api>(ApiSetup{limits, at_once, room, barriers.made, scratch, lessons},
+                                      access, runs, live, page, shared_folder("site", "build/site"));
 
   std::thread answering([&] { server->serve(); });
   print_addresses(command, access, server->port());
@@ -343,6 +359,8 @@ cli::CommandReader declare_serve(CLI::App& options) {
   options.add_option("--port", asked.port, "of the address (default 8137, or any where that is taken)")
       ->check(CLI::Range(1, 65535));
   options.add_flag("--open", asked.open, "open the page in this machine's browser");
+  options.add_option("--lessons", asked.lessons,
+                     "a folder of your own lessons, before those of the program; read at each request");
   options.add_option("--out", asked.out,
                      "where its runs are kept (default runs/serve-<n>); must be new or empty");
   options

@@ -15,6 +15,7 @@ struct ServeCommand {
   std::string classroom;                     // "": this machine only
   int students = 0;                          // number
   std::string names;                         // one name a line
+  std::string lessons;                       // a folder; "": those of the program
   std::string out;                           // "": runs/serve-<n>
   int runs = 0;                              // 0: by machine
   std::optional<double> limit_time;          // seconds for a run

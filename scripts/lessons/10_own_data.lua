@@ -113,7 +113,7 @@ lab.say("The shortest cut-off leaves %.2f of Ra. One line through all \z
 lab.say("D agrees over %d doublings: %s.", best.doublings,
   best.doublings >= 5 and ("D = %.2f"):format(best.D)
     or "no dimension")
-require "asperity.guess"{ said=my_guess, found=share,
+require "asperity.guess"{ said=my_guess, found=share, near=0.35,
   of="the share of Ra that is left" }
 require "asperity.prose"[[Why: long waves are the highest, so a shorter
 cut-off removes most of Ra. A number without its cut-off and its length

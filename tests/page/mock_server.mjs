@@ -31,8 +31,17 @@ const lessons = [
       '**Ra** is how far heights lie from their mean. It does not say how *quickly* they change.\n\n' +
       '- `swell` has waves of 25 µm\n- `fine` has waves of 1 µm\n\n| face | slope |\n|---|---|\n| swell | 0.1 |\n| fine | 1.2 |\n\n```lua\nlocal s = lab.surface.flat{ cells=8, size=1 }\n```\n\n' +
       '<img src=x onerror="window.injected=1"> [a link](javascript:window.injected=1) & [another](https://example.org/)\n\n*Then try:* tips on the swell.',
+    languages: {
+      de: {
+        title: 'Was Rauheit ist',
+        predict: 'Eine Kugel fährt über die feinste Fläche.',
+        reason: 'Warum: Die Tiefe ist {2} und nicht {1}.\n\nZweiter Absatz.',
+        answers: { slope: 'Steigung', note: 'Anteile', 'the share of Ra': 'Anteil von Ra', more: 'mehr' },
+        replies: { less: 'Nein.' },
+      },
+    },
     script:
-      '-- What roughness is\nlocal lab = require "asperity"\nlocal my_guess = { Ra=nil, slope=nil } -- shares between 0 and 1\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
+      '-- What roughness is\nlocal lab = require "asperity"\nlocal my_guess = { Ra=nil, slope=nil } -- shares between 0 and 1\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\nprose([[\nWhy: the depth is %.2f,\nnot %d %%.\n\nSecond.]], 1, 2)\n',
   },
   {
     name: '02_dimension',
@@ -52,6 +61,19 @@ const lessons = [
       '-- three\nlocal my_guess = { depth=nil, spots=nil } -- than 0.2 um\nguess.choices(my_guess, "less", "equal", "more")\n' +
       '-- mock.guess depth more\n-- mock.guess spots 47\n',
   },
+  {
+    name: 'springs',
+    number: 1,
+    title: 'Springs of my own',
+    minutes: 5,
+    question: 'Which spring is stiffer?',
+    predict: 'By how much?',
+    text: 'Plain text.',
+    notes: 'Ask *why*.',
+    hides_code: true,
+    script: '-- Springs\nprint "a spring"\n',
+  },
+  { name: '02_broken.lua', title: '02_broken.lua', problem: '02_broken.lua:7: `end` expected' },
 ];
 
 function wave(n, scale) {
@@ -307,6 +329,7 @@ const people = [
   {
     name: 'Émilie',
     help: true,
+    script: true,
     predictions: [
       { lesson: '01_roughness', name: 'Ra', value: 0.9 },
       { lesson: '03_boxes', name: 'depth', value: 'equal' },
@@ -325,6 +348,7 @@ const many = Array.from({ length: 25 }, (_, k) => ({
 
 export async function startMock(folder, { token = 'testtoken', port = 0, most = 2, room = '', crowd = false } = {}) {
   const told = []; // students' predictions
+  let handed = { number: 0 };
   const runs = new Map();
   let cut = 0; // event streams to break
   const mock = { full: false }; // while true, runs of `mock.waits` wait
@@ -381,6 +405,12 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
         told.push({ what, ...body });
         return send(200, {});
       }
+      if (room && what === 'handed') {
+        if (request.method === 'POST') handed = { number: handed.number + 1, ...body };
+        const known = url.searchParams.get('after') === String(handed.number);
+        return send(200, known ? { number: handed.number } : handed);
+      }
+      if (room === 'teacher' && what === 'people' && id) return send(200, { name: 'Tilt it', script: 'local mu = "mine"\n' });
       if (room === 'teacher' && what === 'people') return send(200, crowd ? many : people);
       if (room === 'teacher' && what === 'room')
         return send(200, [

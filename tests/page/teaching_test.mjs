@@ -599,12 +599,13 @@ test('Prediction, IsAskedForOnceBeforeARunWithout', () =>
     await on.finished(page);
     await page.reload();
     await on.until(page, () => document.querySelector('.guesses input'), 'the lesson should be open again');
-    await page.click('#run');
+    await (await page.$('>>> .cm-content')).focus();
+    await on.chord(page, 'Control', 'Enter');
     assert.equal(await asks(), true);
     await page.keyboard.press('Tab');
     await page.keyboard.press('Enter'); // Run anyway
     await on.finished(page);
-    assert.equal(await on.focused(page), 'run');
+    assert.match(await on.focused(page), /^Script in Lua/, 'the focus goes back');
     // No question with a prediction, or where none is asked for.
     await page.reload();
     await on.until(page, () => document.querySelector('.guesses input'), 'the lesson should be open again');
@@ -657,6 +658,159 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
     assert.match(kept, /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
   }));
 
+test('Lesson, OfATeacherHidesItsCodeAndHasNotes', () =>
+  visit({}, async (page) => {
+    assert.deepEqual(await page.$$eval('.lessons .broken', (all) => all.map((e) => e.textContent)), [
+      '02_broken.lua 02_broken.lua:7: end expected',
+    ]);
+    assert.equal(await page.$eval('.lessons li:nth-child(4) strong', (e) => getComputedStyle(e, '::before').content), '"1  "');
+    const hidden = () => page.evaluate(() => ['#script', '#results-divider'].map((s) => document.querySelector(s).hidden));
+    await page.click('.lessons li:nth-child(4) button');
+    await on.until(page, () => document.querySelector('.notes'), 'the lesson should open');
+    assert.deepEqual(await hidden(), [true, true]);
+    assert.equal(await page.$eval('.notes', (e) => e.open), false, 'a class does not read the notes on the wall');
+    assert.equal(await page.$eval('.notes em', (e) => e.textContent), 'why');
+    const results = await on.placeOf(page, '#results');
+    assert.ok(results.width > 900, `the results have ${results.width} px`);
+    await page.click('#run');
+    await on.finished(page);
+    assert.equal(await on.text(page, '.output'), 'a spring\n');
+    await on.assertAccessible(page, 'a lesson without its code');
+    await on.assertFits(page, 'a lesson without its code');
+    // The choice is stored by script.
+    await page.click('#script-button');
+    assert.deepEqual(await hidden(), [false, false]);
+    assert.match(await on.editorText(page), /a spring/);
+    await page.click('.back');
+    await page.waitForSelector('.own');
+    await page.click('.own');
+    assert.deepEqual(await hidden(), [false, false]);
+    await page.click('#script-button');
+    assert.equal(await page.$eval('#script-button', (e) => e.getAttribute('aria-expanded')), 'false');
+    await page.reload();
+    await on.until(page, () => document.querySelector('.lessons li'), 'the list should be there');
+    assert.deepEqual(await hidden(), [true, true]);
+    await page.click('.lessons li:nth-child(4) button');
+    await on.until(page, () => document.querySelector('.notes'), 'the lesson should open again');
+    assert.deepEqual(await hidden(), [false, false]);
+  }));
+
+test('Language, IsChosenTextByText', () =>
+  visit({}, async (page) => {
+    const [choice] = await page.$$('#lessons .choice select');
+    assert.deepEqual(await choice.$$eval('option', (all) => all.map((o) => o.text)), ['English', 'Deutsch']);
+    await choice.select('de');
+    await on.until(page, () => document.querySelector('.lessons strong')?.textContent === 'Was Rauheit ist', 'it should be German');
+    assert.deepEqual(await page.$$eval('.lessons li:first-child [lang]', (all) => all.map((e) => e.lang)), ['de', 'en']);
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.deepEqual(await page.$$eval('.called', (all) => all.map((e) => [e.lang, e.firstChild.textContent])), [
+      ['en', 'Question'],
+      ['de', 'Vorhersage'],
+    ]);
+    assert.deepEqual(await page.$$eval('.guesses label', (l) => l.map((e) => e.textContent)), ['Ra', 'Steigung']);
+    await on.assertAccessible(page, 'a lesson in German');
+    const judgedAs = async (lines, german) => {
+      await on.run(page, lines.map((line) => `print "${line}"\n`).join(''));
+      await on.finished(page);
+      await on.until(
+        page,
+        (texts) => JSON.stringify([...document.querySelectorAll('.judged p')].map((p) => p.textContent)) === texts,
+        `it should be ${german}`,
+        JSON.stringify(german),
+      );
+    };
+    await judgedAs(
+      ['You said 0.5 % of the share of Ra: it is 0.96 %, 1.9 times too little.', 'Why: the depth is 0.25, not 3 %.', '', 'Second.'],
+      ['Anteil von Ra: Du sagtest 0,5 %, es ist 0,96 %, 1,9-mal zu wenig.', 'Warum: Die Tiefe ist 3 und nicht 0,25.', 'Zweiter Absatz.'],
+    );
+    // A changed reason is not translated.
+    await judgedAs(
+      ['You said 0.5 of Sq: it is 0.5, which is near.', "You said 'less' of the share of Ra: it is 'more'. It is not."].map((t) => t.replaceAll("'", '\"')),
+      ['Sq: Du sagtest 0,5, es ist 0,5, nah daran.', 'Anteil von Ra: Du sagtest „less“, es ist „mehr“. Nein.'],
+    );
+    await page.reload();
+    await on.until(page, () => document.querySelector('.called[lang=de]'), 'the choice should be kept');
+    await (await page.$('#lessons .choice select')).select('en');
+    await on.until(page, () => !document.querySelector('.called[lang=de]'), 'and changed');
+    await page.click('.back');
+    await page.waitForSelector('.lessons li:nth-child(2) button');
+    await page.click('.lessons li:nth-child(2) button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson without German should open');
+    assert.equal(await page.$eval('#lessons .choice', (e) => e.hidden), true);
+  }));
+
+test('Room, TheTeacherHandsOutAScriptAndReadsAStudents', async () => {
+  const server = await startMock(on.pageFolder, { room: 'teacher' });
+  try {
+    await visit(
+      {},
+      async (page) => {
+        await on.until(page, () => !document.querySelector('#hand').hidden, 'there is a room');
+        await on.write(page, 'print "for all"\n');
+        await page.click('#hand');
+        await on.until(page, () => document.querySelector('#hand').textContent === 'Handed out', 'it should be handed out');
+        await on.write(page, 'print "next"\n');
+        assert.equal(await on.text(page, '#hand'), 'Hand out');
+        const asked = await fetch(`${server.url.split('#')[0]}api/handed`, { headers: { Authorization: 'Bearer testtoken' } });
+        assert.deepEqual(await asked.json(), { number: 1, name: 'Your own script', script: 'print "for all"\n' });
+        await page.click('#room-button');
+        await on.until(page, () => document.querySelector('#room-people button'), 'a script was sent');
+        assert.equal(await on.text(page, '#room-handed'), 'Handed out: Your own scriptTake it back');
+        await page.click('#room-people button');
+        await on.until(page, () => document.querySelector('#room-script pre'), 'it should be shown');
+        assert.equal(await on.text(page, '#room-script pre'), 'local mu = "mine"\n');
+        await on.assertAccessible(page, 'the script of a student');
+        await page.click('#room-handed button');
+        await on.until(page, () => /No script/.test(document.querySelector('#room-handed').textContent), 'it is taken back');
+        await page.click('#room-script button');
+        assert.equal(await on.text(page, '#script-title'), 'Tilt it of Émilie');
+        assert.equal(await on.editorText(page), 'local mu = "mine"\n');
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
+
+test('Room, AStudentIsOfferedTheTeachersScript', async () => {
+  const server = await startMock(on.pageFolder, { room: 'student' });
+  const hand = (body) =>
+    fetch(`${server.url.split('#')[0]}api/handed`, { method: 'POST', headers: { Authorization: 'Bearer testtoken' }, body: JSON.stringify(body) });
+  try {
+    await visit(
+      {},
+      async (page) => {
+        await on.write(page, 'print "mine"\n');
+        await hand({ name: 'Springs', script: 'print "for all"\n' });
+        await on.until(page, () => !document.querySelector('#offer').hidden, 'it should be offered');
+        assert.match(await on.text(page, '#offer'), /^Your teacher sent Springs\./);
+        assert.equal(await on.editorText(page), 'print "mine"\n', 'the text stays');
+        await on.assertAccessible(page, 'an offered script');
+        await on.assertFits(page, 'an offered script');
+        await page.click('#offer .primary');
+        assert.equal(await on.editorText(page), 'print "for all"\n');
+        assert.equal(await page.$eval('#offer', (e) => e.hidden), true);
+        await on.write(page, 'print "changed"\n');
+        await page.waitForSelector('.own');
+        await page.click('.own');
+        assert.equal(await on.editorText(page), 'print "mine"\n');
+        await page.reload();
+        await on.until(page, () => document.querySelectorAll('.own:not([hidden])').length === 2, 'it should be listed');
+        assert.equal(await page.$eval('#offer', (e) => e.hidden), true, 'but not offered again');
+        await page.click('.own + .own');
+        assert.equal(await on.editorText(page), 'print "changed"\n');
+        await hand({});
+        await on.until(page, () => document.querySelectorAll('.own:not([hidden])').length === 1, 'it is taken back');
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
+
 test('Room, TheTeacherSeesRunsAndWhoAsksForHelp', async () => {
   const server = await startMock(on.pageFolder, { room: 'teacher' });
   try {
@@ -669,7 +823,7 @@ test('Room, TheTeacherSeesRunsAndWhoAsksForHelp', async () => {
         await page.keyboard.press('Enter');
         await on.until(page, () => document.querySelector('#room-people tbody tr'), 'the students should come');
         assert.deepEqual(await page.$$eval('#room-people tbody tr', (rows) => rows.map((r) => r.innerText.split('\t').map((t) => t.trim()))), [
-          ['Émilie', '02_dimension, running', 'asks for help'],
+          ['Émilie', '02_dimension, running', 'asks for help Show script'],
           ['Ada', '01_roughness, done', ''],
         ]);
         assert.match(await on.text(page, '#room-runs'), /^Émilie: 02_dimension, runningStop$/);
@@ -737,7 +891,7 @@ test('Wall, AnOutlierIsBeyondTheBins', async () => {
         await page.click('#wall-button');
         await on.until(page, () => document.querySelector('#wall svg'), 'the histogram should come');
         const caption = () => on.text(page, '#wall .caption');
-        assert.equal(await caption(), '25 predictions from 20 to 44 and 1 beyond, half of them up to 32.');
+        assert.equal(await caption(), '25 predictions from 20 to 44 and 1 beyond, half of them up to 33.');
         assert.ok((await page.$$('#wall svg .rect rect')).length > 4, 'the others are apart');
         await page.click('#wall button[aria-pressed]');
         await on.until(page, () => /answer/.test(document.querySelector('#wall .caption').textContent), 'the answer should come');
@@ -760,6 +914,7 @@ test('Room, AStudentPredictsAndAsksForHelp', async () => {
       async (page) => {
         await on.until(page, () => !document.querySelector('#help-button').hidden, 'there is somebody to ask');
         assert.equal(await page.$eval('#documents', (e) => e.hidden), false);
+        const own = await on.editorText(page); // the lines in view
         await page.click('#help-button');
         await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'true', 'it should be asked');
         await page.click('.lessons button');
@@ -771,8 +926,10 @@ test('Room, AStudentPredictsAndAsksForHelp', async () => {
         await on.comesTrue(() => server.told.length === 2, 'the prediction should be told');
         await page.click('#help-button');
         await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'false', 'and taken back');
+        const sent = server.told[0].script;
+        assert.ok(own.length > 100 && sent.startsWith(own), sent);
         assert.deepEqual(server.told, [
-          { what: 'help', wanted: true },
+          { what: 'help', wanted: true, name: 'Your own script', script: sent },
           { what: 'predictions', lesson: '01_roughness', guesses: { Ra: 0.25 }, why: 'it is a ball' },
           { what: 'help', wanted: false },
         ]);

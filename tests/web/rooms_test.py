@@ -83,12 +83,13 @@ def test_the_teacher_sees_predictions_and_who_needs_help():
         assert server.ask("POST", "/api/help", {"wanted": True}, token=two).status == 200
         assert server.ask("GET", "/api/about", token=two).json()["help"] is True
         assert server.ask("GET", "/api/people").json() == [
-            {"name": "student 1", "help": False, "predictions": [{"lesson": "real_area", "name": "percent", "value": 3}],
-             "whys": []},
-            {"name": "student 2", "help": True, "predictions": [{"lesson": "tilt", "name": "heavy", "value": "same"}],
-             "whys": [{"lesson": "tilt", "text": "it presses, too"}]}]
+            {"name": "student 1", "help": False, "script": False,
+             "predictions": [{"lesson": "real_area", "name": "percent", "value": 3}], "whys": []},
+            {"name": "student 2", "help": True, "script": False,
+             "predictions": [{"lesson": "tilt", "name": "heavy", "value": "same"}], "whys": [{"lesson": "tilt", "text": "it presses, too"}]}]
         assert put(two, {}, "tilt").status == 200
-        assert server.ask("GET", "/api/people").json()[1] == {"name": "student 2", "help": True, "predictions": [], "whys": []}
+        assert server.ask("GET", "/api/people").json()[1] == {
+            "name": "student 2", "help": True, "script": False, "predictions": [], "whys": []}
         assert server.ask("GET", "/api/people", token=one).status == 404
         assert server.ask("POST", "/api/help", {"wanted": False}, token=two).status == 200
         assert [p["help"] for p in server.ask("GET", "/api/people").json()] == [False, False]
@@ -103,6 +104,34 @@ def test_the_teacher_sees_predictions_and_who_needs_help():
     with Server(runner.program) as server:
         assert server.ask("POST", "/api/predictions", {"lesson": "tilt", "guesses": {}}).status == 404
         assert server.ask("GET", "/api/people").status == 404
+
+
+def test_a_script_goes_to_the_room_and_one_comes_with_a_request_for_help():
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "2") as server:
+        one, two = server.tokens["student 1"], server.tokens["student 2"]
+        handed = lambda token, after=0: server.ask("GET", f"/api/handed?after={after}", token=token)
+        assert handed(one).json() == {"number": 0}
+        for body in ({"name": "x", "script": "s" * (256 * 1024 + 1)}, {"name": "n" * 201, "script": ""}, {"script": "print(1)"}):
+            assert server.ask("POST", "/api/handed", body).status == 400, body.keys()
+        assert server.ask("POST", "/api/handed", {"name": "mine", "script": ""}, token=one).status == 404
+        number = server.ask("POST", "/api/handed", {"name": "Springs", "script": "print(1)"}).json()["number"]
+        assert handed(two).json() == {"number": number, "name": "Springs", "script": "print(1)"}
+        assert handed(two, number).json() == {"number": number}
+        assert server.ask("POST", "/api/handed", {}).json()["number"] > number
+        assert "script" not in handed(one).json()
+        # A student's script is for the teacher, as long as help is wanted.
+        shown = lambda token=None: server.ask("GET", "/api/people/student%201", token=token)
+        assert shown().status == 404
+        help = {"wanted": True, "name": "Tilt it", "script": "local mine = 1"}
+        assert server.ask("POST", "/api/help", help | {"script": "s" * (64 * 1024 + 1)}, token=one).status == 400
+        assert server.ask("POST", "/api/help", help, token=one).status == 200
+        assert shown().json() == {"name": "Tilt it", "script": "local mine = 1"}
+        assert shown(one).status == 404 and shown(two).status == 404
+        assert [p["script"] for p in server.ask("GET", "/api/people").json()] == [True, False]
+        assert server.ask("POST", "/api/help", {"wanted": False}, token=one).status == 200
+        assert shown().status == 404 and server.ask("GET", "/api/people/nobody").status == 404
+    with Server(runner.program) as server:
+        assert server.ask("GET", "/api/handed").status == 404
 
 
 def test_scripts_that_are_checked_for_long_keep_nobody_from_theirs():

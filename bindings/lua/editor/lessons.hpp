@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lessons of scripts/lessons, compiled in. The opening comment of a lesson is: title; `Question: ...`,
-// `Predict: ...` and `Minutes: N`, each possibly over several lines; an empty comment line; the explanation
-// in Markdown.
+// `Predict: ...`, `Minutes: N` and perhaps `Code: hidden`, each possibly over several lines; an empty comment
+// line; the explanation in Markdown; perhaps `Notes: ...` for the teacher. The text of another language is a
+// file without code, de/06_tilt.txt: the same parts, then `Reason:`, `Answers:` and `Replies:`.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace asperity::lua {
 
-struct Lesson {
-  int number = 0;    // from 1
-  std::string name;  // "tilt" of 06_tilt.lua
-  std::string file;  // "06_tilt.lua"
-  std::string title;
-  std::string question;
-  std::string predict;
+// Markdown, except for the title. Empty parts are missing.
+struct LessonTexts {
+  std::string title, question, predict, explanation;
+  std::string reason;                          // with the %-directives of the script's reason, in its order
+  std::map<std::string, std::string> answers;  // by name of a guess or by option; "note": the remark
+  std::map<std::string, std::string> replies;  // by option
+};
+
+struct Lesson : LessonTexts {
+  int number = 0;      // from 1
+  std::string name;    // "tilt" of 06_tilt.lua
+  std::string file;    // "06_tilt.lua"
+  std::string script;  // without notes
+  std::string notes;   // Markdown, for the teacher
   int minutes = 0;
-  std::string explanation;  // Markdown
-  std::string text;         // Markdown: question, prediction, explanation
-  std::string_view script;
+  bool hides_code = false;
+  std::map<std::string, LessonTexts> languages;  // by code: "de"
+  std::string problem;                           // of a file that is no lesson
 };
 
 // In order; thread-safe.
@@ -30,7 +39,9 @@ const std::vector<Lesson>& lessons();
 // nearest name.
 const Lesson& find_lesson(std::string_view called);
 
-// `stem`: "06_tilt". Throws Error{bad_file} for a missing part.
+// `stem`: "06_tilt". Throws Error{bad_file} for a missing part or a mistake in Lua's grammar.
 Lesson read_lesson(std::string_view stem, std::string_view script);
+// Throws Error{bad_file}, with `file`, for a line that is no `NAME: text` under Answers or Replies.
+LessonTexts read_lesson_texts(std::string_view file, std::string_view text);
 
 }  // namespace asperity::lua

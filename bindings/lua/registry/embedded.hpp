@@ -10,12 +10,13 @@
 namespace asperity::lua {
 
 struct EmbeddedScript {
-  std::string_view name;  // without .lua
+  std::string_view name;  // without ending
   std::string_view text;
 };
 
 std::span<const EmbeddedScript> embedded_scripts();
 std::span<const EmbeddedScript> embedded_lessons();
+std::span<const EmbeddedScript> embedded_lesson_texts();  // "de/06_tilt"
 std::string_view embedded_script(std::string_view name);
 // As luaL_loadbufferx named `chunk` ("=sandbox"). `text` must live as long as the program; states and threads
 // share the compiled code. Raises on an error.

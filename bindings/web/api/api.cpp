@@ -14,9 +14,9 @@
 #include <sstream>
 #include <utility>
 
-#include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/api/answers.hpp"
+#include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
@@ -68,6 +68,40 @@ void add_safe_headers(HttpResponse& response, const std::string& inline_scripts 
   response.headers.emplace_back("X-Frame-Options", "DENY");
   response.headers.emplace_back("Cross-Origin-Opener-Policy", "same-origin");
   response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+SharedScript script_member(const Json& body, std::size_t longest) {
+  return {text_member(body, "name", longest_name), text_member(body, "script", longest)};
+}
+
+Json json_of(const SharedScript& shared) {
+  return Json::object({{"name", shared.name}, {"script", shared.script}});
+}
+
+Json json_of(const std::map<std::string, std::string>& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : texts) json.set(name, text);
+  return json;
+}
+
+// Without empty texts.
+Json json_of(const lua::LessonTexts& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : {std::pair{"title", &texts.title},
+                                   {"question", &texts.question},
+                                   {"predict", &texts.predict},
+                                   {"text", &texts.explanation},
+                                   {"reason", &texts.reason}})
+    if (!text->empty()) json.set(name, *text);
+  if (!texts.answers.empty()) json.set("answers", json_of(texts.answers));
+  if (!texts.replies.empty()) json.set("replies", json_of(texts.replies));
+  return json;
+}
+
+Json languages_of(const lua::Lesson& lesson) {
+  Json languages = Json::object();
+  for (const auto& [language, texts] : lesson.languages) languages.set(language, json_of(texts));
+  return languages;
 }
 
 // "sha256-<base64>" of each inline script.
@@ -291,11 +325,14 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (path == "about" && get) return about(*person);
   if (path == "complete" && post) return complete(*person, request);
   if (path == "check" && post) return check(*person, request);
-  if (path == "lessons" && get) return lessons();
-  if (path.starts_with("lessons/") && get) return lesson(path.substr(8));
+  if (path == "lessons" && get) return lessons(*person);
+  if (path.starts_with("lessons/") && get) return lesson(*person, path.substr(8));
   if (path == "runs" && get) return runs_of(*person);
   if (path == "room" && get && is_teacher(*person)) return room();
   if (path == "people" && get && is_teacher(*person)) return people();
+  if (path.starts_with("people/") && get && is_teacher(*person)) return shown_by(path.substr(7));
+  if (path == "handed" && get && setup_.classroom) return handed(request);
+  if (path == "handed" && post && is_teacher(*person)) return hand(request);
   if (path == "predictions" && post && setup_.classroom) return predict(*person, request);
   if (path == "help" && post && setup_.classroom) return help(*person, request);
   if (path == "runs" && post) return begin_run(*person, request);
@@ -415,6 +452,7 @@ HttpResponse Api::people() const {
     }
     list.push_back(Json::object({{"name", access_.people()[person].name},
                                  {"help", board_.needs_help(person)},
+                                 {"script", scripts_.shown_by(person).has_value()},
                                  {"predictions", std::move(predictions)},
                                  {"whys", std::move(whys)}}));
   }
@@ -432,7 +470,10 @@ HttpResponse Api::predict(std::size_t person, const HttpRequest& request) {
 }
 
 HttpResponse Api::help(std::size_t person, const HttpRequest& request) {
-  const bool wanted = flag_member(body_of(request), "wanted");
+  const Json body = body_of(request);
+  const bool wanted = flag_member(body, "wanted");
+  const bool shows = wanted && body.find("script") != nullptr;
+  scripts_.show(person, shows ? std::optional(script_member(body, SharedScripts::most_shown)) : std::nullopt);
   board_.ask_for_help(person, wanted);
   return json_answer(Json::object({{"wanted", wanted}}));
 }
@@ -455,27 +496,57 @@ HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const s
   return response;
 }
 
-HttpResponse Api::lessons() const {
+HttpResponse Api::lessons(std::size_t person) const {
   Json::List list;
-  for (const lua::Lesson& lesson : lua::lessons())
-    list.push_back(Json::object({{"name", lesson.name},
-                                 {"title", lesson.title},
-                                 {"question", lesson.question},
-                                 {"minutes", lesson.minutes}}));
+  for (const lua::Lesson& lesson : lessons_with(setup_.lessons)) {
+    if (!lesson.problem.empty() && !sees_notes(person)) continue;
+    Json entry = Json::object({{"name", lesson.name},
+                               {"number", lesson.number},
+                               {"title", lesson.title},
+                               {"question", lesson.question},
+                               {"minutes", lesson.minutes},
+                               {"languages", languages_of(lesson)}});
+    if (!lesson.problem.empty()) entry.set("problem", lesson.problem);
+    list.push_back(std::move(entry));
+  }
   return json_answer(list);
 }
 
-HttpResponse Api::lesson(const std::string& name) const {
-  const auto& all = lua::lessons();
+HttpResponse Api::lesson(std::size_t person, const std::string& name) const {
+  const auto all = lessons_with(setup_.lessons);
   const auto found = std::ranges::find(all, name, &lua::Lesson::name);
-  if (found == all.end()) return problem_answer(404, "there is no such lesson");
-  return json_answer(Json::object({{"name", found->name},
-                                   {"title", found->title},
-                                   {"question", found->question},
-                                   {"predict", found->predict},
-                                   {"minutes", found->minutes},
-                                   {"text", found->explanation},
-                                   {"script", found->script}}));
+  if (found == all.end() || !found->problem.empty()) return problem_answer(404, "there is no such lesson");
+  Json lesson = json_of(static_cast<const lua::LessonTexts&>(*found));
+  lesson.set("name", found->name)
+      .set("minutes", found->minutes)
+      .set("script", found->script)
+      .set("hides_code", found->hides_code)
+      .set("languages", languages_of(*found));
+  if (sees_notes(person) && !found->notes.empty()) lesson.set("notes", found->notes);
+  return json_answer(lesson);
+}
+
+// {name, script}; without a script it is taken back.
+HttpResponse Api::hand(const HttpRequest& request) {
+  const Json body = body_of(request);
+  const bool given = body.find("script") != nullptr;
+  scripts_.hand(given ? std::optional(script_member(body, SharedScripts::most_handed)) : std::nullopt);
+  return json_answer(Json::object({{"number", scripts_.handed().number}}));
+}
+
+// {number}, with the script if it is newer than the query's `after`.
+HttpResponse Api::handed(const HttpRequest& request) const {
+  const SharedScripts::Handed now = scripts_.handed();
+  const auto after = request.parameters.find("after");
+  const bool known = after != request.parameters.end() && after->second == std::to_string(now.number);
+  Json answer = now.script && !known ? json_of(*now.script) : Json::object();
+  return json_answer(answer.set("number", now.number));
+}
+
+HttpResponse Api::shown_by(const std::string& name) const {
+  const auto person = std::ranges::find(access_.people(), name, &Person::name);
+  const auto shown = scripts_.shown_by(static_cast<std::size_t>(person - access_.people().begin()));
+  return shown ? json_answer(json_of(*shown)) : problem_answer(404, "this student shows no script");
 }
 
 }  // namespace asperity::web

@@ -2,7 +2,9 @@
 // The server's answers. The page's files and the documents under /docs/ need the right Host only; paths under
 // /api need a token. An error is {error: {message, hint?}}. A person sees only their own runs; the first
 // person of a classroom, its teacher, sees all: /api/room lists runs, /api/people predictions (POST
-// /api/predictions) and requests for help (POST /api/help).
+// /api/predictions) and requests for help (POST /api/help), /api/people/NAME the script sent with one. The
+// teacher hands a script to the room (POST /api/handed); students ask for one with GET. Notes of lessons and
+// faults of their files are for the teacher, or for the only person.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "bindings/web/api/access.hpp"
+#include "bindings/web/api/shared_scripts.hpp"
 #include "bindings/web/http/http.hpp"
 #include "bindings/web/runs/live_sessions.hpp"
 #include "bindings/web/runs/run_queue.hpp"
@@ -79,6 +82,7 @@ struct ApiSetup {
   bool classroom = false;
   std::vector<std::string> barriers;
   std::filesystem::path scratch;  // for checks
+  std::filesystem::path lessons;  // of the teacher; empty: none
 };
 
 class Api final : public HttpHandler {
@@ -106,8 +110,12 @@ class Api final : public HttpHandler {
   HttpResponse help(std::size_t person, const HttpRequest& request);
   HttpResponse of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,
                       const std::string& rest);
-  HttpResponse lessons() const;
-  HttpResponse lesson(const std::string& name) const;
+  HttpResponse lessons(std::size_t person) const;
+  HttpResponse lesson(std::size_t person, const std::string& name) const;
+  bool sees_notes(std::size_t person) const { return !setup_.classroom || is_teacher(person); }
+  HttpResponse hand(const HttpRequest& request);
+  HttpResponse handed(const HttpRequest& request) const;
+  HttpResponse shown_by(const std::string& name) const;
 
   const ApiSetup setup_;
   const Access& access_;
@@ -116,6 +124,7 @@ class Api final : public HttpHandler {
   const PageFiles page_;
   const PageFiles documents_;
   RoomBoard board_;
+  SharedScripts scripts_;
   Turns checks_{{.places = 4, .for_quick = 2}};  // two for quick checks
   Turns completions_{{.places = 4}};             // one per person
   Turns streams_;                                // long-lived answers

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,9 @@ TEST(LoadProjection, RefusesWhatTheMarkedNodesCannotCarry) {
   where[3] = 1;
   EXPECT_FALSE(project_to_load(y, where, .5, 49, p));
   EXPECT_FALSE(project_to_load(y, where, .5, 1e-3, p));
+  // The others carry the whole load.
+  EXPECT_FALSE(
+      project_to_load(std::vector{.25, .5}, std::vector<std::uint8_t>{1, 0}, 1, .5, std::span(p).first(2)));
   for (const double value : p) EXPECT_EQ(value, 7.0);
 }
 

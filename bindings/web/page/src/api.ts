@@ -27,17 +27,35 @@ export interface Candidate {
   help?: string;
 }
 
-export interface LessonEntry {
+export interface LessonTexts {
+  title?: string;
+  question?: string;
+  predict?: string;
+  text?: string;
+  reason?: string;
+  answers?: Record<string, string>;
+  replies?: Record<string, string>;
+}
+
+export interface LessonEntry extends LessonTexts {
   name: string;
   title: string;
-  question?: string;
+  number?: number;
   minutes?: number;
+  languages?: Record<string, LessonTexts>;
+  problem?: string; // for the teacher
 }
 
 export interface Lesson extends LessonEntry {
-  text: string;
   script: string;
-  predict?: string;
+  hides_code?: boolean;
+  notes?: string; // for the teacher
+}
+
+/** A script that passes between the teacher and a student. */
+export interface SharedScript {
+  name: string;
+  script: string;
 }
 
 export interface About {
@@ -61,6 +79,7 @@ export interface RoomRun {
 export interface RoomPerson {
   name: string;
   help: boolean;
+  script?: boolean; // came with the request for help
   predictions: { lesson: string; name: string; value: number | string }[];
   whys: { lesson: string; text: string }[];
 }
@@ -192,7 +211,12 @@ export class Api {
   people = (): Promise<RoomPerson[]> => this.json('GET', '/api/people');
   predict = (lesson: string, guesses: Record<string, number | string>, why: string): Promise<unknown> =>
     this.json('POST', '/api/predictions', { lesson, guesses, why });
-  askForHelp = (wanted: boolean): Promise<unknown> => this.json('POST', '/api/help', { wanted });
+  askForHelp = (wanted: boolean, shown?: SharedScript): Promise<unknown> =>
+    this.json('POST', '/api/help', { wanted, ...shown });
+  shownBy = (student: string): Promise<SharedScript> => this.json('GET', `/api/people/${encodeURIComponent(student)}`);
+  hand = (script?: SharedScript): Promise<unknown> => this.json('POST', '/api/handed', { ...script });
+  handed = (after: number): Promise<{ number: number } & Partial<SharedScript>> =>
+    this.json('GET', `/api/handed?after=${after}`);
   stop = (id: string): Promise<unknown> => this.json('DELETE', `/api/runs/${encodeURIComponent(id)}`);
   view = (id: string, name: string): Promise<View> =>
     this.json('GET', `/api/runs/${encodeURIComponent(id)}/views/${encodeURIComponent(name)}`);

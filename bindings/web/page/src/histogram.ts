@@ -7,6 +7,8 @@ import type { Ink } from './colour';
 import { axisFor, axisOfNames, type Axis } from './ticks';
 import { extentOf, numberText, shareOf } from './units';
 
+type Size = readonly [width: number, height: number];
+
 interface Bar {
   from: number;
   to: number;
@@ -27,7 +29,7 @@ export function robust(values: number[], answer?: number): { shown: number[]; lo
   return { shown: sorted.filter((v) => place(v) >= place(low) - room && place(v) <= place(high) + room), log };
 }
 
-export function drawHistogram(values: number[], width: number, height: number, ink: Ink, answer?: number): Drawn {
+export function drawHistogram(values: number[], [width, height]: Size, ink: Ink, answer?: number): Drawn {
   const { shown, log } = robust(values, answer);
   const ends = answer === undefined ? shown : [...shown, answer];
   const x = axisFor(ends, log, apartBy((label) => widthOf(label) + 16, width - 70));
@@ -42,16 +44,17 @@ export function drawHistogram(values: number[], width: number, height: number, i
     `${count(values.length, 'prediction')} from ${numberText(shown[0])} to ${numberText(shown.at(-1)!)}` +
     `${beyond ? ` and ${beyond} beyond` : ''}, half of them up to ${numberText(middle)}`;
   const line = answer === undefined ? [] : [ruleX([answer], { stroke: ink.series[1], strokeWidth: 3 })];
-  return drawn(bins, x, line, summary, answer === undefined ? undefined : numberText(answer), width, height, ink);
+  return drawn(bins, x, line, summary, answer === undefined ? undefined : numberText(answer), [width, height], ink);
 }
 
 /** `choices` in their order, with those nobody chose. */
-export function drawBars(values: string[], choices: string[], width: number, height: number, ink: Ink, answer?: string): Drawn {
+export function drawBars(values: string[], choices: string[], size: Size, ink: Ink, answer?: string): Drawn {
   const names = [...new Set([...choices, ...values])];
-  const bars = names.map((name, k) => ({ from: k - 0.35, to: k + 0.35, count: values.filter((v) => v === name).length }));
+  const counts = names.map((name) => values.filter((v) => v === name).length);
+  const bars = counts.map((count, k) => ({ from: k - 0.35, to: k + 0.35, count }));
   const x = axisOfNames(names.map((name) => (name === answer ? `✓ ${name}` : name)), () => true);
-  const summary = `${count(values.length, 'prediction')}: ${names.map((name, k) => `${name} ${bars[k].count}`).join(', ')}`;
-  return drawn(bars, x, [], summary, answer, width, height, ink);
+  const summary = `${count(values.length, 'prediction')}: ${names.map((name, k) => `${name} ${counts[k]}`).join(', ')}`;
+  return drawn(bars, x, [], summary, answer, size, ink);
 }
 
 function drawn(
@@ -60,8 +63,7 @@ function drawn(
   front: Markish[],
   words: string,
   answer: string | undefined,
-  width: number,
-  height: number,
+  [width, height]: Size,
   ink: Ink,
 ): Drawn {
   const most = Math.max(...bars.map((b) => b.count));

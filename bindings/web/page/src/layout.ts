@@ -4,6 +4,15 @@ import { ApiError, serverGoneHint, tokenHint } from './api';
 import { byId, h } from './dom';
 import { keep, kept } from './storage';
 
+/** A pane with its divider and its button in the head. */
+export function showPane(name: 'lessons' | 'script', on: boolean): void {
+  const lessons = name === 'lessons';
+  byId(name).hidden = !on;
+  byId(lessons ? 'lessons-divider' : 'results-divider').hidden = !on;
+  document.querySelector('.panes')!.classList.toggle(lessons ? 'plain' : 'folded', !on);
+  byId(`${name}-button`).setAttribute('aria-expanded', String(on));
+}
+
 export class Tabs {
   private readonly tabs: HTMLButtonElement[];
   private byHand = false;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `asperity serve`: connects the panes, which know only their run and the server's interface.
 
-import { Api, ApiError, runKey, tokenHint, type About, type EventOf, type Mark } from './api';
+import { Api, ApiError, runKey, tokenHint, type About, type Mark } from './api';
 import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
+import { HandButton, Offer, sent, ShownScript } from './handed';
 import { KnobsPane } from './knobs';
-import { divider, Filling, goRound, Messages, Tabs } from './layout';
+import { divider, Filling, goRound, Messages, showPane, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Live, type Followed, type LivePicture } from './live';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
 import type { Guess } from './prediction_box';
 import { HelpButton, Room } from './room';
-import { endText, errorText, readStudy, Run, statusText } from './run';
+import { endText, errorText, leftText, limitsText, readStudy, Run, statusText } from './run';
 import { RecordedRuns, savedRun } from './save';
+import { offerFiles } from './script_file';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
 import { TablePane } from './table_pane';
-import { bytes, duration } from './units';
 import { Wall } from './wall';
 
 const newcomer = `local lab = require "asperity"
@@ -77,11 +78,13 @@ const recorded = new RecordedRuns();
 
 // Panes ------------------------------------------------------------------------------------------
 
+const hand = new HandButton(api, () => sent(opened.title, editor.text), failed);
 const editor = new Editor(byId('editor'), api, {
   changed: (text) => {
     if (!keepScript(opened.key, text === opened.original ? null : text))
       say('This browser does not keep the script.');
     lessons.prediction?.read();
+    hand.forget();
     showDocument();
   },
   checked: showProblems,
@@ -93,7 +96,10 @@ const editor = new Editor(byId('editor'), api, {
   },
   failed: (error) => failed(error),
 });
-const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
+const output = new OutputPane(byId('output'), (line) => {
+  showPane('script', true);
+  editor.goTo(line);
+});
 const table = new TablePane(byId('table'));
 const charts = new ChartPane(byId('chart'), failed);
 const pictures = new PicturePane(byId('picture'), api, failed, (): boolean => knobs.held);
@@ -121,6 +127,11 @@ const tabs = new Tabs(byId('tabs'), () => {
   draw();
   showResults();
 });
+const offer = new Offer(api, (number, { name: title, script: original }) => {
+  const key = `handed.${number}`;
+  open({ key, title, script: keptScript(key) ?? original, original });
+  void lessons.list();
+});
 const lessons = new LessonsPane(
   byId('lessons'),
   api,
@@ -129,6 +140,7 @@ const lessons = new LessonsPane(
     open(ownScript());
     editor.focus();
   },
+  offer.entry,
   { text: () => editor.text, replace: (script) => editor.replace(script) },
   predicted,
   failed,
@@ -139,6 +151,8 @@ function open(document: Opened): void {
   opened = document;
   keep('open', document.key);
   editor.open(document.script);
+  hand.forget();
+  showPane('script', (kept(`script-pane.${document.key}`) ?? (document.hidesCode ? 'closed' : 'open')) === 'open');
   const code = document.script.split('\n').findIndex((line) => line.trim() && !line.startsWith('--'));
   if (code > 8) editor.showLine(code + 1);
   showDocument();
@@ -180,6 +194,12 @@ function showProblems(marks: Mark[]): void {
 }
 
 // The run ----------------------------------------------------------------------------------------
+
+/** Of the open script. */
+function fileName(): string {
+  if (opened.key.startsWith('lesson.')) return opened.key.slice(7);
+  return opened.key === 'own' ? 'script' : opened.title.slice(0, 60);
+}
 
 let asked = false;
 
@@ -247,10 +267,6 @@ function showStatus(): void {
   status.title = status.textContent;
 }
 
-function leftText(p: EventOf<'progress'>): string {
-  return p.eta_s && p.eta_s >= 1 ? `about ${duration(p.eta_s)} left` : '';
-}
-
 let announced = 0;
 
 function announce(): void {
@@ -296,7 +312,7 @@ async function start(): Promise<void> {
   editor.showRunMarks([]);
   runButton.disabled = true;
   try {
-    const { id } = await api.start(script, opened.key === 'own' ? 'script' : opened.key.replace(/^lesson\./, ''));
+    const { id } = await api.start(script, fileName());
     messages.clear();
     follow(new Run(id, opened.title, script), opened.key);
     say('The script runs.');
@@ -455,19 +471,8 @@ async function save(): Promise<void> {
 // The start --------------------------------------------------------------------------------------
 
 function showLessons(on: boolean): void {
-  byId('lessons').hidden = !on;
-  byId('lessons-divider').hidden = !on;
-  document.querySelector('.panes')!.classList.toggle('plain', !on);
-  byId('lessons-button').setAttribute('aria-expanded', String(on));
+  showPane('lessons', on);
   keep('lessons', on ? null : 'closed');
-}
-
-function limits(a: About): string {
-  const { seconds, memory_bytes: memory, output_bytes: output, runs } = a.limits;
-  return (
-    `Asperity ${a.version}. A run may take ${duration(seconds)}, ${bytes(memory)} of memory, ` +
-    `${bytes(output)} of output, ${runs} at once.`
-  );
 }
 
 /** Repeated after a failure. */
@@ -489,11 +494,14 @@ async function greet(): Promise<void> {
       messages.clear();
       editor.checkSoon(0);
     }
-    byId('about').textContent = limits(about);
+    byId('about').textContent = limitsText(about);
     byId('documents').hidden = about.documents !== true;
+    const student = about.classroom === true && about.teacher !== true;
     room.offer(about.teacher === true);
+    hand.offer(about.teacher === true);
     wall.offer(about.teacher === true);
-    help.offer(about.classroom === true && about.teacher !== true, about.help === true);
+    help.offer(student, about.help === true);
+    offer.begin(student);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
   } catch (error) {
     if (!messages.watching || !(error instanceof ApiError) || error.failure !== 'gone') failed(error);
@@ -531,30 +539,30 @@ byId('reset').addEventListener('click', () => {
   say('The lesson’s own script is back. Control Z brings your edits again.');
 });
 byId('save-script').addEventListener('click', () =>
-  saveAs(`${opened.key.replace(/^lesson\./, '')}.lua`, new Blob([editor.text], { type: 'text/plain;charset=utf-8' })),
+  saveAs(`${fileName()}.lua`, new Blob([editor.text], { type: 'text/plain;charset=utf-8' })),
 );
-const chooser = byId<HTMLInputElement>('file');
-byId('open-file').addEventListener('click', () => chooser.click());
-chooser.addEventListener('change', () => {
-  const file = chooser.files?.[0];
-  chooser.value = '';
-  if (!file) return;
-  if (file.size > 1_000_000)
-    return messages.tell(
-      'That file is no script.',
-      `${file.name} has ${bytes(file.size)}; a script of at most 1 MB is opened.`,
-    );
-  void file.text().then((text) => {
-    open(ownScript(text));
-    keepScript('own', text);
-    void lessons.list();
-    editor.focus();
-  });
-});
+offerFiles((text) => {
+  open(ownScript(text));
+  keepScript('own', text);
+  void lessons.list();
+  editor.focus();
+}, messages);
 byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
-const room = new Room(api, failed);
+byId('script-button').addEventListener('click', () => {
+  showPane('script', byId('script').hidden);
+  keep(`script-pane.${opened.key}`, byId('script').hidden ? 'closed' : 'open');
+});
+const shown = new ShownScript(
+  api,
+  (student, { name, script }) => {
+    open({ key: `of.${student}`, title: `${name} of ${student}`, script, original: script });
+    void lessons.list();
+  },
+  failed,
+);
+const room = new Room(api, (student) => void shown.show(student), failed);
 const wall = new Wall(api, failed);
-const help = new HelpButton(api, failed);
+const help = new HelpButton(api, () => sent(opened.title, editor.text, 20_000), failed);
 const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (on) => {
   byId('fill').textContent = on ? 'Put it back' : 'Fill the window';
   draw();

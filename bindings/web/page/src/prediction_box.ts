@@ -4,7 +4,9 @@
 // browser; and the run's verdicts, printed lines that begin with "You said". The paragraphs printed after the last
 // verdict are the reason.
 
+import type { Lesson } from './api';
 import { h, prose } from './dom';
+import { answer, inLanguage, reasonOf, verdict } from './language';
 import type { Run } from './run';
 import { keep, kept } from './storage';
 
@@ -27,48 +29,58 @@ interface Field {
   show: (value: Value | undefined, lost: boolean) => void;
 }
 
+/** A name, an option or the note in the chosen language. */
+type Word = (name: string, english?: string) => HTMLElement;
+
 const longestWhy = 500; // characters, as the server bounds bytes
 
 export class PredictionBox {
   readonly element: HTMLElement;
   private readonly fields: Field[];
-  private readonly missing = h('p.hint', { hidden: true }, 'The script has no my_guess any more; Reset brings it back.');
+  private readonly missing = h('p.hint', { hidden: true }, 'The script has no my_guess any more. Reset restores it.');
   private readonly words: HTMLTextAreaElement;
   private said = '';
+  run: Run | undefined; // judged
   private readonly judged = h('div.judged', { hidden: true });
 
   constructor(
-    readonly lesson: string,
-    original: string,
+    private readonly texts: Lesson,
     private readonly script: ScriptAtHand,
     private readonly changed: (lesson: string, guesses: Guess[], why: string) => void,
   ) {
-    const guesses = guessesIn(original);
+    const guesses = guessesIn(texts.script);
+    const word: Word = (name, english) => inLanguage('span', answer(texts, name, english));
     const { note = '', choices = [] } = guesses ?? {};
     const unit = /\bin (per cent|\S+)/.exec(note)?.[1] ?? '';
     this.fields = (guesses?.list ?? []).map(({ name }) => {
       const put = (value: Value | undefined): void => this.put(name, value);
-      return choices.length > 0 ? choiceField(name, choices, put) : numberField(name, unit, put);
+      return choices.length > 0 ? choiceField(name, choices, word, put) : numberField(name, unit, word, put);
     });
     this.words = h('textarea', {
       rows: 2,
       maxLength: longestWhy,
-      value: kept(`prediction.${lesson}`) ?? '',
+      value: kept(`prediction.${this.lesson}`) ?? '',
       oninput: () => {
-        keep(`prediction.${lesson}`, this.words.value || null);
+        keep(`prediction.${this.lesson}`, this.words.value || null);
         this.tell();
       },
       'aria-describedby': 'prediction-hint',
     });
     this.element = h('section.prediction', { 'aria-label': 'Your prediction' },
       h('b', 'Your prediction, before you run it'),
-      ...(guesses ? [note && h('p.hint', note), h('div.guesses', ...this.fields.map((f) => f.element)), this.missing] : []),
+      note && h('p.hint', word('note', note)),
+      guesses && h('div.guesses', ...this.fields.map((f) => f.element)),
+      this.missing,
       this.judged,
       h('label', h('span', guesses ? 'And why' : 'In words'), this.words),
       h('p.hint', { id: 'prediction-hint' }, 'Kept here and with a saved run.'),
       guesses ? h('p.hint', 'Predictions stand in the script, and its run compares them.') : '',
     );
     this.read();
+  }
+
+  get lesson(): string {
+    return this.texts.name;
   }
 
   /** Whether the script asks for predictions and has none. */
@@ -92,12 +104,18 @@ export class PredictionBox {
   }
 
   judge(run: Run | undefined): void {
+    this.run = run;
     const { verdicts, reason } = run && !run.active ? judgedIn(run) : { verdicts: [], reason: [] };
     this.judged.hidden = verdicts.length === 0;
     const said = [...verdicts, ...reason].join('\n');
     if (said === this.said) return;
     this.said = said;
-    this.judged.replaceChildren(...verdicts.map((v) => h('p.verdict', v)), ...reason.map((r) => h('p', prose(r))));
+    const translated = reasonOf(this.texts, reason.join('\n\n'));
+    const lang = translated?.lang ?? 'en';
+    this.judged.replaceChildren(
+      ...verdicts.map((v) => h('p.verdict', inLanguage('span', verdict(this.texts, v)))),
+      ...(translated?.text.split('\n\n') ?? reason).map((r) => h('p', { lang }, prose(r))),
+    );
     const pane = this.element.closest('.pane');
     if (!said || !pane || pane.scrollHeight <= pane.clientHeight) return; // in one column
     const [shown, whole] = [this.judged, pane].map((e) => e.getBoundingClientRect());
@@ -115,7 +133,7 @@ export class PredictionBox {
   }
 }
 
-function numberField(name: string, unit: string, put: (value: Value | undefined) => void): Field {
+function numberField(name: string, unit: string, word: Word, put: (value: Value | undefined) => void): Field {
   const understood = h('output.hint');
   const input = h('input', {
     type: 'text',
@@ -134,7 +152,7 @@ function numberField(name: string, unit: string, put: (value: Value | undefined)
   };
   return {
     name,
-    element: h('div.guess', h('label', h('span', labelOf(name) || 'Number'), input), understood),
+    element: h('div.guess', h('label', name ? word(name) : h('span', 'Number'), input), understood),
     show: (value, lost) => {
       input.disabled = lost;
       if (document.activeElement === input) return;
@@ -144,12 +162,12 @@ function numberField(name: string, unit: string, put: (value: Value | undefined)
   };
 }
 
-function choiceField(name: string, choices: string[], put: (value: Value | undefined) => void): Field {
+function choiceField(name: string, choices: string[], word: Word, put: (value: Value | undefined) => void): Field {
   const radios = choices.map((value) =>
     h('input', { type: 'radio', name: `guess-${name}`, value, onchange: () => put(value) }),
   );
-  const legend = h('legend', labelOf(name) || 'Choice');
-  const element = h('fieldset.guess', legend, ...radios.map((radio) => h('label', radio, radio.value)));
+  const legend = h('legend', name ? word(name) : 'Choice');
+  const element = h('fieldset.guess', legend, ...radios.map((radio) => h('label', radio, word(radio.value))));
   return {
     name,
     element,
@@ -158,10 +176,6 @@ function choiceField(name: string, choices: string[], put: (value: Value | undef
       for (const radio of radios) radio.checked = radio.value === value;
     },
   };
-}
-
-function labelOf(name: string): string {
-  return name.replace(/_/g, ' ');
 }
 
 /** With comma or point. */
@@ -188,7 +202,8 @@ export function guessesIn(script: string): Guesses | undefined {
   const choices = [...offered.matchAll(/"([^"]*)"/g)].map((m) => m[1]);
   const valueOf = (literal: string): Value | undefined => {
     const text = /^"([^"]*)"$/.exec(literal.trim())?.[1] ?? literal.trim();
-    return choices.length > 0 ? choices.find((c) => c === text) : numberTyped(/^[-+.,\deE]+/.exec(text.trim())?.[0] ?? '');
+    if (choices.length > 0) return choices.find((c) => c === text);
+    return numberTyped(/^[-+.,\deE]+/.exec(text.trim())?.[0] ?? '');
   };
   if (!given.startsWith('{')) return { list: [{ name: '', value: valueOf(given) }], note, choices };
   const list = [...given.matchAll(/(\w+)\s*=\s*([^,}]+)/g)].map(([, name, value]) => ({ name, value: valueOf(value) }));

@@ -2,7 +2,7 @@
 // The teacher's view of the classroom, polled while open: runs, names, requests for help. Also the student's help
 // button.
 
-import type { Api, RoomPerson, RoomRun } from './api';
+import type { Api, RoomPerson, RoomRun, SharedScript } from './api';
 import { byId, h, table } from './dom';
 
 const askedAgain = 2000; // ms
@@ -15,6 +15,7 @@ export class Room {
 
   constructor(
     private readonly api: Api,
+    private readonly look: (student: string) => void,
     private readonly failed: (error: unknown) => void,
   ) {
     byId('room-button').addEventListener('click', () => {
@@ -61,12 +62,19 @@ export class Room {
       return [
         h('th', { scope: 'row' }, p.name),
         h('td', run ? `${run.name || 'script'}, ${run.state}` : 'none'),
-        h('td', p.help ? 'asks for help' : ''),
+        h('td', p.help ? 'asks for help ' : '', p.script ? this.lookAt(p.name) : ''),
       ];
     });
     const made = table(['Student', 'Last run', 'Help'].map((t) => h('th', { scope: 'col' }, t)), rows);
     sorted.forEach((p, k) => made.tBodies[0].rows[k].classList.toggle('asks', p.help));
+    const focused = this.people.contains(document.activeElement) ? document.activeElement!.id : '';
     this.people.replaceChildren(made);
+    if (focused) document.getElementById(focused)?.focus();
+  }
+
+  private lookAt(name: string): HTMLElement {
+    const label = `Show script of ${name}`;
+    return h('button', { id: `room-look-${name}`, 'aria-label': label, onclick: () => this.look(name) }, 'Show script');
   }
 
   private async stop(id: string): Promise<void> {
@@ -83,10 +91,10 @@ export class HelpButton {
   private readonly button = byId<HTMLButtonElement>('help-button');
   private wanted = false;
 
-  constructor(api: Api, failed: (error: unknown) => void) {
+  constructor(api: Api, script: () => SharedScript, failed: (error: unknown) => void) {
     this.button.addEventListener('click', () => {
       const wanted = !this.wanted;
-      api.askForHelp(wanted).then(() => this.show(wanted), failed);
+      api.askForHelp(wanted, wanted ? script() : undefined).then(() => this.show(wanted), failed);
     });
   }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run as the sum of its events. Panes draw this record once a frame: 10,000 lines cost one drawing.
 
-import type { Api, Cell, ChartEvent, EventOf, RunEvent } from './api';
+import type { About, Api, Cell, ChartEvent, EventOf, RunEvent } from './api';
 import type { Knob } from './knobs';
 import type { LiveResults } from './live';
 import type { Field } from './pictures';
-import { duration } from './units';
+import { bytes, duration } from './units';
 
 export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
 
@@ -219,4 +219,16 @@ function studyTable(text: string): { columns: string[]; units: Record<string, st
 
 function cellsOf(line: string): string[] {
   return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((m) => m[1]?.replace(/""/g, '"') ?? m[2] ?? '');
+}
+
+export function leftText(p: EventOf<'progress'>): string {
+  return p.eta_s && p.eta_s >= 1 ? `about ${duration(p.eta_s)} left` : '';
+}
+
+export function limitsText(a: About): string {
+  const { seconds, memory_bytes: memory, output_bytes: output, runs } = a.limits;
+  return (
+    `Asperity ${a.version}. A run may take ${duration(seconds)}, ${bytes(memory)} of memory, ` +
+    `${bytes(output)} of output, ${runs} at once.`
+  );
 }

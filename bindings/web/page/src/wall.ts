@@ -10,17 +10,19 @@ import { Run } from './run';
 import { grouped } from './units';
 
 const askedAgain = 2000; // ms
-const size = [640, 250] as const; // px, scaled to the window
+const revealed = 'Show the answer';
+const widest = 640; // px of the chart, scaled to the window
 
 export class Wall {
   private readonly dialog = byId<HTMLDialogElement>('wall');
   private readonly which = new Choice('Question', () => this.show(undefined));
+  private readonly question = h('p');
   private readonly figure = h('figure');
   private readonly caption = h('p.caption');
   private readonly summary = h('summary');
   private readonly whys = h('ul');
   private readonly details = h('details', { hidden: true }, this.summary, this.whys);
-  private readonly reveal = h('button', { 'aria-pressed': 'false', onclick: () => void this.toggle() }, 'Show the answer');
+  private readonly reveal = h('button', { 'aria-pressed': 'false', onclick: () => void this.toggle() }, revealed);
   private readonly lessons = new Map<string, Promise<Lesson | undefined>>();
   private readonly answers = new Map<string, Promise<Map<string, Value>>>(); // of a lesson, by name
   private answer: { question: string; value: Value } | undefined;
@@ -31,7 +33,8 @@ export class Wall {
     private readonly api: Api,
     private readonly failed: (error: unknown) => void,
   ) {
-    byId('wall-predictions').append(this.which.element, this.reveal, this.figure, this.caption, this.details);
+    const { element } = this.which;
+    byId('wall-predictions').append(element, this.reveal, this.question, this.figure, this.caption, this.details);
     byId('wall-button').addEventListener('click', () => {
       this.dialog.showModal();
       void this.ask();
@@ -66,7 +69,7 @@ export class Wall {
     const groups = grouped(this.people.flatMap((p) => p.predictions), titled);
     const names = [...groups.keys()].sort();
     const none = names.length === 0;
-    for (const part of [this.which.element, this.figure, this.reveal, this.details]) part.hidden = none;
+    for (const part of [this.which.element, this.question, this.figure, this.reveal, this.details]) part.hidden = none;
     if (none) {
       this.caption.textContent = 'Nobody has predicted anything yet.';
       return;
@@ -77,14 +80,17 @@ export class Wall {
     this.explain(given[0].lesson);
     const answer = this.answer?.question === this.which.value ? this.answer.value : undefined;
     this.reveal.setAttribute('aria-pressed', String(answer !== undefined));
-    const [{ drawBars, drawHistogram }, lesson] = await Promise.all([import('./histogram'), this.lesson(given[0].lesson)]);
+    const { drawBars, drawHistogram } = await import('./histogram');
+    const lesson = await this.lesson(given[0].lesson);
+    this.question.textContent = lesson?.predict ?? '';
+    const size = [Math.min(widest, innerWidth - 48), 250] as const;
     const choices = guessesIn(lesson?.script ?? '')?.choices ?? [];
     const numbers = given.map((p) => p.value).filter((v) => typeof v === 'number');
     const texts = given.map((p) => p.value).filter((v) => typeof v === 'string');
     const drawn =
       texts.length > 0
-        ? drawBars(texts, choices, ...size, inkNow(), answer === undefined ? undefined : String(answer))
-        : drawHistogram(numbers, ...size, inkNow(), typeof answer === 'number' ? answer : undefined);
+        ? drawBars(texts, choices, size, inkNow(), answer === undefined ? undefined : String(answer))
+        : drawHistogram(numbers, size, inkNow(), typeof answer === 'number' ? answer : undefined);
     this.figure.replaceChildren(drawn.element);
     this.caption.textContent = `${drawn.summary}.`;
   }
@@ -104,14 +110,14 @@ export class Wall {
     try {
       if (!this.answers.has(lesson)) this.answers.set(lesson, this.computed(lesson));
       const value = (await this.answers.get(lesson)!).get(name);
-      if (value === undefined) throw new ApiError('refused', `The lesson ${lesson} has computed no answer.`, 'Run it here.');
+      if (value === undefined) throw new ApiError('refused', `the lesson ${lesson} gave no answer`, 'Run it here.');
       this.show({ question, value });
     } catch (error) {
       this.answers.delete(lesson);
       this.dialog.close();
       this.failed(error);
     }
-    this.reveal.textContent = 'Show the answer';
+    this.reveal.textContent = revealed;
   }
 
   /** Undefined if the server does not have the lesson. */
