@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <regex>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "engine/core/error.hpp"
 #include "tests/support/refusal.hpp"
@@ -72,9 +75,9 @@ TEST(Lesson, KeepsNotesOutOfItsScript) {
   const std::string head = "-- A title\n-- Question: Why?\n-- Predict: When?\n-- Minutes: 15\n";
   const std::string code = "\n-- Notes: of the code\nprint(1)\n";
   const std::string told = head + "--\n-- Text.\n";
-  for (const std::string& script : {head + "-- notes: Secret,\n--   twice.\n--\n-- Text.\n" + code,
-                                    told + "-- Notes:\n-- Secret,\n-- twice.\n" + code}) {
-    const Lesson lesson = read_lesson("07_one", script);
+  for (const std::string& noted : {head + "-- notes: Secret,\n--   twice.\n--\n-- Text.\n" + code,
+                                   told + "-- Notes:\n-- Secret,\n-- twice.\n" + code}) {
+    const Lesson lesson = read_lesson("07_one", noted);
     EXPECT_EQ(lesson.script, told + code);
     EXPECT_EQ(lesson.explanation, "Text.\n");
     EXPECT_TRUE(lesson.notes.starts_with("Secret,")) << lesson.notes;
