@@ -82,13 +82,19 @@ FILE* plain_stream(int descriptor, Keeps keeps) {
                        {.read = nullptr, .write = write_plain, .seek = nullptr, .close = nullptr});
 }
 
+#if defined(__EMSCRIPTEN__)
+void replace(FILE*, FILE*) {}  // musl's streams are constant: text passes unchanged
+#else
+void replace(FILE*& stream, FILE* made) { stream = made; }
+#endif
+
 }  // namespace
 
 void make_errors_plain() {
   FILE* const made = plain_stream(STDERR_FILENO, Keeps::text);
   if (made == nullptr) return;
   std::setvbuf(made, nullptr, _IONBF, 0);
-  stderr = made;
+  replace(stderr, made);
 }
 
 void make_output_plain(Keeps keeps) {
@@ -96,7 +102,7 @@ void make_output_plain(Keeps keeps) {
   if (made == nullptr) return;
   std::fflush(stdout);
   if (::isatty(STDOUT_FILENO) != 0) std::setvbuf(made, nullptr, _IOLBF, BUFSIZ);
-  stdout = made;
+  replace(stdout, made);
 }
 
 void erase_shown_line() {

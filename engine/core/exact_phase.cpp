@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/exact_phase.hpp"
 
-#include <mpfr.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <deque>
 #include <numbers>
 #include <string>
+
+#define MPFR_USE_INTMAX_T
+#include <mpfr.h>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/grid.hpp"
@@ -68,8 +70,7 @@ std::uint64_t fraction_of_turn(mpfr_ptr turns) {
   mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
   const bool negative = mpfr_sgn(turns) < 0;
   if (negative) mpfr_neg(turns, turns, MPFR_RNDN);
-  static_assert(sizeof(unsigned long) == sizeof(std::uint64_t));
-  const std::uint64_t low = mpfr_get_ui(turns, MPFR_RNDN);
+  const std::uint64_t low = mpfr_get_uj(turns, MPFR_RNDN);
   return negative ? 0 - low : low;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "engine/core/cost.hpp"
@@ -58,6 +59,9 @@ std::size_t rounded_up(std::size_t bytes) {
 }  // namespace
 
 std::int64_t of_machine() {
+#if defined(__EMSCRIPTEN__)
+  return std::int64_t{4} << 30;  // sysconf reports the present size of the heap
+#endif
   const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
   return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
 }
@@ -84,7 +88,7 @@ bool account(std::int64_t change) noexcept {
 }
 
 void* acquire(std::size_t bytes) {
-  constexpr std::size_t largest = std::size_t{1} << 62;
+  constexpr std::size_t largest = std::size_t{1} << (std::numeric_limits<std::size_t>::digits - 2);
   if (bytes > largest) refuse(bytes);
   const std::size_t boundary = boundary_of(bytes), rounded = rounded_up(bytes);
   if (!account(static_cast<std::int64_t>(bytes))) refuse(bytes);

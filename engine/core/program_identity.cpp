@@ -67,7 +67,12 @@ int look_for_build_id(dl_phdr_info* object, std::size_t, void* of) {
 }  // namespace
 
 __attribute__((noinline)) std::string build_identity() {
-  Search search{{__builtin_return_address(0), &anchor}, {}};
+#ifdef __wasm__
+  const void* caller = &anchor;  // one module
+#else
+  const void* caller = __builtin_return_address(0);
+#endif
+  Search search{{caller, &anchor}, {}};
   dl_iterate_phdr(look_for_build_id, &search);
   return search.identity;
 }

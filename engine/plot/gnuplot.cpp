@@ -206,6 +206,20 @@ std::function<GnuplotDrawer>& drawer() {
 }
 }  // namespace
 
+namespace {
+int left = 0;
+}
+
+bool left_to_page() {
+#if defined(__EMSCRIPTEN__)
+  ++left;
+  return true;
+#else
+  return false;
+#endif
+}
+int pictures_left_to_page() { return left; }
+
 void draw_pictures_by(std::function<GnuplotDrawer> other) { drawer() = std::move(other); }
 
 std::string without_date(std::string picture) {

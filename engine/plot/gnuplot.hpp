@@ -44,6 +44,10 @@ struct GnuplotResult {
 
 std::vector<std::string> complaints_of(const GnuplotResult& result, const std::filesystem::path& file);
 
+// True under WebAssembly, where no program starts: counts a picture, which the page draws from its event.
+bool left_to_page();
+int pictures_left_to_page();
+
 // Draws for processes that may not start programs.
 using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const GnuplotData> data);
 // For the whole process; not during drawing.

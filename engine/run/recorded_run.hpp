@@ -44,6 +44,8 @@ struct RecordedRun {
   LoadedFiles loaded;                     // with unaltered copies
   std::vector<std::string> loaded_fault;  // one per altered copy
 
+  // Under WebAssembly: pictures are events without files.
+  bool left_pictures() const { return machine.find("pictures") != nullptr; }
   // Complete journal and list of files.
   bool ended() const { return status == "done" || status == "failed"; }
 };
@@ -74,7 +76,8 @@ struct Difference {
 
 Difference difference_of(std::string where, const std::vector<DifferingMember>& members);
 
-// Inputs, journal, outputs, expectations. An unfinished run is compared up to its end.
+// Inputs, journal, outputs, expectations. An unfinished run is compared up to its end. Pictures that one of
+// the runs did not draw are compared by their events.
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again);
 
 // Compares the results of a run by another minor version: rows of notebooks and verdicts of expectations.

@@ -55,6 +55,9 @@ Json facts_of_this_machine() {
       facts.set("vector_instructions", vector_instructions(line.substr(colon + 2)));
   }
   facts.set("processors", std::thread::hardware_concurrency());
+#if defined(__EMSCRIPTEN__)
+  facts.set("pictures", "left to the page");
+#endif
   facts.set("memory", memory::of_machine());
   utsname system{};
   if (::uname(&system) == 0)

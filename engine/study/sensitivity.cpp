@@ -71,7 +71,7 @@ Sensitivity sensitivity_of_batches(const ChaosRequest& request, const InputBatch
   const double least = when[found.order.front()];
   while (found.tied < shares.size() && when[found.order[found.tied]] <= least + tie_within * found.deviation)
     ++found.tied;
-  std::ranges::sort(found.order.begin(), found.order.begin() + static_cast<std::ptrdiff_t>(found.tied));
+  std::sort(found.order.begin(), found.order.begin() + static_cast<std::ptrdiff_t>(found.tied));
   return found;
 }
 

@@ -127,7 +127,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
   }
   if (end == last && failure == std::errc::result_out_of_range) {
     // Underflow is zero, overflow is no height.
-    const std::string lower = lower_case({first, last});
+    const std::string lower = lower_case(std::string(first, last));
     const std::size_t exponent = lower.find('e');
     if (exponent != std::string::npos && lower.substr(exponent + 1).starts_with('-'))
       return {CellKind::number, 0.0};
