@@ -21,6 +21,11 @@ class Watchdog {
  public:
   // Blocks the signals in this and later threads: construct first. The watchdog's thread calls `last_words`
   // before the process ends.
+#if defined(__EMSCRIPTEN__)
+  static constexpr bool has_clock = false;  // without threads a limit of time is refused
+#else
+  static constexpr bool has_clock = true;
+#endif
   enum class CtrlC { ends_within_grace, waits };
   Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
            CtrlC ctrl_c = CtrlC::ends_within_grace);

@@ -61,9 +61,10 @@ std::size_t rounded_up(std::size_t bytes) {
 std::int64_t of_machine() {
 #if defined(__EMSCRIPTEN__)
   return std::int64_t{4} << 30;  // sysconf reports the present size of the heap
-#endif
+#else
   const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
   return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
+#endif
 }
 
 std::int64_t held() { return held_bytes.load(); }

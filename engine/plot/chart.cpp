@@ -509,7 +509,7 @@ std::vector<std::string> draw(std::span<const LineChart> panels, const std::file
   if (points > many && picture_format(file) != PictureFormat::png)
     warnings.push_back(std::to_string(points) +
                        " points are drawn and stored in the file; a .png is smaller");
-  if (left_to_page()) return warnings;
+  if (leave_to_page()) return warnings;
   GnuplotResult drawn = run_gnuplot(script);
   const LineChart& first = panels.front();
   if (first.print_width && picture_format(file) == PictureFormat::svg) {

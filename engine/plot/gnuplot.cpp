@@ -204,13 +204,11 @@ std::function<GnuplotDrawer>& drawer() {
   static std::function<GnuplotDrawer> other;
   return other;
 }
+
+int left = 0;
 }  // namespace
 
-namespace {
-int left = 0;
-}
-
-bool left_to_page() {
+bool leave_to_page() {
 #if defined(__EMSCRIPTEN__)
   ++left;
   return true;

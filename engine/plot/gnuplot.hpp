@@ -44,8 +44,8 @@ struct GnuplotResult {
 
 std::vector<std::string> complaints_of(const GnuplotResult& result, const std::filesystem::path& file);
 
-// True under WebAssembly, where no program starts: counts a picture, which the page draws from its event.
-bool left_to_page();
+// Under WebAssembly no program starts: counts a picture that the page draws from its event, and returns true.
+bool leave_to_page();
 int pictures_left_to_page();
 
 // Draws for processes that may not start programs.

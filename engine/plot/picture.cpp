@@ -332,7 +332,7 @@ std::vector<std::string> draw(const Grid& grid, const Field& field, const Pictur
                (ending.empty() ? " has no ending" : " ends in " + ending),
            "pictures of surfaces are .png");
   const PictureScript picture = picture_script(grid, field, options);
-  if (left_to_page()) return {};
+  if (leave_to_page()) return {};
   const GnuplotData cells{"cells", picture.cells};
   const GnuplotResult drawn = run_gnuplot(picture.script, {&cells, 1});
   write_atomically(file, drawn.picture);

@@ -57,10 +57,9 @@ double noise_of_bends(std::span<const double> time, std::span<const double> load
 Array<std::uint32_t> mend_stray_readings(std::span<const double> time, std::span<double> load,
                                          std::optional<double> noise);
 
-// Holes in a recording: empty load cells and absent rows. O(rows). Rows are absent in a step of at least 2.5
-// times the longest of the median step, the step that one in twenty exceeds, and the median of the three
-// steps before or after, so bursts and random logging lose no rows.
-
+// Holes in a recording: empty load cells and absent rows. O(rows). A step lacks rows if
+// it is at least 2.5 times each of: the median step; the step that one in twenty exceeds; the median of the
+// three steps before; the median of the three steps after. So bursts and random logging lose no rows.
 struct RecordedHole {
   std::size_t sample;      // before the hole
   std::size_t cells = 0;   // rows without a load

@@ -96,8 +96,7 @@ class CaseScheduler {
     const double before = cost::transforms();
     if (wanted > 0) work(single);
     cost::count_transforms(before - cost::transforms());
-    return;
-#endif
+#else
     for (std::size_t k = 0; k < wanted; ++k) try {
         workers.emplace_back([this, single] { work(single); });
       } catch (const std::system_error&) {
@@ -106,6 +105,7 @@ class CaseScheduler {
         if (workers.empty()) throw Error(ErrorCode::out_of_memory, "no thread could be started");
         return;
       }
+#endif
   }
 
   void work(bool single) {

@@ -7,7 +7,7 @@
 set -euo pipefail
 native=$(readlink -f "$1") module=$(readlink -f "$2")
 shift 2
-lessons=${*:-$(seq 1 9)}
+lessons=${*:-$(seq 1 10)}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$module"/asperity.js "$module"/asperity.wasm "$folder"

@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,9 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
             const std::function<void(const std::string& reached)>& report) {
   const std::string text = command.text ? *command.text : read_script(command.script);
   RunObserver* const observer = command.observer;
-  Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {
+  std::optional<double> limit = command.limit_time;
+  if (!limit && Watchdog::has_clock) limit = 60;
+  Watchdog watchdog(limit, [&](StopReason reason) {
     if (observer != nullptr)
       return observer->ended(failed, reason, "the " + verb + " did not come to an end");
     std::fprintf(stderr, "asperity: %s: the %s did not come to an end\n", command.script.c_str(),

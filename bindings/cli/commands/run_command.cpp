@@ -276,8 +276,7 @@ class DirectoryRun {
       std::fprintf(stderr, "%lld %s taken from the store%s\n", static_cast<long long>(counts.found),
                    counts.found == 1 ? "result was" : "results were", saved.c_str());
     if (const int pictures = pictures_left_to_page(); pictures > 0)
-      std::fprintf(stderr,
-                   "%d pictures were not drawn: gnuplot does not run here, and the page draws charts\n",
+      std::fprintf(stderr, "pictures not drawn: %d; gnuplot does not run here, and the page draws charts\n",
                    pictures);
     for (const std::string& notice : results_->notices()) std::fprintf(stderr, "%s\n", notice.c_str());
     if (const std::string departure = run_->journal().departure(); !departure.empty())

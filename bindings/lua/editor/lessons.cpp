@@ -53,7 +53,7 @@ std::string lesson_key(const std::string& line, LessonKeys keys, std::size_t& at
   return found == keys.end() ? "" : *found;
 }
 
-// LessonParts of the head are one paragraph each. Later parts extend to the next key or the end.
+// A part of the head is one paragraph. A later part extends to the next key or the end.
 LessonParts lesson_parts(const LessonLines& lines, LessonKeys later) {
   LessonParts parts;
   std::string key;

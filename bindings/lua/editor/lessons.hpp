@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lessons of scripts/lessons, compiled in. The opening comment of a lesson is: title; `Question: ...`,
-// `Predict: ...`, `Minutes: N` and perhaps `Code: hidden`, each possibly over several lines; an empty comment
-// line; the explanation in Markdown; perhaps `Notes: ...` for the teacher. The text of another language is a
-// file without code, de/06_tilt.txt: the same parts, then `Reason:`, `Answers:` and `Replies:`.
+// Lessons: those of scripts/lessons are compiled in; others come from files of a teacher. The opening comment
+// of a lesson is: title; `Question: ...`, `Predict: ...`, `Minutes: N` and perhaps `Code: hidden`, each
+// possibly over several lines; an empty comment line; the explanation in Markdown; perhaps `Notes: ...` for
+// the teacher. The text of another language is a file without code, de/06_tilt.txt: the same parts, then
+// `Reason:`, `Answers:` and `Replies:`.
 #pragma once
 
 #include <map>
@@ -15,7 +16,7 @@ namespace asperity::lua {
 // Markdown, except for the title. Empty parts are missing.
 struct LessonTexts {
   std::string title, question, predict, explanation;
-  std::string reason;                          // with the %-directives of the script's reason, in its order
+  std::string reason;                          // {1}, {2} … are the values in the script's reason
   std::map<std::string, std::string> answers;  // by name of a guess or by option; "note": the remark
   std::map<std::string, std::string> replies;  // by option
 };

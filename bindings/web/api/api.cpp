@@ -362,7 +362,7 @@ HttpResponse Api::about(std::size_t person) const {
 
 HttpResponse Api::complete(std::size_t person, const HttpRequest& request) {
   const auto share = completions_.take(person, longest_wait);
-  if (share == nullptr) return problem_answer(503, "the scripts of others are being completed", "try again");
+  if (share == nullptr) return problem_answer(503, "other completions are being computed", "try again");
   const Json body = body_of(request);
   const std::string text = text_member(body, "text", longest_script);
   const std::int64_t position = whole_member(body, "position", 0);

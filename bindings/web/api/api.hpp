@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server's answers. The page's files and the documents under /docs/ need the right Host only; paths under
-// /api need a token. An error is {error: {message, hint?}}. A person sees only their own runs; the first
-// person of a classroom, its teacher, sees all: /api/room lists runs, /api/people predictions (POST
-// /api/predictions) and requests for help (POST /api/help), /api/people/NAME the script sent with one. The
-// teacher hands a script to the room (POST /api/handed); students ask for one with GET. Notes of lessons and
-// faults of their files are for the teacher, or for the only person.
+// /api need a token. An error is {error: {message, hint?}}. A person sees only their own runs. The
+// first person of a classroom is the teacher and sees all runs. Only the teacher reads /api/room (runs),
+// /api/people (predictions and requests for help) and /api/people/NAME (the script sent with a request).
+// Students post to /api/predictions and /api/help. The teacher posts a script to /api/handed, and students
+// get it there. Notes of lessons and faults of their files are for the teacher, or for the only person.
 #pragma once
 
 #include <cstddef>

@@ -9,9 +9,9 @@
 
 namespace asperity::web {
 
-// Those of `folder` (none if empty) in the order of their files, then those of the program without a lesson
-// of the same name in the folder. A file without a lesson in it has a `problem`. Texts of other languages are
-// in folders of two letters, de/06_tilt.txt.
+// The lessons of `folder`, by file name, then the program's own lessons. A lesson of the folder replaces the
+// program's lesson of its name. An empty `folder` gives the program's lessons. A faulty file is an entry with
+// a `problem`. Texts of other languages are in folders of two letters, de/06_tilt.txt.
 std::vector<lua::Lesson> lessons_with(const std::filesystem::path& folder);
 
 }  // namespace asperity::web

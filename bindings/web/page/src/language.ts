@@ -94,4 +94,3 @@ function patternOf(source: string): string {
     .map((part, k) => (k % 2 === 0 ? part.replace(/[.*+?^${}()|[\]\\]/g, '\\$&') : part === '%%' ? '%' : '(\\S+)'))
     .join('');
 }
-

@@ -101,7 +101,7 @@ class ContactLevel : public AllNodes {
   double origin_, factor_, unit_;
 };
 
-// Of a coarser grid.
+// Least side of a coarser grid, in cells.
 inline constexpr int least_side = 32;
 
 // Pitches in finer cells; empty if no side can be halved.
