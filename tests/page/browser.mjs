@@ -130,6 +130,12 @@ export async function until(page, test, what, ...args) {
   }
 }
 
+/** Opens a tab of the results; a frame later the tab shows the run. */
+export async function openTab(page, name) {
+  await page.click(`#tab-${name}`);
+  await painted(page);
+}
+
 /** Holds the page's timers: `tick` fires them once, `release` restores the clock. */
 export const hold = (page) =>
   page.evaluate((held) => {

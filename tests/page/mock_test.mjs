@@ -11,8 +11,6 @@ import * as on from './browser.mjs';
 import { browser, mock, visit } from './mock_page.mjs';
 import { startMock } from './mock_server.mjs';
 
-const tab = (page, name) => page.click(`#tab-${name}`);
-
 // Printed only: the time depends on the machine.
 test('Start, OfFewRequestsAndBytes', async () => {
   const page = await on.openPage(browser, mock.url);
@@ -146,7 +144,7 @@ test('Run, OutputRowsExpectationsAndFiles', () =>
     await on.finished(page);
     assert.match(await on.text(page, '.output'), /^before <b>\nevent 1: Ra 2\.80 um\n/);
     assert.match(await on.text(page, '.expectations'), /held: Ra falls with N.*not held: mu at most 0\.4/);
-    await tab(page, 'table');
+    await on.openTab(page, 'table');
     await on.until(
       page,
       () => document.querySelectorAll('#table tbody tr').length === 16,
@@ -166,7 +164,7 @@ test('Run, OutputRowsExpectationsAndFiles', () =>
       '2.1',
       '0.32',
     ]);
-    await tab(page, 'files');
+    await on.openTab(page, 'files');
     await on.until(
       page,
       () => document.querySelector('.previews img')?.complete,
@@ -323,7 +321,7 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
   visit({}, async (page) => {
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
-    await tab(page, 'chart');
+    await on.openTab(page, 'chart');
     await page.waitForSelector('.chart svg circle');
     await page.click('.charts summary');
     const [x, y, , per] = (await page.$$('.charts select')).slice(-4);
@@ -352,7 +350,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
     };
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
-    await tab(page, 'chart');
+    await on.openTab(page, 'chart');
     // The second notebook; of a list, the columns of one unit.
     assert.deepEqual(
       await shown(
@@ -384,7 +382,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
 
 test('Chart, LinesOnEachOtherAreBothSeen', () =>
   visit({}, async (page) => {
-    await tab(page, 'chart');
+    await on.openTab(page, 'chart');
     const dashed = () => page.$$eval('.chart svg .line path', (all) => all.map((e) => getComputedStyle(e).strokeDasharray !== 'none'));
     await on.run(page, '-- mock.alike\n');
     await on.finished(page);
@@ -401,7 +399,7 @@ test('Chart, ManyPointsDoNotHideTheirLine', async () => {
   let file;
   try {
     await visit({ downloads }, async (page) => {
-      await tab(page, 'chart');
+      await on.openTab(page, 'chart');
       for (const rows of [20, 60, 300, 5000]) {
         await on.run(page, `-- mock.rows ${rows}\n`);
         await on.until(
@@ -432,7 +430,7 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
   visit({}, async (page) => {
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
-    await tab(page, 'picture');
+    await on.openTab(page, 'picture');
     await on.until(
       page,
       () => document.querySelector('.picture .caption, .pictures .caption').textContent,
@@ -491,7 +489,7 @@ test('Picture, OfAnotherScriptHasAFactorOfItsOwn', () =>
     const factor = async (script, expected) => {
       await on.run(page, script);
       await on.finished(page);
-      await tab(page, 'picture');
+      await on.openTab(page, 'picture');
       await on.until(
         page,
         () => {
@@ -527,7 +525,7 @@ test('Picture, OfARunOneAfterTheOtherByKeysAlone', () =>
   visit({}, async (page) => {
     await on.run(page, '-- mock.views 5\n');
     await on.finished(page);
-    await tab(page, 'picture');
+    await on.openTab(page, 'picture');
     const place = (text) =>
       on.until(page, (t) => document.querySelector('.scrubber output').textContent === t, `it should be ${text}`, text);
     const selected = () => page.$eval('.pictures select', (e) => e.selectedOptions[0].textContent);
@@ -576,7 +574,7 @@ test('Picture, AloneHasNothingToGoThrough', () =>
   visit({}, async (page) => {
     await on.run(page, 'error "early"\n');
     await on.finished(page, 'Failed');
-    await tab(page, 'picture');
+    await on.openTab(page, 'picture');
     await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
     assert.equal(await page.$eval('.scrubber', (e) => e.hidden), true);
   }));
@@ -587,7 +585,7 @@ const printed = (page, text) =>
 test('Knob, MovedByKeysRunsTheScriptAgain', () =>
   visit({}, async (page) => {
     const runs = () => mock.runs.size;
-    await tab(page, 'output');
+    await on.openTab(page, 'output');
     await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa 5e7\n-- mock.knob cells 1 5 3 one\n');
     await printed(page, 'pressure is 10000000');
     await on.knobSays(page, '10 MPa');
@@ -624,7 +622,7 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
 
 test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
   visit({}, async (page) => {
-    await tab(page, 'output');
+    await on.openTab(page, 'output');
     await on.run(page, '-- mock.knob p 0 4 1 one\n-- mock.waits 1\n');
     await printed(page, 'p is 1');
     await on.knobSays(page, '1 one');
@@ -689,7 +687,7 @@ test('Knob, StepsAreRoundAndReachBothBounds', () =>
 
 test('Knob, TakesANumberWithItsUnit', () =>
   visit({}, async (page) => {
-    await tab(page, 'output');
+    await on.openTab(page, 'output');
     await on.run(page, '-- mock.knob pressure 1e6 3e8 2e7 Pa\n');
     await on.knobSays(page, '20 MPa');
     await on.finished(page);
@@ -829,7 +827,7 @@ for (const scheme of ['light', 'dark']) {
       await on.run(page, 'print "x"\nlab.surface.sine{ amplitud=1 }\nfor N = 1, 8 do end\n');
       await on.finished(page);
       for (const name of ['output', 'table', 'chart', 'picture', 'files']) {
-        await tab(page, name);
+        await on.openTab(page, name);
         if (name === 'picture')
           await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
         if (name === 'files') await on.until(page, () => document.querySelector('.previews img')?.complete, 'the chart should come');
@@ -857,7 +855,7 @@ for (const [width, height] of [
       await on.ready(page);
       await on.run(page, 'for N = 1, 8 do end\n');
       await on.finished(page);
-      await tab(page, 'picture');
+      await on.openTab(page, 'picture');
       await on.until(page, () => document.querySelector('.key svg'), 'the colours should be shown');
       await on.painted(page);
       for (const field of ['pressure', 'contact', 'gap']) {

@@ -94,7 +94,7 @@ test('Saved, KnobsGoFromOneRecordedRunToTheNext', () =>
     async (page) => {
       const printed = (text) =>
         on.until(page, (t) => document.querySelector('#output').textContent.includes(t), `it should print ${text}`, text);
-      await page.click('#tab-output');
+      await on.openTab(page, 'output');
       await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa\n-- mock.knob cells 1 5 3 one\n-- mock.views 2\n');
       await printed('pressure is 10000000');
       await on.until(page, () => document.querySelectorAll('.knob').length === 2, 'the sliders should come');

@@ -62,7 +62,7 @@ for (const [name, columns, rows] of [
     visit({}, async (page) => {
       await on.run(page, `local lab = require "asperity"\nlocal book = lab.notebook("${name}", ${rows}\n`);
       await on.finished(page);
-      await page.click('#tab-table');
+      await on.openTab(page, 'table');
       await on.until(page, () => document.querySelector('table thead th'), 'the table should be there');
       const runs = join(folder, 'runs');
       const [file] = readdirSync(runs, { recursive: true }).filter((f) => f.endsWith(`${name}.csv`));
@@ -107,7 +107,7 @@ test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
   visit({}, async (page) => {
     await on.write(page, pressed);
     await on.knobSays(page, '20 MPa'); // before the first run
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     const begun = [];
     page.on('request', (r) => r.method() === 'POST' && begun.push(new URL(r.url()).pathname));
     const before = processes();
@@ -149,7 +149,7 @@ test('Knob, OfAScriptWithoutPicturesShowsNoneOfAnother', () =>
   visit({}, async (page) => {
     await on.run(page, 'local lab = require "asperity"\nlab.surface.sine{ cells=16, size="1 mm", amplitude="1 um" }\n');
     await on.finished(page);
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
     await on.knobSays(page, '1');
@@ -236,7 +236,7 @@ test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
     await on.run(page, pressed);
     await on.finished(page);
     await on.knobSays(page, '20 MPa');
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await titled(page, 'contact:press at 20 MPa');
     await page.focus('.knobs input');
     await on.listen(page);
@@ -246,7 +246,7 @@ test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
     await page.focus('.knobs input');
     await page.keyboard.press('Home');
     await on.finished(page);
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await titled(page, 'contact:press at 1 MPa');
   }));
 
@@ -273,9 +273,9 @@ test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
     assert.match(await on.text(page, '#status'), /^Done/);
     assert.match(await on.text(page, '.output'), /edited by a reader\n/);
     assert.ok(Number(await on.text(page, '#tab-table .count')) > 0);
-    await page.click('#tab-chart');
+    await on.openTab(page, 'chart');
     await page.waitForSelector('.chart svg path');
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
     assert.match(
       await on.text(page, '.pictures .caption'),
@@ -288,7 +288,7 @@ test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
     await page.keyboard.press('ArrowLeft');
     await page.keyboard.press('ArrowLeft');
     assert.ok(on.differing(first, await on.pixels(page)) > 0.01, 'it should turn');
-    await page.click('#tab-files');
+    await on.openTab(page, 'files');
     await page.waitForSelector('.files button');
     await on.until(
       page,
@@ -318,7 +318,7 @@ test('Run, StoppedKeepsItsRows', () =>
     await on.until(page, () => document.querySelector('.output')?.textContent.includes('on'), 'it should run');
     await page.keyboard.press('Escape');
     await on.finished(page, 'Stopped');
-    await page.click('#tab-table');
+    await on.openTab(page, 'table');
     await page.waitForSelector('#table tbody tr');
     assert.deepEqual(await page.$$eval('#table th, #table td', (c) => c.map((e) => e.textContent)), [
       '#',

@@ -16,7 +16,7 @@ const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${ro
 async function charted(page, script, points) {
   await on.run(page, script);
   await on.finished(page, 'Done|Failed');
-  await page.click('#tab-chart');
+  await on.openTab(page, 'chart');
   await on.until(
     page,
     (n) => document.querySelector('.charts .caption').textContent.includes(`: ${n} points`),
@@ -150,7 +150,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
 test('Chart, IsTheScriptsOwnBeforeTheScriptWritesIt', () =>
   visit({}, async (page) => {
     await on.run(page, 'local book = lab.notebook "big" -- mock.rows 9\nwhile true do end\nbook:chart{ x="level", y="v" }\n');
-    await page.click('#tab-chart');
+    await on.openTab(page, 'chart');
     await on.until(
       page,
       () => document.querySelector('.charts .caption').textContent === 'v [µm] against level: 9 points.',
@@ -168,7 +168,7 @@ for (const [width, height] of [
     visit({ width, height }, async (page) => {
       await on.run(page, '-- mock.file big-v-i.svg\n');
       await on.finished(page);
-      await page.click('#tab-files');
+      await on.openTab(page, 'files');
       await on.until(page, () => [...document.querySelectorAll('.previews img.drawn')].some((i) => i.complete), 'it should come');
       const seen = await page.evaluate(() => ({
         letters: (16 / 960) * document.querySelector('.previews img.drawn').clientWidth, // gnuplot's
@@ -195,15 +195,15 @@ test('Table, OfARunThatIsOverBeginsWithItsFirstRow', () =>
     const place = () => page.$eval('.scroll.table', (e) => [e.scrollTop, e.scrollHeight - e.clientHeight - e.scrollTop < 2]);
     const script = '-- mock.rows 90\n';
     for (const other of [script, `${script}-- another\n`]) {
-      await page.click('#tab-output');
+      await on.openTab(page, 'output');
       await rows(other);
-      await page.click('#tab-table');
+      await on.openTab(page, 'table');
       await page.waitForSelector('#table tbody tr');
       assert.deepEqual(await place(), [0, false], other);
       await page.$eval('.scroll.table', (e) => (e.scrollTop = 200));
-      await page.click('#tab-output');
+      await on.openTab(page, 'output');
       await rows(other);
-      await page.click('#tab-table');
+      await on.openTab(page, 'table');
       assert.deepEqual(await place(), [200, false], 'the same script again is looked at where it was');
     }
   }));
@@ -212,7 +212,7 @@ test('Table, LongNamesOfColumnsTakeLines', () =>
   visit({}, async (page) => {
     await on.run(page, '-- mock.wide 3 mock.columns name_of_a_column_that_somebody_made_of_a_whole_sentence_\n');
     await on.finished(page);
-    await page.click('#tab-table');
+    await on.openTab(page, 'table');
     await page.waitForSelector('#table tbody tr');
     const widths = await page.$$eval('#table thead th', (all) => all.map((th) => th.getBoundingClientRect().width));
     assert.equal(widths.length, 5);
@@ -240,7 +240,7 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran(made), 'tab-chart');
     assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');
     assert.match(await on.text(page, '#output .end'), /^Failed after 100 ms: os\.exit\(3\)\.$/);
-    await page.click('#tab-table');
+    await on.openTab(page, 'table');
     assert.equal(await ran(made), 'tab-table');
     await page.click('.lessons button');
     await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
@@ -348,7 +348,7 @@ test('Window, ChartAndPictureFillMostOfTheirPaneAt1280x720', () =>
     await page.waitForSelector('.chart svg');
     assert.equal(await page.$eval('.knobs', (e) => e.hidden), false);
     assert.ok((await share('.chart')) >= 0.6, `the chart fills ${await share('.chart')}`);
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await on.until(page, () => document.querySelector('.key svg'), 'the picture should come');
     await on.painted(page);
     assert.ok((await share('.stage')) >= 0.6, `the picture fills ${await share('.stage')}`);
@@ -398,7 +398,7 @@ for (const [width, height] of [
       await page.click('.lessons button');
       await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
       await charted(page, 'local book -- mock.rows 1200 mock.file ' + 'long_'.repeat(40) + '.svg\nfor N = 1, 8 do end\n', 1200);
-      await page.click('#tab-files');
+      await on.openTab(page, 'files');
       await on.until(page, () => document.querySelector('.previews figcaption'), 'the drawing should come');
       const seen = await page.evaluate(() => {
         const inside = (e) => {
@@ -458,7 +458,7 @@ test('Results, FillTheWindowByKeysAndGoBack', () =>
       assert.ok(await page.evaluate(() => document.activeElement === document.body || document.activeElement.closest('#results')));
     }
     await on.assertAccessible(page, 'filling the window');
-    await page.click('#tab-picture');
+    await on.openTab(page, 'picture');
     await on.until(page, () => document.querySelector('.key svg'), 'the picture should come');
     await on.painted(page);
     assert.ok((await on.placeOf(page, '.stage')).height > 230);
