@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "bindings/web/api/answers.hpp"
+#include "bindings/web/api/script_answers.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/frames.hpp"

@@ -56,8 +56,6 @@ namespace {
 const char session_key = 0;
 }
 
-thread_local const Session::Running* Session::Running::innermost = nullptr;
-
 Session& Session::of(lua_State* L) { return *find(L); }
 
 Session* Session::find(lua_State* L) {

@@ -126,7 +126,7 @@ class Session : public SessionSettings {
     const Session& session;
     lua_State* L;
     const Running* outer;
-    static thread_local const Running* innermost;
+    static inline thread_local const Running* innermost = nullptr;
   };
 
   // Script functions of surfaces, released after their surface.

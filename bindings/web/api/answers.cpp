@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "bindings/lua/editor/completion.hpp"
+#include "bindings/web/api/script_answers.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -22,34 +22,6 @@ namespace {
 
 constexpr double check_seconds = 3;
 constexpr std::chrono::seconds check_while_others_wait{1};
-
-std::optional<std::int64_t> line_in(const std::string& reached) {
-  const std::string lead = "to line ";
-  if (!reached.starts_with(lead)) return {};
-  const std::int64_t line = std::strtoll(reached.c_str() + lead.size(), nullptr, 10);
-  return line > 0 ? std::optional(line) : std::nullopt;
-}
-
-Json mark(const char* severity, const std::string& message, const Json* line) {
-  return Json::object(
-      {{"line", line == nullptr ? Json(1) : *line}, {"severity", severity}, {"message", message}});
-}
-
-// UTF-16 units; 0 for a continuation byte.
-std::size_t units_of(char byte) {
-  const auto bits = static_cast<unsigned char>(byte);
-  return (bits & 0xC0) == 0x80 ? 0 : bits >= 0xF0 ? 2 : 1;
-}
-
-// Also in strings and comments. The parser recurses with brackets on a thread's finite stack.
-std::size_t deepest_bracket(const std::string& text) {
-  std::size_t depth = 0, deepest = 0;
-  for (const char c : text) {
-    if (c == '(' || c == '{' || c == '[') deepest = std::max(deepest, ++depth);
-    if ((c == ')' || c == '}' || c == ']') && depth > 0) --depth;
-  }
-  return deepest;
-}
 
 HttpResponse file_stream(OpenFile file, std::string type, bool as_download) {
   auto reader = std::make_shared<Descriptor>(file.descriptor);
@@ -196,72 +168,12 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
   const Finished done =
       run_confined(request, folder.path().string(), check_seconds + 3, std::size_t{1} << 20, given_up);
 
-  Json::List marks, charts;
-  Json answer = Json::object();
-  bool ended = false;
-  std::istringstream lines(done.events);
-  for (std::string line; std::getline(lines, line);) {
-    try {
-      const Json event = Json::parse(line, "an event");
-      const Json *type = event.find("type"), *message = event.find("message"), *why = event.find("why");
-      if (type == nullptr) continue;
-      if (type->string() == "error" && message != nullptr)
-        marks.push_back(mark("error", message->string(), event.find("line")));
-      if (type->string() == "chart") charts.push_back(event);
-      if (const Json* knobs = event.find("knobs"); knobs != nullptr && !knobs->members().empty())
-        answer.set("knobs", *knobs);
-      if (type->string() != "ended" || why == nullptr) continue;
-      ended = true;
-      if (const auto reached = line_in(why->string())) answer.set("checked_to", *reached);
-    } catch (const Error&) {
-      continue;
-    }
-  }
-  if (!ended && marks.empty()) {
-    if (done.status == 2) throw Error(ErrorCode::bad_state, "the script could not be checked: " + done.error);
-    marks.push_back(mark("note",
-                         done.given_up ? "the check was ended after 1 s, because others wait for theirs"
-                                       : "the check did not come to an end",
-                         nullptr));
-  }
-  if (!charts.empty()) answer.set("charts", std::move(charts));
-  answer.set("marks", std::move(marks));
-  return answer;
-}
-
-std::size_t byte_of_unit(std::string_view text, std::size_t unit) {
-  std::size_t before = 0, begin = 0;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const std::size_t units = units_of(text[k]);
-    if (units == 0) continue;
-    begin = k;
-    if (before + units > unit) return begin;
-    before += units;
-  }
-  return text.size();
-}
-
-std::size_t unit_of_byte(std::string_view text, std::size_t byte) {
-  std::size_t units = 0;
-  for (std::size_t k = 0; k < std::min(byte, text.size()); ++k) units += units_of(text[k]);
-  return units;
-}
-
-Json completion_of(const std::string& text, std::size_t unit) {
-  std::size_t from = byte_of_unit(text, unit);
-  Json::List candidates;
-  constexpr std::size_t longest = std::size_t{256} << 10;
-  constexpr std::size_t deepest = 500;
-  if (text.size() > longest || deepest_bracket(text) > deepest)
-    return Json::object({{"from", unit}, {"candidates", candidates}});
-  const lua::Completion completion = lua::complete(text, from);
-  from = completion.from;
-  for (const lua::Candidate& candidate : completion.candidates)
-    candidates.push_back(Json::object({{"text", candidate.text},
-                                       {"kind", candidate.kind},
-                                       {"detail", candidate.detail},
-                                       {"help", candidate.help}}));
-  return Json::object({{"from", unit_of_byte(text, from)}, {"candidates", std::move(candidates)}});
+  Json answer = check_answer(done.events);
+  if (answer.find("marks") != nullptr) return answer;
+  if (done.status == 2) throw Error(ErrorCode::bad_state, "the script could not be checked: " + done.error);
+  return answer.set(
+      "marks", Json::List{note(done.given_up ? "the check was ended after 1 s, because others wait for theirs"
+                                             : "the check did not come to an end")});
 }
 
 }  // namespace asperity::web

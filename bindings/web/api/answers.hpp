@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON answers of /api, members of request bodies, files of a run, script check and completion.
+// JSON answers of /api, members of request bodies, files of a run, script check.
 #pragma once
 
 #include <filesystem>
@@ -37,12 +37,5 @@ HttpResponse view_answer(const PageRun& run, const std::string& name);
 // check ends as soon as others wait.
 Json check_script(const std::string& script, const std::filesystem::path& scratch,
                   const std::vector<std::string>& barriers, const std::function<bool()>& others_wait);
-
-// {from, candidates: [{text, kind, detail, help}]}, in UTF-16 units.
-Json completion_of(const std::string& text, std::size_t unit);
-
-// Convert UTF-16 units (browser) and UTF-8 bytes. byte_of_unit: first byte of the character, or the end.
-std::size_t byte_of_unit(std::string_view text, std::size_t unit);
-std::size_t unit_of_byte(std::string_view text, std::size_t byte);
 
 }  // namespace asperity::web

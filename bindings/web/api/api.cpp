@@ -17,6 +17,7 @@
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/api/answers.hpp"
 #include "bindings/web/api/lesson_folder.hpp"
+#include "bindings/web/api/script_answers.hpp"
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/plain_files.hpp"
@@ -76,32 +77,6 @@ SharedScript script_member(const Json& body, std::size_t longest) {
 
 Json json_of(const SharedScript& shared) {
   return Json::object({{"name", shared.name}, {"script", shared.script}});
-}
-
-Json json_of(const std::map<std::string, std::string>& texts) {
-  Json json = Json::object();
-  for (const auto& [name, text] : texts) json.set(name, text);
-  return json;
-}
-
-// Without empty texts.
-Json json_of(const lua::LessonTexts& texts) {
-  Json json = Json::object();
-  for (const auto& [name, text] : {std::pair{"title", &texts.title},
-                                   {"question", &texts.question},
-                                   {"predict", &texts.predict},
-                                   {"text", &texts.explanation},
-                                   {"reason", &texts.reason}})
-    if (!text->empty()) json.set(name, *text);
-  if (!texts.answers.empty()) json.set("answers", json_of(texts.answers));
-  if (!texts.replies.empty()) json.set("replies", json_of(texts.replies));
-  return json;
-}
-
-Json languages_of(const lua::Lesson& lesson) {
-  Json languages = Json::object();
-  for (const auto& [language, texts] : lesson.languages) languages.set(language, json_of(texts));
-  return languages;
 }
 
 // "sha256-<base64>" of each inline script.
@@ -497,33 +472,14 @@ HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const s
 }
 
 HttpResponse Api::lessons(std::size_t person) const {
-  Json::List list;
-  for (const lua::Lesson& lesson : lessons_with(setup_.lessons)) {
-    if (!lesson.problem.empty() && !sees_notes(person)) continue;
-    Json entry = Json::object({{"name", lesson.name},
-                               {"number", lesson.number},
-                               {"title", lesson.title},
-                               {"question", lesson.question},
-                               {"minutes", lesson.minutes},
-                               {"languages", languages_of(lesson)}});
-    if (!lesson.problem.empty()) entry.set("problem", lesson.problem);
-    list.push_back(std::move(entry));
-  }
-  return json_answer(list);
+  return json_answer(lesson_entries(lessons_with(setup_.lessons), sees_notes(person)));
 }
 
 HttpResponse Api::lesson(std::size_t person, const std::string& name) const {
   const auto all = lessons_with(setup_.lessons);
   const auto found = std::ranges::find(all, name, &lua::Lesson::name);
   if (found == all.end() || !found->problem.empty()) return problem_answer(404, "there is no such lesson");
-  Json lesson = json_of(static_cast<const lua::LessonTexts&>(*found));
-  lesson.set("name", found->name)
-      .set("minutes", found->minutes)
-      .set("script", found->script)
-      .set("hides_code", found->hides_code)
-      .set("languages", languages_of(*found));
-  if (sees_notes(person) && !found->notes.empty()) lesson.set("notes", found->notes);
-  return json_answer(lesson);
+  return json_answer(lesson_answer(*found, sees_notes(person)));
 }
 
 // {name, script}; without a script it is taken back.

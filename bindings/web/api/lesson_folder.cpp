@@ -31,7 +31,7 @@ LessonNames lesson_names(const fs::path& folder) {
   std::size_t seen = 0;
   for (fs::directory_iterator at(folder, problem), end; !problem && at != end; at.increment(problem)) {
     const std::string name = at->path().filename().string();
-    const bool is_lesson = name.ends_with(".lua") && !name.starts_with('.');
+    const bool is_lesson = (name.ends_with(".lua") || name.ends_with(".md")) && !name.starts_with('.');
     if (++seen > most_folder_entries || (is_lesson && names.files.size() == most_lessons)) {
       names.problem = asperity::quoted(folder.filename().string()) + " has more than " +
                       std::to_string(most_lessons) + " lessons or " + std::to_string(most_folder_entries) +
@@ -64,7 +64,9 @@ lua::Lesson broken(const std::string& file, const std::string& problem) {
 
 lua::Lesson lesson_in(const fs::path& folder, const std::string& file) {
   try {
-    lua::Lesson lesson = lua::read_lesson(file.substr(0, file.size() - 4), text_in(folder, file));
+    const std::string text = text_in(folder, file), stem = file.substr(0, file.rfind('.'));
+    lua::Lesson lesson =
+        lua::read_lesson(stem, file.ends_with(".md") ? lua::script_of_markdown(file, text) : text);
     if (lesson.name.size() <= longest_lesson_name) return lesson;
     return broken(file, asperity::quoted(file) + " has a name of " + std::to_string(lesson.name.size()) +
                             " bytes; at most " + std::to_string(longest_lesson_name));

@@ -21,6 +21,7 @@
 #include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/gnuplot.hpp"
@@ -87,19 +88,9 @@ void draw_by_server(int socket) {
 }
 
 int run_or_check(const ConfinedRequest& request) {
-  EventChannel events(events_descriptor, request.views ? ".views" : "");
-  cli::RunCommand command;
-  command.script = request.name;
-  command.text = request.script;
-  command.out = ".";
-  command.threads = request.threads;
-  command.seed = static_cast<std::uint64_t>(request.seed);
-  command.knobs = request.knobs;
-  command.limit_memory = request.confinement.memory_bytes;
-  command.limit_time = request.seconds;
-  command.limit_disk = request.confinement.file_bytes;
-  command.store_limit = 0;
-  command.observer = &events;
+  EventChannel events([](const std::string& line) { write_all(events_descriptor, line); },
+                      request.views ? ".views" : "");
+  const cli::RunCommand command = page_command(request, events);
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
   if (request.work == Work::check) return cli::check(command);
   draw_by_server(drawing_descriptor);

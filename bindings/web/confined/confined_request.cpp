@@ -213,6 +213,22 @@ std::string bytes_of(std::string_view characters) {
   return bytes;
 }
 
+cli::RunCommand page_command(const ConfinedRequest& request, cli::RunObserver& observer) {
+  cli::RunCommand command;
+  command.script = request.name;
+  command.text = request.script;
+  command.out = ".";
+  command.threads = request.threads;
+  command.seed = static_cast<std::uint64_t>(request.seed);
+  command.knobs = request.knobs;
+  command.limit_memory = request.confinement.memory_bytes;
+  command.limit_time = request.seconds;
+  command.limit_disk = request.confinement.file_bytes;
+  command.store_limit = 0;
+  command.observer = &observer;
+  return command;
+}
+
 Json to_json(const ConfinedRequest& request) {
   ConfinedRequest sent = request;
   sent.confinement.parent = ::getpid();

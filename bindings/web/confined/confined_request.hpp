@@ -43,6 +43,9 @@ struct ConfinedRequest {
   int lock = -1;  // of the run directory; -1: none
 };
 
+// The run or the check of a script of the page, in the working directory.
+cli::RunCommand page_command(const ConfinedRequest& request, cli::RunObserver& observer);
+
 Json to_json(const ConfinedRequest& request);
 // Throws Error{bad_file}.
 ConfinedRequest confined_request(const Json& json);

@@ -211,7 +211,7 @@ std::optional<Json> told_of(std::string_view event, const Json& fields) {
 
 void EventChannel::send(const Json& event) {
   const std::lock_guard lock(mutex_);
-  write_all(descriptor_, event.text() + "\n");
+  sink_(event.text() + "\n");
 }
 
 void EventChannel::progress(std::string_view task, double done, double seconds_left) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events of a page run for the server: JSON lines through a pipe. Optional views: the first surfaces and
-// presses, later ones within a tenth of the run's time, and the last.
+// Events of a page run for the server: JSON lines, through a pipe or to the page itself. Optional views: the
+// first surfaces and presses, later ones within a tenth of the run's time, and the last.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -65,8 +66,9 @@ std::optional<Json> told_of(std::string_view event, const Json& fields);
 
 class EventChannel final : public cli::RunObserver {
  public:
-  // `views`: folder, created at the first; "": none.
-  EventChannel(int descriptor, std::string views) : descriptor_(descriptor), views_(std::move(views)) {}
+  // `sink`: takes each line. `views`: folder, created at the first; "": none.
+  EventChannel(std::function<void(const std::string&)> sink, std::string views)
+      : sink_(std::move(sink)), views_(std::move(views)) {}
 
   void send(const Json& event);
 
@@ -86,7 +88,7 @@ class EventChannel final : public cli::RunObserver {
   void keep_view(const Seen& seen);
 
   std::mutex mutex_;
-  int descriptor_;
+  std::function<void(const std::string&)> sink_;
   std::string views_;
   std::map<std::string, int> kept_;  // views
   int views_in_all_ = 0, left_out_ = 0;

@@ -2,20 +2,16 @@
 #include "bindings/web/confined/live_script.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,7 +23,6 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/runtime/state_heap.hpp"
 #include "bindings/web/confined/event_channel.hpp"
-#include "bindings/web/sandbox/frames.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
@@ -44,7 +39,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t longest_question = std::size_t{1} << 20, most_printed = std::size_t{64} << 10;
+constexpr std::size_t most_printed = std::size_t{64} << 10;
 constexpr std::size_t most_live_events = 5000, most_live_views = 200;
 constexpr auto time_before_a_newer =
     std::chrono::milliseconds(250);     // before a run yields to a newer question
@@ -55,103 +50,6 @@ constexpr double least_factor = 1.0 / 16;
 double seconds_since(Clock::time_point begun) {
   return std::chrono::duration<double>(Clock::now() - begun).count();
 }
-
-struct Question {
-  std::int64_t move = 0;
-  GivenKnobs knobs;
-  std::string view;
-};
-
-Question question_in(const std::string& text) {
-  const Json json = Json::parse(text, "a question");
-  const auto member = [&](const char* name) -> const Json& {
-    const Json* found = json.find(name);
-    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
-    return *found;
-  };
-  Question question;
-  question.move = static_cast<std::int64_t>(member("move").number());
-  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
-  question.view = member("view").string();
-  return question;
-}
-
-// The newest question, and the run that it may interrupt.
-class Questions {
- public:
-  explicit Questions(int socket) : socket_(socket), listener_([this] { listen(); }) { listener_.detach(); }
-
-  // Blocks.
-  Question next() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_.has_value(); });
-    return *std::exchange(waiting_, std::nullopt);
-  }
-  bool newer() {
-    const std::lock_guard lock(mutex_);
-    return waiting_.has_value();
-  }
-
-  // A newer question interrupts the run, from `makes_way` on.
-  class Running {
-   public:
-    Running(Questions& questions, lua_State* L, Clock::time_point makes_way) : questions_(questions) {
-      questions_.watch(L, makes_way);
-    }
-    ~Running() { questions_.watch(nullptr, {}); }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
-
-   private:
-    Questions& questions_;
-  };
-
- private:
-  void listen() {
-    for (;;) {
-      pollfd watched{socket_, POLLIN, 0};
-      if (::poll(&watched, 1, pause()) > 0) {
-        const auto texts = receive_frame(socket_, longest_question);
-        if (!texts || texts->size() != 1) std::_Exit(0);  // the asker has left
-        try {
-          Question question = question_in(texts->front());
-          const std::lock_guard lock(mutex_);
-          waiting_ = std::move(question);
-          changed_.notify_one();
-        } catch (const Error&) {
-          std::_Exit(1);
-        }
-      }
-      const std::lock_guard lock(mutex_);
-      if (!waiting_ || state_ == nullptr || Clock::now() < makes_way_) continue;
-      stop_flag().raise(StopReason::interrupt);
-      lua::interrupt(state_);
-      state_ = nullptr;
-    }
-  }
-
-  // Milliseconds until the run yields; -1: no limit.
-  int pause() {
-    const std::lock_guard lock(mutex_);
-    if (!waiting_ || state_ == nullptr) return -1;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(makes_way_ - Clock::now());
-    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 10000));
-  }
-
-  void watch(lua_State* L, Clock::time_point makes_way) {
-    const std::lock_guard lock(mutex_);
-    state_ = L;
-    makes_way_ = makes_way;
-  }
-
-  const int socket_;
-  std::mutex mutex_;  // guards the members below
-  std::condition_variable changed_;
-  std::optional<Question> waiting_;
-  lua_State* state_ = nullptr;
-  Clock::time_point makes_way_;
-  std::thread listener_;
-};
 
 // Stores each warning once.
 class LiveMonitor final : public Monitor {
@@ -209,14 +107,43 @@ Json output_event(const char* stream, const std::string& text) {
   return Json::object({{"type", "output"}, {"stream", stream}, {"text", text}});
 }
 
-class LiveScript {
+// A newer question interrupts the run of this state, from `makes_way` on.
+class Interruptible {
  public:
-  LiveScript(const ConfinedRequest& request, int socket)
+  Interruptible(KnobAsker& asker, lua_State* L, Clock::time_point makes_way) : asker_(asker) {
+    asker_.watch(L, makes_way);
+  }
+  ~Interruptible() { asker_.watch(nullptr, {}); }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  KnobAsker& asker_;
+};
+
+}  // namespace
+
+KnobQuestion knob_question(const std::string& text) {
+  const Json json = Json::parse(text, "a question");
+  const auto member = [&](const char* name) -> const Json& {
+    const Json* found = json.find(name);
+    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
+    return *found;
+  };
+  KnobQuestion question;
+  question.move = static_cast<std::int64_t>(member("move").number());
+  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
+  question.view = member("view").string();
+  return question;
+}
+
+class LiveScript::Runner {
+ public:
+  Runner(const ConfinedRequest& request, KnobAsker& asker)
       : request_(request),
-        socket_(socket),
+        asker_(asker),
         memory_(std::min(std::int64_t{256} << 20, request.confinement.memory_bytes / 4)),
-        unlinked_(request.confinement.file_bytes),
-        questions_(socket) {
+        unlinked_(request.confinement.file_bytes) {
     set_thread_count(request.threads);
     lua::limit_memory(request.confinement.memory_bytes);
     draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
@@ -224,8 +151,21 @@ class LiveScript {
     });
   }
 
-  [[noreturn]] void answer_all() {
-    for (;;) answer(questions_.next());
+  void answer(const KnobQuestion& question) {
+    const double factor = coarse_factor();
+    bool answered = false;
+    if (factor < 1) {
+      answered = pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
+      if (!answered) too_coarse_ = factor;
+    }
+    // A newer question replaces the full answer after a coarse one. Without a coarse answer, the run gets the
+    // last run's time: a moving knob needs answers.
+    if (answered && asker_.newer()) return say_outdated(question);
+    const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
+    pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
+                                                : std::max<Clock::duration>(
+                                                      time_before_a_newer,
+                                                      std::chrono::duration_cast<Clock::duration>(usual)))});
   }
 
  private:
@@ -241,23 +181,6 @@ class LiveScript {
     std::optional<int> exit;  // status from os.exit
   };
 
-  void answer(const Question& question) {
-    const double factor = coarse_factor();
-    bool answered = false;
-    if (factor < 1) {
-      answered = pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
-      if (!answered) too_coarse_ = factor;
-    }
-    // A newer question replaces the full answer after a coarse one. Without a coarse answer, the run gets the
-    // last run's time: a moving knob needs answers.
-    if (answered && questions_.newer()) return say_outdated(question);
-    const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
-    pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
-                                                : std::max<Clock::duration>(
-                                                      time_before_a_newer,
-                                                      std::chrono::duration_cast<Clock::duration>(usual)))});
-  }
-
   // Half the cells a side take about a quarter of the time.
   double coarse_factor() const {
     double factor = 1, seconds = whole_seconds_;
@@ -267,37 +190,29 @@ class LiveScript {
   }
 
   // True if an answer was sent.
-  bool pass(const Question& question, const Pass& pass);
-  std::shared_ptr<RunDirectory> make_run(const Question& question) const;
-  std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
+  bool pass(const KnobQuestion& question, const Pass& pass);
+  std::shared_ptr<RunDirectory> make_run(const KnobQuestion& question) const;
+  std::string run_script(const KnobQuestion& question, const Pass& pass, LiveMonitor& monitor, Found& found,
                          Json& knobs);
-  void say(const Question& question, Found found, Json answer);
-  void say_outdated(const Question& question) {
-    send(Json::object({{"move", question.move}, {"part", "outdated"}}), {});
-  }
-  void send(const Json& answer, const std::vector<std::vector<float>>& fields) {
-    const std::string text = answer.text();
-    std::vector<std::string_view> texts{text};
-    for (const auto& field : fields)
-      texts.emplace_back(reinterpret_cast<const char*>(field.data()), field.size() * sizeof(float));
-    if (!send_frame(socket_, texts)) std::_Exit(0);
+  void say(const KnobQuestion& question, Found found, Json answer);
+  void say_outdated(const KnobQuestion& question) {
+    asker_.send(Json::object({{"move", question.move}, {"part", "outdated"}}), {});
   }
   std::string limit_text() const {
     return "the time limit of " + format_quantity(request_.seconds, dimension::time) + " was reached";
   }
 
   const ConfinedRequest& request_;
-  const int socket_;
+  KnobAsker& asker_;
   ResultMemory memory_;
   Printed printed_;
   cli::UnlinkedFilesBound unlinked_;
-  Questions questions_;
   double whole_seconds_ = 0;  // s, last full computation
   bool first_ = true;
   double too_coarse_ = 0;  // too few cells for the script
 };
 
-bool LiveScript::pass(const Question& question, const Pass& pass) {
+bool LiveScript::Runner::pass(const KnobQuestion& question, const Pass& pass) {
   const Clock::time_point begun = Clock::now();
   const ResultMemory::Counts before = memory_.counts();
   LiveMonitor monitor(memory_);
@@ -343,7 +258,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   return true;
 }
 
-std::shared_ptr<RunDirectory> LiveScript::make_run(const Question& question) const {
+std::shared_ptr<RunDirectory> LiveScript::Runner::make_run(const KnobQuestion& question) const {
   std::error_code ignored;
   fs::remove_all("run", ignored);
   RunSetup setup;
@@ -358,13 +273,13 @@ std::shared_ptr<RunDirectory> LiveScript::make_run(const Question& question) con
 }
 
 // Returns the reason of a failure, or "".
-std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
-                                   Found& found, Json& knobs) {
+std::string LiveScript::Runner::run_script(const KnobQuestion& question, const Pass& pass,
+                                           LiveMonitor& monitor, Found& found, Json& knobs) {
   cli::RunCommand command;
   command.script = request_.name;
   command.seed = static_cast<std::uint64_t>(request_.seed);
   command.knobs = question.knobs;
-  command.limit_time = request_.seconds;
+  if (cli::Watchdog::has_clock) command.limit_time = request_.seconds;
 
   lua::Session session(monitor);
   session.run = make_run(question);
@@ -401,13 +316,15 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
   if (!question.knobs.empty()) digest.add("knobs").add(RunKnobs(question.knobs).given_text());
   session.script_digest = digest.hex();
 
-  cli::Watchdog watchdog(request_.seconds, [&](StopReason) {
-    send(Json::object({{"move", question.move}, {"part", "ended"}, {"why", limit_text()}}), {});
+  const std::optional<double> limit =
+      cli::Watchdog::has_clock ? std::optional(request_.seconds) : std::nullopt;
+  cli::Watchdog watchdog(limit, [&](StopReason) {
+    asker_.send(Json::object({{"move", question.move}, {"part", "ended"}, {"why", limit_text()}}), {});
   });
   const lua::State state = cli::make_state(session, command);
   running_state = state.get();
   const cli::Watchdog::Watching watching(watchdog, state.get());
-  const Questions::Running running(questions_, state.get(), pass.makes_way);
+  const Interruptible running(asker_, state.get(), pass.makes_way);
   const bool good = cli::execute(state.get(), command, request_.script, 0) == LUA_OK;
   knobs = session.knobs->json();
   if (found.exit && *found.exit != 0)
@@ -416,7 +333,7 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
                             : lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
-void LiveScript::say(const Question& question, Found found, Json answer) {
+void LiveScript::Runner::say(const KnobQuestion& question, Found found, Json answer) {
   Json::List views;
   std::map<std::string, int> of_kind;
   const Seen* looked_at = nullptr;
@@ -438,14 +355,13 @@ void LiveScript::say(const Question& question, Found found, Json answer) {
   answer.set("events", std::move(found.events)).set("views", std::move(views));
   if (looked_at != nullptr)
     answer.set("view", Json::object({{"name", name_of_it}, {"title", view.title}, {"fields", view.fields}}));
-  send(answer, view.values);
+  asker_.send(answer, view.values);
 }
 
-}  // namespace
+LiveScript::LiveScript(const ConfinedRequest& request, KnobAsker& asker)
+    : runner_(std::make_unique<Runner>(request, asker)) {}
+LiveScript::~LiveScript() = default;
 
-int run_as_knobs_move(const ConfinedRequest& request, int socket) {
-  LiveScript script(request, socket);
-  script.answer_all();
-}
+void LiveScript::answer(const KnobQuestion& question) { runner_->answer(question); }
 
 }  // namespace asperity::web
