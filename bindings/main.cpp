@@ -19,6 +19,7 @@
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/lua/runtime/version.hpp"
+#include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
@@ -50,7 +51,7 @@ const std::vector<Listed>& commands() {
       {6, cli::cases_command()},
       {7, cli::status_command()},
       {9, cli::repl_command()},
-      {11, cli::lesson_command()},
+      {11, cli::lesson_command(web::lessons_with)},
       {12, cli::help_command(overview)},
       {13, cli::materials_command()},
       {14, cli::version_command()},

@@ -52,6 +52,54 @@ TEST(Lesson, TellsWhatItsOpeningCommentSays) {
   EXPECT_EQ(lesson.script, script);
 }
 
+constexpr std::string_view markdown =
+    "# A title\n"
+    "\n"
+    "**Question:** Why?\n"
+    "\n"
+    "Predict: How much,\n"
+    "and when?\n"
+    "\n"
+    "**Minutes:** 15\n"
+    "\n"
+    "First paragraph,\n"
+    "of two lines.\n"
+    "\n"
+    "Second.\n"
+    "\n"
+    "```lua\n"
+    "local lab = require \"asperity\"\n"
+    "\n"
+    "print(lab)\n"
+    "```\n"
+    "\n"
+    "Notes: for the teacher.\n";
+
+TEST(Lesson, InMarkdownHasTheSameParts) {
+  const Lesson lesson = read_lesson("07_one", script_of_markdown("07_one.md", markdown));
+  EXPECT_EQ(lesson.title, "A title");
+  EXPECT_EQ(lesson.question, "Why?");
+  EXPECT_EQ(lesson.predict, "How much, and when?");
+  EXPECT_EQ(lesson.minutes, 15);
+  EXPECT_EQ(lesson.explanation, "First paragraph,\nof two lines.\n\nSecond.\n");
+  EXPECT_EQ(lesson.notes, "for the teacher.");
+  EXPECT_TRUE(lesson.script.ends_with("\n\nlocal lab = require \"asperity\"\n\nprint(lab)\n"))
+      << lesson.script;
+  EXPECT_EQ(lesson.script.find("Notes"), std::string::npos);
+}
+
+TEST(Lesson, InMarkdownHasOneScript) {
+  const auto refusal = [](std::string_view text) {
+    return test::error_of([&] { script_of_markdown("07_one.md", text); });
+  };
+  EXPECT_EQ(refusal("# A title\n"),
+            "`07_one.md` has 0 blocks ```lua; a lesson in Markdown has its script in one block ```lua");
+  EXPECT_EQ(
+      refusal("# A title\n```lua\nprint(1)\n"),
+      "`07_one.md` has a block ```lua without its end ```; a lesson in Markdown has its script in one block "
+      "```lua");
+}
+
 TEST(Lesson, WithoutAPartIsAnError) {
   EXPECT_EQ(message("07_one", std::string(script)), "");
   EXPECT_EQ(message("one", std::string(script)),

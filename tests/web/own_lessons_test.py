@@ -55,6 +55,25 @@ def test_lessons_of_a_folder_are_read_at_each_request():
             assert "springs" not in listed(server) and server.ask("GET", "/api/lessons/springs").status == 404
 
 
+def test_a_lesson_in_markdown_is_listed_shown_and_run():
+    with tempfile.TemporaryDirectory() as folder:
+        put(folder, "01_springs.md", "# Springs\n\n**Question:** Which spring is stiffer?\n\n**Predict:** By how much?\n\n"
+            "**Minutes:** 5\n\nTwo springs.\n\n```lua\nprint \"a spring\"\n```\n\nNotes: the secret.\n")
+        put(folder, "02_broken.md", "# Broken\n")
+        with Server(runner.program, "--lessons", folder) as server:
+            mine = server.ask("GET", "/api/lessons/springs").json()
+            assert mine["notes"] == "the secret." and mine["text"] == "Two springs.\n"
+            assert 'print "a spring"' in mine["script"] and "secret" not in mine["script"]
+            assert "blocks ```lua" in listed(server)["02_broken.md"]["problem"]
+        def lesson_command(*words):
+            return subprocess.run([runner.program, "lesson", *words, "--lessons", folder], cwd=folder, capture_output=True, text=True)
+        shown = lesson_command()
+        assert "1  springs: Springs (5 min)" in shown.stdout and "02_broken.md is no lesson" in shown.stdout, shown.stdout
+        ran = lesson_command("springs", "--run")
+        assert ran.returncode == 0 and ran.stdout.startswith("a spring"), ran
+        assert lesson_command("02_broken.md").returncode == 2
+
+
 def test_faults_of_lessons_hide_no_other_lesson():
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere:
         put(elsewhere, "secret.lua", lesson)

@@ -4,11 +4,16 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
+}
+namespace asperity::lua {
+struct Lesson;
 }
 
 namespace asperity::cli {
@@ -51,7 +56,9 @@ Command accuracy_command();
 Command cases_command();
 Command check_command();
 Command explain_command();
-Command lesson_command();
+// `with`: the lessons of a teacher's folder, then the program's own; "": the program's own.
+using LessonsWith = std::vector<lua::Lesson> (*)(const std::filesystem::path& folder);
+Command lesson_command(LessonsWith with);
 Command press_log_command();
 Command repl_command();
 Command status_command();

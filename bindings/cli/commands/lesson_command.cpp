@@ -21,6 +21,7 @@ struct LessonCommand {
   std::string name;   // empty: list all
   bool copy = false;  // to the working directory
   bool run = false;
+  std::string folder;  // of more lessons
   RunCommand options;  // of the run
 };
 
@@ -38,10 +39,13 @@ std::string in_lines(const std::string& text, std::size_t indent) {
   return result;
 }
 
-void list() {
-  for (const lua::Lesson& lesson : lua::lessons())
-    std::printf("%d  %s: %s (%d min)\n   %s\n", lesson.number, lesson.name.c_str(), lesson.title.c_str(),
-                lesson.minutes, in_lines(lesson.question, 3).c_str());
+void list(const std::vector<lua::Lesson>& lessons) {
+  for (const lua::Lesson& lesson : lessons)
+    if (!lesson.problem.empty())
+      std::printf("%s is no lesson: %s\n", lesson.file.c_str(), lesson.problem.c_str());
+    else
+      std::printf("%d  %s: %s (%d min)\n   %s\n", lesson.number, lesson.name.c_str(), lesson.title.c_str(),
+                  lesson.minutes, in_lines(lesson.question, 3).c_str());
   std::printf(
       "\nasperity lesson NAME          shows one\n"
       "asperity lesson NAME --copy   puts its script here, to be changed and run\n"
@@ -61,14 +65,15 @@ void copy(const lua::Lesson& lesson) {
 }
 
 // Status: of the run, or 0; 2 for an unknown lesson or an existing file.
-int lesson(const LessonCommand& command) {
+int lesson(const LessonCommand& command, LessonsWith with) {
+  const std::vector<lua::Lesson> all = with(command.folder);
   if (command.name.empty()) {
     if (command.copy || command.run)
       throw Error(ErrorCode::bad_value, "no lesson was named",
                   "name one, as in asperity lesson tilt; asperity lesson lists them");
-    return list(), 0;
+    return list(all), 0;
   }
-  const lua::Lesson& lesson = lua::find_lesson(command.name);
+  const lua::Lesson& lesson = lua::find_lesson(command.name, all);
   if (command.copy) copy(lesson);
   if (command.run) {
     RunCommand run = command.options;
@@ -87,28 +92,31 @@ int lesson(const LessonCommand& command) {
   return 0;
 }
 
-CommandReader declare_lesson(CLI::App& options) {
+CommandReader declare_lesson(CLI::App& options, LessonsWith with) {
   const auto given = std::make_shared<LessonCommand>();
   LessonCommand& asked = *given;
   options.add_option("name", asked.name, "a lesson, by name or number; without it they are listed");
   CLI::Option* copied =
       options.add_flag("--copy", asked.copy, "put its script into this folder, to be changed and run");
   options.add_flag("--run", asked.run, "run it as it is")->excludes(copied);
+  options.add_option("--lessons", asked.folder, "a folder of lessons of your own, listed first")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   add_run_options(options, asked.options);
 
-  return [given]() -> CommandWork { return [given] { return lesson(*given); }; };
+  return [given, with]() -> CommandWork { return [given, with] { return lesson(*given, with); }; };
 }
 
 }  // namespace
 
-Command lesson_command() {
+Command lesson_command(LessonsWith with) {
   return {.name = "lesson",
           .sentence = "lessons that come with the program: lists them, shows one, copies or runs it",
           .overview =
               "asperity lesson [NAME]                         lessons: a question, a prediction, a run that "
               "tells why\n",
           .prints = Prints::of_script,
-          .declare = declare_lesson};
+          .declare = [with](CLI::App& options) { return declare_lesson(options, with); }};
 }
 
 }  // namespace asperity::cli

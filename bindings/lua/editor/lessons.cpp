@@ -41,7 +41,7 @@ struct LessonParts {
 };
 
 using LessonKeys = std::span<const char* const>;
-constexpr std::array in_head{"Question", "Predict", "Minutes", "Code", "Notes"};
+constexpr std::array in_lesson_head{"Question", "Predict", "Minutes", "Code", "Notes"};
 constexpr std::array after_lesson{"Notes"};
 constexpr std::array after_text{"Reason", "Answers", "Replies"};
 
@@ -65,7 +65,7 @@ LessonParts lesson_parts(const LessonLines& lines, LessonKeys later) {
     } else if (head && without_margins(line).empty()) {
       head = false;
       key.clear();
-    } else if (const std::string begun = lesson_key(line, head ? LessonKeys(in_head) : later, at);
+    } else if (const std::string begun = lesson_key(line, head ? LessonKeys(in_lesson_head) : later, at);
                !begun.empty()) {
       key = begun;
       parts.of[key] = line.substr(at);
@@ -159,6 +159,43 @@ Lesson read_lesson(std::string_view stem, std::string_view script) {
   return lesson;
 }
 
+std::string script_of_markdown(std::string_view file, std::string_view text) {
+  std::string head, code;
+  int blocks = 0;
+  bool in_code = false, in_head = true, paragraph = false;
+  for (std::string line : lesson_lines(text)) {
+    if (in_code && line == "```") {
+      in_code = false;
+    } else if (in_code) {
+      code += line + "\n";
+    } else if (line == "```lua") {
+      in_code = true;
+      ++blocks;
+    } else {
+      if (head.empty() && line.starts_with("# ")) line.erase(0, 2);
+      if (line.starts_with("**"))
+        if (const std::size_t end = line.find(":**"); end != std::string::npos)
+          line = line.substr(2, end - 1) + line.substr(end + 3);
+      std::size_t at = 0;
+      const bool blank = without_margins(line).empty();
+      const bool key = !lesson_key(line, in_lesson_head, at).empty();
+      // Blank lines separate the paragraphs of the head; the first other paragraph ends the head.
+      if (in_head && !head.empty() && !blank && !key && !paragraph) {
+        head += "--\n";
+        in_head = false;
+      }
+      paragraph = !blank && !head.empty();
+      if (!in_head || !blank) head += blank ? "--\n" : "-- " + line + "\n";
+    }
+  }
+  if (blocks != 1 || in_code)
+    throw Error(ErrorCode::bad_file,
+                in_code ? quoted(file) + " has a block ```lua without its end ```"
+                        : quoted(file) + " has " + std::to_string(blocks) + " blocks ```lua",
+                "a lesson in Markdown has its script in one block ```lua");
+  return head + "\n" + code;
+}
+
 LessonTexts read_lesson_texts(std::string_view file, std::string_view text) {
   LessonParts parts = lesson_parts(lesson_lines(text), after_text);
   LessonTexts texts = lesson_texts(parts);
@@ -183,9 +220,13 @@ const std::vector<Lesson>& lessons() {
   return all;
 }
 
-const Lesson& find_lesson(std::string_view called) {
+const Lesson& find_lesson(std::string_view called, const std::vector<Lesson>& all) {
   std::vector<std::string> names;
-  for (const Lesson& lesson : lessons()) {
+  for (const Lesson& lesson : all) {
+    if (!lesson.problem.empty()) {
+      if (called == lesson.file) throw Error(ErrorCode::bad_file, lesson.problem);
+      continue;
+    }
     const std::string stem = lesson.file.substr(0, lesson.file.size() - 4);
     if (called == lesson.name || called == lesson.file || called == stem ||
         called == std::to_string(lesson.number))

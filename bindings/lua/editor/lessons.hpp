@@ -37,11 +37,14 @@ struct Lesson : LessonTexts {
 const std::vector<Lesson>& lessons();
 
 // By name ("tilt"), number ("6") or file ("06_tilt", "06_tilt.lua"). Throws Error{unknown_name} with the
-// nearest name.
-const Lesson& find_lesson(std::string_view called);
+// nearest name, Error{bad_file} for a file that is no lesson.
+const Lesson& find_lesson(std::string_view called, const std::vector<Lesson>& all = lessons());
 
 // `stem`: "06_tilt". Throws Error{bad_file} for a missing part or a mistake in Lua's grammar.
 Lesson read_lesson(std::string_view stem, std::string_view script);
+// The Lua script of a lesson in Markdown: `# Title`, paragraphs `Question: ...` and so on (the key perhaps
+// **bold**), the explanation, one block ```lua, perhaps `Notes: ...`. Throws Error{bad_file} with `file`.
+std::string script_of_markdown(std::string_view file, std::string_view text);
 // Throws Error{bad_file}, with `file`, for a line that is no `NAME: text` under Answers or Replies.
 LessonTexts read_lesson_texts(std::string_view file, std::string_view text);
 
