@@ -1,5 +1,5 @@
-# Bundles the page of `asperity serve` at build time:
-#   cmake -DSOURCE=bindings/web/page -DWORK=.. -DOUTPUT=.. -DNPM=npm -DNODE=node -DTESTS=ON -P BuildPage.cmake
+# Bundles the page at build time, that of `asperity serve` or, with MODULE, that of static files:
+#   cmake -DSOURCE=bindings/web/page -DWORK=.. -DOUTPUT=.. -DNPM=npm -DNODE=node -DTESTS=ON [-DMODULE=..] -P BuildPage.cmake
 # The sources are copied, so that nothing is written beside them. Packages are those of package-lock.json, checked by
 # their digests, and run no install scripts; they are fetched again only when the lock file changes. Whatever fails is
 # said, and stops nothing: the program does without the page.
@@ -10,7 +10,7 @@ function(give_up what log)
     math(EXPR from "${length} - 1500")
     string(SUBSTRING "${log}" ${from} -1 log)
   endif()
-  message(WARNING "the page of `asperity serve` is not built: ${what}\n${log}")
+  message(WARNING "the page is not built: ${what}\n${log}")
 endfunction()
 
 file(REMOVE_RECURSE ${WORK}/src)
@@ -46,7 +46,7 @@ if(NOT have STREQUAL wanted)
   file(WRITE ${WORK}/node_modules/.asperity "${wanted}")
 endif()
 
-execute_process(COMMAND ${NODE} build.mjs ${OUTPUT} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed
+execute_process(COMMAND ${NODE} build.mjs ${OUTPUT} ${MODULE} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE failed
                 OUTPUT_VARIABLE log ERROR_VARIABLE log)
 if(failed)
   give_up("its sources could not be bundled" "${log}")

@@ -23,8 +23,12 @@ if(CMAKE_UNITY_BUILD)
   target_compile_options(asperity_options INTERFACE -Wno-shadow
                          $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
-# For code that waits for the engine: bindings and tests.
-set(ASPERITY_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
+# For code that waits for the engine: bindings and tests. A page has to load it.
+if(EMSCRIPTEN)
+  set(ASPERITY_LIGHT_OPTIMISATION -Oz)
+else()
+  set(ASPERITY_LIGHT_OPTIMISATION $<$<CONFIG:Release>:-O1>)
+endif()
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
 target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)

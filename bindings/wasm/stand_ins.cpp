@@ -15,6 +15,7 @@
 #include <string>
 
 #include "bindings/cli/watchdog.hpp"
+#include "bindings/web/api/lesson_folder.hpp"
 #include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
@@ -101,6 +102,11 @@ bool to_be_confined(const cli::ReplayCommand& command) { return command.run.conf
 int run_behind_barriers(const cli::RunCommand&) { refuse_absent("`--confined` needs a process", native); }
 int replay_behind_barriers(const cli::ReplayCommand&) {
   refuse_absent("`--confined` needs a process", native);
+}
+
+std::vector<lua::Lesson> lessons_with(const std::filesystem::path& folder) {
+  if (!folder.empty()) refuse_absent("`--lessons` needs the file functions of Linux", native);
+  return lua::lessons();
 }
 
 cli::Command serve_command() {

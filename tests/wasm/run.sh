@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The program of the wasm preset under node, from a folder without the repository: checks, runs, explains, and
-# replays native runs of all lessons without a difference. Prints a table of times and memory.
+# The program of the wasm preset: under node, from a folder without the repository, it checks, runs, explains, and
+# replays native runs of all lessons without a difference; then the page in Chromium. Prints times and memory.
 #
 #   tests/wasm/run.sh NATIVE_PROGRAM WASM_FOLDER [LESSON..]
 set -euo pipefail
-native=$(readlink -f "$1") module=$(readlink -f "$2")
+native=$(readlink -f "$1") module=$(readlink -f "$2") here=$(dirname -- "$(readlink -f "$0")")
 shift 2
-lessons=${*:-$(seq 1 10)}
+lessons=${*:-1 2 3 4 5 6 7 8 9 10}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$module"/asperity.js "$module"/asperity.wasm "$folder"
@@ -67,3 +67,12 @@ for absent in "serve" "run press.lua --confined" "run press.lua --limit-time 5s"
   ! measured node --no-experimental-fetch asperity.js $absent || fail "$absent is not refused"
   grep -q WebAssembly out || { cat out; fail "$absent: the reason is missing"; }
 done
+
+[ -d "$module/site" ] || fail "$module/site is missing: build the target asperity_site"
+bytes=0
+for file in "$module"/site/*.js "$module"/site/*.css "$module"/site/*.html "$module"/site/*.wasm; do
+  bytes=$((bytes + $(gzip -9 <"$file" | wc -c)))
+done
+echo "the page: $bytes bytes after gzip -9, without documents"
+ASPERITY_ALONE=$module/site ASPERITY_PROGRAM=$native ASPERITY_PAGE_BUILD=$module ASPERITY_LESSONS=$lessons \
+  CHROMIUM=${CHROMIUM:-$(command -v chromium)} node --test "$here/page_test.mjs"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles the page: node build.mjs [OUTPUT]. Writes index.html, page.js with the chunks it loads later,
+// Bundles the page: node build.mjs [OUTPUT [MODULE]]. MODULE: the folder of module.js and module.wasm; with it,
+// the page needs no server and works offline. Writes index.html, page.js with the chunks it loads later,
 // page.css, the icon and THIRD_PARTY.txt with the licence of every package in the bundle. A
 // package without a licence text, or with a licence not known to be compatible with the GPL, stops the build.
 
@@ -12,6 +13,7 @@ import { gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const output = resolve(process.argv[2] ?? join(here, 'dist'));
+const module = process.argv[3];
 const allowed = new Set(['MIT', 'ISC', 'BSD-2-Clause', 'BSD-3-Clause', '0BSD', 'Apache-2.0', 'CC0-1.0']);
 
 rmSync(output, { recursive: true, force: true });
@@ -19,7 +21,7 @@ mkdirSync(output, { recursive: true });
 
 // A saved run contains its style and script as text, and the script's digest in the content policy. The digest is
 // computed here, because browsers offer no digests to a page over plain HTTP from another machine.
-async function textOf(file) {
+async function textOf(file, define = {}) {
   const made = await build({
     absWorkingDir: here,
     entryPoints: [file],
@@ -29,6 +31,7 @@ async function textOf(file) {
     minify: true,
     legalComments: 'none',
     charset: 'utf8',
+    define,
     write: false,
     logLevel: 'warning',
   });
@@ -50,12 +53,30 @@ const result = await build({
   minify: true,
   legalComments: 'none',
   metafile: true,
-  define: { SAVED: JSON.stringify(saved) },
+  define: { SAVED: JSON.stringify(saved), ALONE: String(Boolean(module)) },
   charset: 'utf8',
   logLevel: 'warning',
 });
 await build({ absWorkingDir: here, entryPoints: ['src/page.css'], outdir: output, minify: true, logLevel: 'warning' });
 for (const file of ['index.html', 'icon.svg']) copyFileSync(join(here, 'src', file), join(output, file));
+if (module) await addModule();
+
+// Without a server, the content policy stands in the page.
+async function addModule() {
+  const policy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
+    "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'";
+  const page = join(output, 'index.html');
+  const head = `<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="${policy}">`;
+  writeFileSync(page, readFileSync(page, 'utf8').replace('<meta charset="utf-8">', head));
+  for (const file of ['module.js', 'module.wasm']) copyFileSync(join(module, file), join(output, file));
+  writeFileSync(join(output, 'worker.js'), await textOf('src/alone/worker.ts'));
+  const files = readdirSync(output).sort();
+  const digest = createHash('sha256');
+  for (const file of files) digest.update(readFileSync(join(output, file)));
+  const define = { FILES: JSON.stringify(['./', ...files]), VERSION: JSON.stringify(digest.digest('hex').slice(0, 16)) };
+  writeFileSync(join(output, 'offline.js'), await textOf('src/alone/offline.ts', define));
+}
 
 const packages = new Map();
 for (const file of Object.keys(result.metafile.inputs)) {
@@ -79,7 +100,7 @@ writeFileSync(
 );
 
 for (const file of readdirSync(output)
-  .filter((f) => /\.(js|css|html)$/.test(f))
+  .filter((f) => /\.(js|css|html|wasm)$/.test(f))
   .sort()) {
   const text = readFileSync(join(output, file));
   console.log(

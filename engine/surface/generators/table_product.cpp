@@ -28,6 +28,7 @@ namespace {
 // Below Eigen's choice for a first cache of 32 KiB.
 constexpr int stretch = 128;
 
+#if !defined(__EMSCRIPTEN__)
 using LeftTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>,
                              Eigen::Unaligned, Eigen::OuterStride<>>;
 using RightTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>,
@@ -40,9 +41,31 @@ bool caches_fixed() {
   Eigen::setCpuCacheSizes(first, second, third);
   return true;
 }
+#endif
 
 }  // namespace
 
+#if defined(__EMSCRIPTEN__)
+// Eigen has no vectors for WebAssembly, and without vectors it sums in another order. These are the sums of
+// its vectors.
+void add(int rows, int columns, int depth, const double* left, std::ptrdiff_t left_stride,
+         const double* right, std::ptrdiff_t right_stride, double* sum, std::ptrdiff_t sum_stride) {
+  constexpr int lanes = 8;
+  static_assert(row_step % lanes == 0);
+  for (int first = 0; first < depth; first += stretch) {
+    const int end = std::min(first + stretch, depth);
+    for (int column = 0; column < columns; ++column) {
+      for (int row = 0; row < rows; row += lanes) {
+        double here[lanes] = {};
+        for (int k = first; k < end; ++k)
+          for (int lane = 0; lane < lanes; ++lane)
+            here[lane] += left[k * left_stride + row + lane] * right[k * right_stride + column];
+        for (int lane = 0; lane < lanes; ++lane) sum[column * sum_stride + row + lane] += here[lane];
+      }
+    }
+  }
+}
+#else
 void add(int rows, int columns, int depth, const double* left, std::ptrdiff_t left_stride,
          const double* right, std::ptrdiff_t right_stride, double* sum, std::ptrdiff_t sum_stride) {
   [[maybe_unused]] static const bool fixed = caches_fixed();
@@ -54,5 +77,6 @@ void add(int rows, int columns, int depth, const double* left, std::ptrdiff_t le
     to.noalias() += a * b;
   }
 }
+#endif
 
 }  // namespace asperity::table_product

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The typed interface to the server; all requests are made here. The token arrives in the address fragment,
+// The typed interface to the laboratory, and to the server behind it; all requests to a server are made here. The token arrives in the address fragment,
 // which browsers never send. It moves to the tab's session storage at once, hidden from projectors, and is
 // sent only in the Authorization header.
 
@@ -60,7 +60,7 @@ export interface SharedScript {
 
 export interface About {
   version: string;
-  limits: { memory_bytes: number; seconds: number; output_bytes: number; runs: number };
+  limits?: { memory_bytes: number; seconds: number; output_bytes: number; runs: number };
   classroom?: boolean;
   documents?: boolean;
   teacher?: boolean;
@@ -173,7 +173,10 @@ function decoded(text: string): string | null {
   }
 }
 
-export class Api {
+/** Of the server, or of the page alone (alone/laboratory.ts). */
+export type Api = Pick<Server, keyof Server>;
+
+export class Server {
   /** Null if the address is damaged. */
   private readonly token: string | null;
 

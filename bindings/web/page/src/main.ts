@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `asperity serve`: connects the panes, which know only their run and the server's interface.
+// The page: connects the panes, which know only their run and the laboratory's interface. The laboratory is
+// the server, or the WebAssembly module in a page of static files.
 
-import { Api, ApiError, runKey, tokenHint, type About, type Mark } from './api';
+import { takeDrops } from './alone/dropped';
+import { Laboratory } from './alone/laboratory';
+import { linked } from './alone/linked';
+import { ApiError, runKey, Server, tokenHint, type About, type Api, type Mark } from './api';
 import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
@@ -14,6 +18,7 @@ import { LessonsPane, type Opened } from './lessons_pane';
 import { Live, type Followed, type LivePicture } from './live';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
+import { newcomer } from './newcomer';
 import type { Guess } from './prediction_box';
 import { HelpButton, Room } from './room';
 import { endText, errorText, leftText, limitsText, readStudy, Run, statusText } from './run';
@@ -23,37 +28,11 @@ import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './stor
 import { TablePane } from './table_pane';
 import { Wall } from './wall';
 
-const newcomer = `local lab = require "asperity"
-
--- A rough face, pressed by a rigid flat:
--- how much of it touches?
--- Run it, then move the slider.
-local pressure = lab.knob{ name="pressure",
-  from="1 MPa", to="500 MPa",
-  value="50 MPa", log=true }
-
-local face = lab.surface.self_affine{
-  cells=256, size="100 um", hurst=0.8,
-  ra="0.2 um", short_wave="3 um",
-  material=lab.material "Al-2011" }
-local contact = lab.contact{
-  lower=face, upper=lab.rigid,
-  boundary="periodic",
-  effects={ elasticity="half_space" } }
-
-local st = contact:press{
-  pressure=pressure }
-local area = st.area_fraction
-print(("%.2f %% touches"):format(100 * area))
-
-local book = lab.notebook "area"
-book:write{
-  ["pressure [Pa]"]=pressure, area=area }
-`;
-
 const oneColumn = 1150; // px, as in page.css
 
-const api = new Api();
+declare const ALONE: boolean; // by build.mjs: static files, without a server
+const here = ALONE ? new Laboratory() : undefined;
+const api: Api = here ?? new Server();
 const messages = new Messages(() => void greet());
 const { say, failed } = messages;
 const status = byId('status');
@@ -510,6 +489,13 @@ async function greet(): Promise<void> {
 
 async function firstLessons(): Promise<void> {
   await lessons.list();
+  const link = here && (await linked(here));
+  if (link?.kind === 'lesson') return lessons.show(link.name, true);
+  if (link) {
+    const { name: title, script: original } = link;
+    const key = `linked.${title}`;
+    return open({ key, title, script: link.kind === 'script' ? original : (keptScript(key) ?? original), original });
+  }
   if (openBefore.startsWith('lesson.')) await lessons.show(openBefore.slice(7), false);
 }
 
@@ -541,12 +527,21 @@ byId('reset').addEventListener('click', () => {
 byId('save-script').addEventListener('click', () =>
   saveAs(`${fileName()}.lua`, new Blob([editor.text], { type: 'text/plain;charset=utf-8' })),
 );
-offerFiles((text) => {
+function openText(text: string): void {
   open(ownScript(text));
   keepScript('own', text);
   void lessons.list();
   editor.focus();
-}, messages);
+}
+offerFiles(openText, messages);
+if (here)
+  takeDrops(here, messages, {
+    opened: openText,
+    replayed: (folder) => {
+      if (run?.active) return;
+      here.replay(folder).then(({ id }) => follow(new Run(id, `Replay of ${folder}`, ''), 'replay'), failed);
+    },
+  });
 byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
 byId('script-button').addEventListener('click', () => {
   showPane('script', byId('script').hidden);
@@ -597,4 +592,5 @@ showStatus();
 draw();
 resume();
 void greet();
+if (here) navigator.serviceWorker?.register('offline.js').catch(() => undefined); // only works without
 performance.mark('asperity-ready');

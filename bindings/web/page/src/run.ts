@@ -226,6 +226,7 @@ export function leftText(p: EventOf<'progress'>): string {
 }
 
 export function limitsText(a: About): string {
+  if (!a.limits) return `Asperity ${a.version}, in this browser. Scripts and files do not leave it.`;
   const { seconds, memory_bytes: memory, output_bytes: output, runs } = a.limits;
   return (
     `Asperity ${a.version}. A run may take ${duration(seconds)}, ${bytes(memory)} of memory, ` +

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Messages between the page and a worker that holds one instance of the WebAssembly module.
+
+export type Files = Map<string, Uint8Array>; // by path
+
+/** The first message has the compiled module; each worker does one kind of work. */
+export type Task =
+  | { module: WebAssembly.Module }
+  | { ask: string } // JSON, as bindings/wasm/page.cpp takes it
+  | { run: string; files: Files } // JSON
+  | { command: string[]; files: Files }
+  | { move: string }; // JSON
+
+export type Told =
+  | { answer: string } // JSON
+  | { line: string } // an event in JSON
+  | { stream: 'out' | 'err'; text: string }
+  | { facts: string; numbers: Float32Array[] } // of a live script
+  | { moved: true }
+  | { exit: number; files: Files }
+  | { failure: string }; // the module is lost

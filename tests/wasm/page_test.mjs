@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page without a server, in Chromium: static files from a folder. ASPERITY_ALONE is the folder,
+// ASPERITY_PROGRAM the native program, ASPERITY_PAGE_BUILD the build folder with the test packages.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import * as on from '../page/browser.mjs';
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml' };
+const folder = mkdtempSync(join(tmpdir(), 'asperity-'));
+let browser, server, url;
+
+const serve = () =>
+  new Promise((ready) => {
+    server = createServer((request, answer) => {
+      const path = new URL(request.url, 'http://here').pathname;
+      const file = join(process.env.ASPERITY_ALONE, path === '/' ? 'index.html' : path);
+      try {
+        const bytes = readFileSync(file);
+        answer.writeHead(200, { 'Content-Type': types[extname(file)] ?? 'application/octet-stream' }).end(bytes);
+      } catch {
+        answer.writeHead(404).end();
+      }
+    });
+    server.listen(url ? Number(new URL(url).port) : 0, '127.0.0.1', ready);
+  });
+
+before(async () => {
+  browser = await on.openBrowser();
+  await serve();
+  url = `http://127.0.0.1:${server.address().port}/`;
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+  rmSync(folder, { recursive: true });
+});
+
+const visit = (options, act) => on.visit(browser, url, options, act);
+const native = (...words) => execFileSync(process.env.ASPERITY_PROGRAM, words, { cwd: folder, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+
+/** Drops files or folders of this machine on the page. */
+async function drop(page, ...files) {
+  const session = await page.createCDPSession();
+  const data = { items: [], files, dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver', 'drop'])
+    await session.send('Input.dispatchDragEvent', { type, x: 700, y: 300, data });
+  await session.detach();
+}
+
+const press = (cells) => `local lab = require "asperity"
+local plate = lab.surface.self_affine{ cells=${cells}, size="1 mm", hurst=0.8, rms_slope=0.1, short_wave="64 um",
+                                       material=lab.material "steel" }
+local pressure = lab.knob{ name="pressure", from="10 MPa", to="400 MPa", value="100 MPa" }
+local c = lab.contact{ lower=plate, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+local st = c:press{ pressure=pressure }
+print(("%.17g"):format(st.area_fraction))
+`;
+
+test('Start, RunsTheFirstScriptAndTellsTheTime', () =>
+  visit({}, async (page) => {
+    await on.run(page, press(256));
+    await on.finished(page);
+    writeFileSync(join(folder, 'press.lua'), press(256));
+    const expected = native('run', 'press.lua', '--threads', '1').trim();
+    await on.openTab(page, 'output');
+    assert.ok((await on.text(page, '.output')).startsWith(expected), 'the native program prints the same digits');
+    console.log(`# ${await on.text(page, '#status')} (the first run)`);
+    await on.run(page, press(256));
+    await on.finished(page);
+    console.log(`# ${await on.text(page, '#status')} (the second)`);
+  }));
+
+test('Requests, AllGoToThePagesHost', async () => {
+  const page = await on.openPage(browser, null);
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.goto(url);
+  await on.ready(page);
+  await on.run(page, press(64));
+  await on.finished(page);
+  assert.ok(asked.length > 5);
+  for (const address of asked) assert.ok(address.startsWith(url) || /^(blob|data):/.test(address), address);
+  await page.done();
+});
+
+test('Knob, MovesThePicture', () =>
+  visit({}, async (page) => {
+    await on.run(page, press(128));
+    await on.finished(page);
+    await on.openTab(page, 'picture');
+    await page.waitForSelector('.relief');
+    await on.typeKnob(page, '200 MPa');
+    await on.until(
+      page,
+      () => document.querySelector('.relief').getAttribute('aria-label')?.includes('200 MPa'),
+      'the picture should follow the knob',
+    );
+  }));
+
+test('Stop, EndsAnEndlessScriptAndTheNextOneRuns', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'print "begun"\nwhile true do end\n');
+    await on.until(page, () => document.querySelector('.output').textContent.includes('begun'), 'it should print');
+    await page.click('#stop');
+    await on.finished(page, 'Stopped');
+    await on.run(page, 'print(6 * 7)\n');
+    await on.finished(page);
+    assert.match(await on.text(page, '.output'), /^42/);
+  }));
+
+test('Failures, NameLineAndCause', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'local lab = require "asperity"\nlab.surface.flat{ cells=-1 }\n');
+    await on.finished(page, 'Failed');
+    assert.match(await on.text(page, '#output'), /line 2/i);
+    await on.run(page, 'os.exit(3)\n');
+    await on.finished(page, 'Failed');
+  }));
+
+test('Lesson, ShowsItsChart', () =>
+  visit({}, async (page) => {
+    await page.evaluate(() => [...document.querySelectorAll('.lessons button')].at(6).click());
+    await on.until(page, () => document.querySelector('#script-title').textContent !== 'Your own script', 'the lesson should open');
+    await page.click('#run');
+    await page.waitForSelector('#banner:not([hidden]) button, #stop:not([disabled])');
+    await page.evaluate(() => [...document.querySelectorAll('#banner button')].find((b) => b.textContent === 'Run anyway')?.click());
+    await on.finished(page);
+    await on.openTab(page, 'chart');
+    await page.waitForSelector('.chart svg circle, .chart svg path');
+    await on.assertAccessible(page, 'a lesson with its chart');
+  }));
+
+test('Drop, OfAFileLetsScriptsReadIt', () =>
+  visit({}, async (page) => {
+    writeFileSync(join(folder, 'heights.csv'), '0,1,2\n3,4,5\n6,7,8\n');
+    await drop(page, join(folder, 'heights.csv'));
+    await on.until(page, () => /heights\.csv/.test(document.querySelector('#banner').textContent), 'the page should say so');
+    await on.run(page, 'for line in io.lines "heights.csv" do print(line) end\n');
+    await on.finished(page, 'Done|Failed');
+    assert.match(await on.text(page, '.output'), /0,1,2/);
+  }));
+
+for (const lesson of (process.env.ASPERITY_LESSONS ?? '6').split(' '))
+  test(`Drop, OfARunReplaysIt, Lesson${lesson}`, () =>
+    visit({}, async (page) => {
+      const name = `lesson-${lesson}`;
+      native('lesson', lesson, '--run', '--threads', '1', '--out', name);
+      await drop(page, join(folder, name));
+      await on.finished(page, 'Done|Failed');
+      const said = await on.text(page, '#output');
+      assert.match(said, /the same again/, said);
+    }));
+
+test('Documents, LinkToTheirScriptsExamplesAndLessons', async () => {
+  const page = await on.openPage(browser, `${url}docs/gallery.html`);
+  const links = await page.$$eval('a', (all) => all.filter((a) => a.textContent === 'Run it here').map((a) => a.href));
+  assert.ok(links.length >= 20, `${links.length} links`);
+  await page.goto(`${url}docs/tour.html`);
+  links.push(...(await page.$$eval('a', (all) => all.filter((a) => a.textContent === 'Run it here').map((a) => a.href))));
+  await page.done();
+  const opened = async (link, title, text) => {
+    const to = await on.openPage(browser, link);
+    await on.ready(to);
+    await on.until(to, (t) => document.querySelector('#script-title').textContent === t, `${link} should open ${title}`, title);
+    assert.match(await on.editorText(to), text);
+    await on.assertQuiet(to);
+    await to.done();
+  };
+  const one = (begin) => links.find((link) => link.startsWith(`${url}index.html#${begin}`));
+  await opened(one('example=paper/'), 'paper/fig1_grain.lua', /Fig\. 1/);
+  await opened(`${url}index.html#example=replay_press_log.lua`, 'replay_press_log.lua', /press_recording/);
+  await opened(one('lesson=roughness'), 'What roughness is, and what a stylus misses', /require "asperity"/);
+  await opened(one('script='), 'From the documents', /require "asperity"/);
+});
+
+test('Offline, ThePageOpensAndRuns', async () => {
+  const page = await on.openPage(browser, url);
+  await on.ready(page);
+  await page.evaluate(async () => {
+    await navigator.serviceWorker.ready;
+  });
+  server.closeAllConnections();
+  await new Promise((closed) => server.close(closed));
+  await page.reload();
+  await on.ready(page);
+  await on.run(page, 'print "offline"\n');
+  await on.finished(page);
+  assert.match(await on.text(page, '.output'), /offline/);
+  await page.done();
+  await serve();
+});
+
+test('Window, Of390PixelsIsUsable', () =>
+  visit({ width: 390, height: 844 }, async (page) => {
+    await on.run(page, press(64));
+    await on.finished(page);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= 390, `${wide} px`);
+    await on.assertAccessible(page, 'at 390 px');
+  }));
