@@ -3,6 +3,7 @@
 // on 256 x 256 nodes, in headless Chromium without a graphics card. Two paces: one move every 300 ms and every
 // 700 ms. Every move has a new value, so that no press comes from memory.
 //   sh tests/page/run.sh $PWD/bench/page_follow.mjs $PWD/build/release $PWD/build/release/asperity
+// With ASPERITY_ALONE=build/wasm/site: the page of static files, for a press on 128 x 128 nodes.
 
 import { spawn, spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -11,9 +12,10 @@ import { join } from 'node:path';
 import * as on from '../tests/page/browser.mjs';
 
 const moves = 40; // at each pace
+const alone = process.env.ASPERITY_ALONE;
 const script = `local lab = require "asperity"
 local p = lab.knob{ name="pressure", from="1 MPa", to="900 MPa", value="1 MPa", log=true }
-local s = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_height="1 um", short_wave="20 um",
+local s = lab.surface.self_affine{ cells=${alone ? 128 : 256}, size="1 mm", hurst=0.8, rms_height="1 um", short_wave="20 um",
   material=lab.material "Al-2011" }
 local c = lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
 print("area", c:press{ pressure=p }.area_fraction)
@@ -32,10 +34,10 @@ async function addressOf(server) {
   let said = '';
   for await (const data of server.stdout) {
     said += data;
-    const found = /http:\/\/\S+#\S+/.exec(said);
+    const found = (alone ? /http:\/\/\S+\// : /http:\/\/\S+#\S+/).exec(said);
     if (found) return found[0];
   }
-  throw new Error(`asperity serve ended: ${said}`);
+  throw new Error(`the server ended: ${said}`);
 }
 
 const quantile = (sorted, share) => Math.round(sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]);
@@ -63,7 +65,9 @@ async function follow(page, from, pace) {
 
 console.log(processor());
 const folder = mkdtempSync(join(tmpdir(), 'asperity-follow-'));
-const server = spawn(process.env.ASPERITY_PROGRAM, ['serve', '--out', folder], { stdio: ['ignore', 'pipe', 'ignore'] });
+const server = alone
+  ? spawn('python3', ['-u', '-m', 'http.server', '--bind', '127.0.0.1', '--directory', alone, '0'], { stdio: ['ignore', 'pipe', 'ignore'] })
+  : spawn(process.env.ASPERITY_PROGRAM, ['serve', '--out', folder], { stdio: ['ignore', 'pipe', 'ignore'] });
 const browser = await on.openBrowser();
 try {
   const page = await on.openPage(browser, await addressOf(server));

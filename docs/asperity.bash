@@ -18,7 +18,7 @@ _asperity() {
     cases) options="--help --seed --limit-time --knob --list" ;;
     status) options="--help" ;;
     repl) options="--help --out --threads --limit-memory --seed --limit-time --no-history --trust" ;;
-    lesson) options="--help --copy --run --out --trace --threads --limit-memory" ;;
+    lesson) options="--help --copy --run --lessons --out --trace --threads --limit-memory" ;;
     help) options="--help --reference --types --manual --completion" ;;
     materials) options="--help" ;;
     version) options="--help" ;;
@@ -31,7 +31,7 @@ _asperity() {
     *:--out | *:--resume | *:--reuse | *:--store | replay:replay | status:status)
       mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     serve:--names) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
-    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--case|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|press-log:--area|press-log:--skip|press-log:--columns|press-log:--turn-step|press-log:--specimen|press-log:--seed|press-log:--limit-time|press-log:--out|press-log:--threads|press-log:--limit-memory|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--knob|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--lessons|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|cases:--seed|cases:--limit-time|cases:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
+    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--case|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|press-log:--area|press-log:--skip|press-log:--columns|press-log:--turn-step|press-log:--specimen|press-log:--seed|press-log:--limit-time|press-log:--out|press-log:--threads|press-log:--limit-memory|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--knob|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--lessons|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|cases:--seed|cases:--limit-time|cases:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--lessons|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
     lesson:*) mapfile -t COMPREPLY < <(compgen -W "roughness fractal_dimension boxes_and_half_space real_area turning tilt accuracy press_log same_numbers own_data" -- "$word") ;;
     run:* | check:* | explain:* | cases:* | accuracy:*)
       mapfile -t COMPREPLY < <(compgen -f -X '!*.lua' -- "$word"; compgen -d -- "$word") ;;

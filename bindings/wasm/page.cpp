@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The laboratory as functions for the page in a browser, instead of the server's addresses. Questions and
-// answers are JSON. Each run has a worker of its own, which the page ends to stop the run.
+// answers are JSON. Each run has its own worker, which the page ends to stop the run.
 #include <emscripten.h>
 
 #include <algorithm>
@@ -110,6 +110,16 @@ struct Live {
   LiveScript script{request, asker};
 };
 
+// Errors of scripts are events; another error is one line on standard error.
+template <class Act>
+int guarded(Act act) {
+  try {
+    return act();
+  } catch (const std::exception& error) {
+    return cli::refused(error);
+  }
+}
+
 }  // namespace
 }  // namespace asperity::web
 
@@ -132,24 +142,26 @@ EMSCRIPTEN_KEEPALIVE const char* asperity_ask(const char* question) {
 // Runs a script in the folder /run, with relative paths from the working directory. Returns the exit status.
 EMSCRIPTEN_KEEPALIVE int asperity_run(const char* asked) {
   using namespace asperity::web;
-  EventChannel events([](const std::string& line) { tell_page(line.c_str()); },
-                      std::string(run_folder) + "/.views");
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
-  const ConfinedRequest request = request_in(asperity::Json::parse(asked, "the request"), Work::run);
-  const int status = asperity::cli::run(command_of(request, events));
-  std::fflush(nullptr);
-  return status;
+  return guarded([asked] {
+    EventChannel events([](const std::string& line) { tell_page(line.c_str()); },
+                        std::string(run_folder) + "/.views");
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+    const ConfinedRequest request = request_in(asperity::Json::parse(asked, "the request"), Work::run);
+    const int status = asperity::cli::run(command_of(request, events));
+    std::fflush(nullptr);
+    return status;
+  });
 }
 
-// Answers a question of the live script; the first call has the script: {script, move, knobs, view}.
-EMSCRIPTEN_KEEPALIVE void asperity_move(const char* question) {
+// Answers a question of the live script; the first call has the script: {script, move, knobs, view}. Returns
+// 0, or the exit status of an error.
+EMSCRIPTEN_KEEPALIVE int asperity_move(const char* question) {
   using namespace asperity::web;
   static std::unique_ptr<Live> live;
-  if (!live)
-    live.reset(new Live{
-        request_in(asperity::Json::object(
-                       {{"script", text_of(asperity::Json::parse(question, "a question"), "script")}}),
-                   Work::live)});
-  live->script.answer(knob_question(question));
+  return guarded([question] {
+    if (!live) live.reset(new Live{request_in(asperity::Json::parse(question, "a question"), Work::live)});
+    live->script.answer(knob_question(question));
+    return 0;
+  });
 }
 }

@@ -96,6 +96,7 @@ test('Knob, MovesThePicture', () =>
     await on.openTab(page, 'picture');
     await page.waitForSelector('.relief');
     await on.typeKnob(page, '200 MPa');
+    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow live');
     await on.until(
       page,
       () => document.querySelector('.relief').getAttribute('aria-label')?.includes('200 MPa'),

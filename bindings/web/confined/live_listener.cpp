@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/cli/disk_bound.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/web/confined/live_script.hpp"
 #include "bindings/web/sandbox/frames.hpp"
@@ -98,6 +99,7 @@ class Questions final : public KnobAsker {
 }  // namespace
 
 int run_as_knobs_move(const ConfinedRequest& request, int socket) {
+  const cli::UnlinkedFilesBound unlinked(request.confinement.file_bytes);
   Questions questions(socket);
   LiveScript script(request, questions);
   for (;;) script.answer(questions.next());

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
-#include "bindings/cli/disk_bound.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/registry/variation.hpp"
@@ -142,8 +141,7 @@ class LiveScript::Runner {
   Runner(const ConfinedRequest& request, KnobAsker& asker)
       : request_(request),
         asker_(asker),
-        memory_(std::min(std::int64_t{256} << 20, request.confinement.memory_bytes / 4)),
-        unlinked_(request.confinement.file_bytes) {
+        memory_(std::min(std::int64_t{256} << 20, request.confinement.memory_bytes / 4)) {
     set_thread_count(request.threads);
     lua::limit_memory(request.confinement.memory_bytes);
     draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
@@ -206,7 +204,6 @@ class LiveScript::Runner {
   KnobAsker& asker_;
   ResultMemory memory_;
   Printed printed_;
-  cli::UnlinkedFilesBound unlinked_;
   double whole_seconds_ = 0;  // s, last full computation
   bool first_ = true;
   double too_coarse_ = 0;  // too few cells for the script

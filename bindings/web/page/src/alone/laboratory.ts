@@ -10,7 +10,6 @@ import type { Files, Task, Told } from './module';
 const checkPatience = 5000; // ms, for the dry run of a script
 const runsKept = 20; // with their files
 
-const own = /^(\.|store\/)|\/\./; // files that nobody saves
 const told = new Set(['progress', 'row', 'view', 'views_left_out', 'expectation', 'error', 'chart', 'study']);
 let compiled: Promise<WebAssembly.Module> | undefined;
 const theModule = (): Promise<WebAssembly.Module> => (compiled ??= compile());
@@ -80,6 +79,7 @@ class Desk {
 class RunHere {
   readonly events: RunEvent[] = [];
   files: Files = new Map();
+  readonly views = new Map<string, string>();
   private readonly began = performance.now();
   private readonly bench: Bench;
   private listeners = new Set<() => void>();
@@ -115,12 +115,13 @@ class RunHere {
   private take(t: Told): void {
     if (this.over) return;
     if ('stream' in t) this.tell({ type: 'output', ...t });
+    if ('view' in t) this.views.set(t.view, t.text);
     if ('line' in t) this.event(JSON.parse(t.line) as { type: string; why?: string });
     if ('failure' in t) this.finish('failed', `the module ended: ${t.failure}`);
     if ('exit' in t) {
       this.files = t.files;
       for (const [name, bytes] of t.files)
-        if (!own.test(name)) this.tell({ type: 'file', name, bytes: bytes.length });
+        if (!name.startsWith('store/')) this.tell({ type: 'file', name, bytes: bytes.length });
       this.finish(t.exit === 0 ? 'done' : 'failed', this.why, t.exit);
     }
   }
@@ -248,8 +249,10 @@ export class Laboratory implements Api {
     return bytes ? new Blob([bytes as BlobPart]) : absent(`The file ${name}`);
   }
 
-  view = async (id: string, name: string): Promise<View> =>
-    JSON.parse(await (await this.file(id, `.views/${name}.json`)).text()) as View;
+  async view(id: string, name: string): Promise<View> {
+    const text = (await this.of(id)).views.get(name);
+    return text ? (JSON.parse(text) as View) : absent(`The picture ${name}`);
+  }
 
   startLive(script: string, tab: string): Promise<{ id: string }> {
     this.endLive(tab);

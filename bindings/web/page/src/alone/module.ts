@@ -14,6 +14,7 @@ export type Task =
 export type Told =
   | { answer: string } // JSON
   | { line: string } // an event in JSON
+  | { view: string; text: string } // before its event
   | { stream: 'out' | 'err'; text: string }
   | { facts: string; numbers: Float32Array[] } // of a live script
   | { moved: true }

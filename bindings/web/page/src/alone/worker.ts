@@ -60,6 +60,7 @@ const tellOutput = (): void => [out, err].forEach((s) => s.tell());
 
 let compiled: WebAssembly.Module;
 let instance: Promise<Module> | undefined;
+let files: Folder | undefined; // of the instance
 
 /** An instance holds the state of one script; the desk keeps its own. */
 function module(): Promise<Module> {
@@ -73,10 +74,16 @@ function module(): Promise<Module> {
     stderr: err.take,
     told: (line: string) => {
       tellOutput();
+      const view = /^{"type":"view","name":"([\w-]+)"/.exec(line)?.[1];
+      if (view && files) {
+        const text = new TextDecoder().decode(files.readFile(`${runFolder}/.views/${view}.json`));
+        scope.postMessage({ view, text });
+      }
       scope.postMessage({ line });
     },
     answered: (facts: string, numbers: Float32Array[]) => scope.postMessage({ facts, numbers }),
   }).then((made) => {
+    files = made.FS;
     for (const folder of [runFolder, '/files']) made.FS.mkdir(folder);
     made.FS.chdir('/files');
     return made;
@@ -84,14 +91,15 @@ function module(): Promise<Module> {
   return instance;
 }
 
-function filesIn(fs: Folder, folder: string, files: Files = new Map(), under = ''): Files {
+/** Without hidden files. */
+function filesIn(fs: Folder, folder: string, found: Files = new Map(), under = ''): Files {
   for (const name of fs.readdir(folder)) {
-    if (name === '.' || name === '..') continue;
+    if (name.startsWith('.')) continue;
     const path = `${folder}/${name}`;
-    if (fs.isDir(fs.stat(path).mode)) filesIn(fs, path, files, `${under}${name}/`);
-    else files.set(under + name, fs.readFile(path));
+    if (fs.isDir(fs.stat(path).mode)) filesIn(fs, path, found, `${under}${name}/`);
+    else found.set(under + name, fs.readFile(path));
   }
-  return files;
+  return found;
 }
 
 /** The exit status; os.exit unwinds the module by an exception. */
@@ -115,7 +123,8 @@ async function work(task: Task): Promise<void> {
   if ('ask' in task) {
     scope.postMessage({ answer: lab.ccall('asperity_ask', 'string', ['string'], [task.ask]) as string });
   } else if ('move' in task) {
-    lab.ccall('asperity_move', null, ['string'], [task.move]);
+    if (status(() => lab.ccall('asperity_move', 'number', ['string'], [task.move])) !== 0)
+      throw new Error('the script could not be followed');
     scope.postMessage({ moved: true });
   } else {
     for (const [path, bytes] of task.files) {
