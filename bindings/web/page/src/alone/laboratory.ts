@@ -17,7 +17,9 @@ const theModule = (): Promise<WebAssembly.Module> => (compiled ??= compile());
 async function compile(): Promise<WebAssembly.Module> {
   const answer = await fetch('module.wasm');
   if (!answer.ok) throw new ApiError('refused', 'The file module.wasm is missing', 'copy the whole folder of the page');
-  return WebAssembly.compile(await answer.arrayBuffer());
+  // Compiled while it loads, if the host tells the type.
+  const streams = answer.headers.get('Content-Type') === 'application/wasm';
+  return streams ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
 
 class Bench {
