@@ -68,7 +68,8 @@ const folder = mkdtempSync(join(tmpdir(), 'asperity-follow-'));
 const server = alone
   ? spawn('python3', ['-u', '-m', 'http.server', '--bind', '127.0.0.1', '--directory', alone, '0'], { stdio: ['ignore', 'pipe', 'ignore'] })
   : spawn(process.env.ASPERITY_PROGRAM, ['serve', '--out', folder], { stdio: ['ignore', 'pipe', 'ignore'] });
-const browser = await on.openBrowser();
+// Frames by emulated OpenGL would take 31 ms each of one of the cores, which a graphics card does not.
+const browser = await on.openBrowser(['--disable-gpu-compositing']);
 try {
   const page = await on.openPage(browser, await addressOf(server));
   await on.ready(page);

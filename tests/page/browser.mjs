@@ -23,7 +23,7 @@ const delays = ['rest', 'restAlive', 'playedFor', 'toldAfter'].map((name) =>
   Number(new RegExp(`const ${name} = (\\d+)`).exec(sources.join(''))[1]),
 );
 
-export async function openBrowser() {
+export async function openBrowser(more = []) {
   return (puppeteer.default ?? puppeteer).launch({
     executablePath: process.env.CHROMIUM,
     headless: true,
@@ -36,6 +36,7 @@ export async function openBrowser() {
       '--use-angle=swiftshader',
       '--enable-unsafe-swiftshader',
       '--hide-scrollbars=false',
+      ...more,
     ],
   });
 }

@@ -101,15 +101,17 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
   const none = noneOf(field);
   const out = new Uint8Array(values.length * 3);
   const factor = 255 / (range.high - range.low);
-  for (let k = 0; k < values.length; ++k) {
+  for (let k = 0, to = 0; k < values.length; ++k, to += 3) {
     const v = values[k];
     if (!Number.isFinite(v)) {
-      out.fill(128, 3 * k, 3 * k + 3);
+      out.fill(128, to, to + 3);
       continue;
     }
     const from = none && v <= 0 ? none : table;
     const at = none && v <= 0 ? 0 : 3 * Math.min(255, Math.max(0, Math.round((v - range.low) * factor)));
-    for (let c = 0; c < 3; ++c) out[3 * k + c] = from[at + c];
+    out[to] = from[at];
+    out[to + 1] = from[at + 1];
+    out[to + 2] = from[at + 2];
   }
   return out;
 }
@@ -124,10 +126,10 @@ export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny
   canvas.width = nx;
   canvas.height = ny;
   const pixels = new ImageData(nx, ny);
-  const data = pixels.data.fill(255);
-  for (let j = 0; j < ny; ++j)
-    for (let i = 0; i < nx; ++i)
-      for (let c = 0; c < 3; ++c) data[4 * ((ny - 1 - j) * nx + i) + c] = colours[3 * (j * nx + i) + c];
+  const words = new Uint32Array(pixels.data.buffer); // little-endian, as the views are
+  for (let j = 0, k = 0; j < ny; ++j)
+    for (let to = (ny - 1 - j) * nx, end = to + nx; to < end; ++to, k += 3)
+      words[to] = 0xff000000 | (colours[k + 2] << 16) | (colours[k + 1] << 8) | colours[k];
   canvas.getContext('2d')!.putImageData(pixels, 0, 0);
 }
 

@@ -99,11 +99,12 @@ export function captionOf(colour: Field, relief: Field | undefined, exaggeration
 }
 
 export function describe(colour: Field): string {
-  const [least, most] = extentOf(colour.values);
+  const { values } = colour;
+  const [least, most] = extentOf(values);
   let [sum, known] = [0, 0];
-  for (const v of colour.values) {
-    if (Number.isNaN(v)) continue;
-    sum += v;
+  for (let k = 0; k < values.length; ++k) {
+    if (Number.isNaN(values[k])) continue;
+    sum += values[k];
     ++known;
   }
   const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;

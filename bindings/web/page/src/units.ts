@@ -40,6 +40,16 @@ export function grouped<Key, T>(items: Iterable<T>, keyOf: (item: T) => Key): Ma
 export function extentOf(values: Iterable<unknown>): [number, number] {
   let low = Infinity;
   let high = -Infinity;
+  if (values instanceof Float32Array) {
+    // An index is ten times faster than an iterator here; maps are large.
+    for (let k = 0; k < values.length; ++k) {
+      const v = values[k];
+      if (v - v !== 0) continue; // not finite
+      if (v < low) low = v;
+      if (v > high) high = v;
+    }
+    return [low, high];
+  }
   for (const v of values) {
     if (typeof v !== 'number' || !Number.isFinite(v)) continue;
     if (v < low) low = v;
