@@ -278,14 +278,16 @@ function asksFirst(): boolean {
   return true;
 }
 
+function isBusy(): boolean {
+  if (!run?.active) return false;
+  waitsForEnd = true;
+  messages.tell('A script is still running.', 'Stop it with Escape, or wait until it has ended; then run this one.');
+  return true;
+}
+
 async function start(): Promise<void> {
   if (!api.hasToken) return;
-  if (run?.active) {
-    waitsForEnd = true;
-    messages.tell('A script is still running.', 'Stop it with Escape, or wait until it has ended; then run this one.');
-    return;
-  }
-  if (asksFirst()) return;
+  if (isBusy() || asksFirst()) return;
   const script = editor.text;
   leaveRecording();
   editor.showRunMarks([]);
@@ -538,7 +540,7 @@ if (here)
   takeDrops(here, messages, {
     opened: openText,
     replayed: (folder) => {
-      if (run?.active) return;
+      if (isBusy()) return;
       here.replay(folder).then(({ id }) => follow(new Run(id, `Replay of ${folder}`, ''), 'replay'), failed);
     },
   });

@@ -6,7 +6,7 @@ import type { Messages } from '../layout';
 import { bytes } from '../units';
 import type { Laboratory } from './laboratory';
 
-const most = 500_000_000; // bytes in all
+const most = 200_000_000; // bytes in all; each run gets a copy
 
 interface Dropped {
   opened: (script: string, name: string) => void;
