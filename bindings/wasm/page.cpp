@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
@@ -47,7 +47,7 @@ std::string text_of(const Json& asked, const char* name) {
   return found == nullptr ? std::string() : found->string();
 }
 
-// {script, seed?, views?, knobs?}
+// {script, knobs?}
 ConfinedRequest request_in(const Json& asked, Work work) {
   ConfinedRequest request{.work = work, .confinement = {}};
   request.confinement.memory_bytes = most_memory;
@@ -135,11 +135,13 @@ EMSCRIPTEN_KEEPALIVE const char* asperity_ask(const char* question) {
   } catch (const Error& error) {
     answer = Json::object({{"error", Json::object({{"message", error.sentence()}, {"hint", error.hint()}})}})
                  .text();
+  } catch (const std::exception& error) {
+    answer = Json::object({{"error", Json::object({{"message", error.what()}, {"hint", ""}})}}).text();
   }
   return answer.c_str();
 }
 
-// Runs a script in the folder /run, with relative paths from the working directory. Returns the exit status.
+// Runs a script: it writes /run, and reads files relative to the working directory. Returns the exit status.
 EMSCRIPTEN_KEEPALIVE int asperity_run(const char* asked) {
   using namespace asperity::web;
   return guarded([asked] {

@@ -55,6 +55,15 @@ cmp native-run/area.csv wasm-run/area.csv || fail "the notebooks differ"
 "$native" replay wasm-run || fail "the native program does not replay a run of the wasm preset"
 wasm replay native-run
 echo "press.lua: $(cat cost)"
+cat >large.lua <<'LUA'
+local lab = require "asperity"
+local plate = lab.surface.self_affine{ cells=2048, size="1 mm", hurst=0.8, rms_slope=0.1, short_wave="16 um",
+                                       material=lab.material "steel" }
+local c = lab.contact{ lower=plate, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+print(c:press{ pressure="100 MPa" })
+LUA
+wasm run large.lua --out large
+echo "a press on 2048 x 2048 cells: $(cat cost)"
 wasm lesson 8 --run
 for lesson in $lessons; do
   measured "$native" lesson "$lesson" --run --threads 1 --out "native-$lesson" || { cat out; fail "lesson $lesson, native"; }

@@ -594,5 +594,5 @@ showStatus();
 draw();
 resume();
 void greet();
-if (here) navigator.serviceWorker?.register('offline.js').catch(() => undefined); // only works without
+if (here) navigator.serviceWorker?.register('offline.js').catch(() => undefined); // without it the page needs the network
 performance.mark('asperity-ready');

@@ -51,7 +51,7 @@ export function takeDrops(laboratory: Laboratory, messages: Messages, on: Droppe
     if (journal) return on.replayed(journal.replace('/journal.jsonl', ''));
     const names = [...found.keys()];
     const read = names.slice(0, 3).join(', ') + (names.length > 3 ? ` and ${names.length - 3} more` : '');
-    messages.tell(`A script can now read ${read}.`, `Example: lab.surface.load "${names[0]}". The files stay in this browser.`);
+    messages.tell(`A script can now read ${read}.`, `Example: lab.surface.read "${names[0]}". The files stay in this browser.`);
   };
   document.addEventListener('dragover', (event) => {
     if (event.dataTransfer?.types.includes('Files')) event.preventDefault();

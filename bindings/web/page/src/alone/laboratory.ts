@@ -70,6 +70,7 @@ class Desk {
     if (text === null) {
       bench.end();
       this.bench = undefined;
+      if (patience === Infinity) throw new ApiError('refused', 'The laboratory ended', 'load this page again');
       return null;
     }
     const answer = JSON.parse(text) as { error?: { message: string; hint: string } };
@@ -98,7 +99,7 @@ class RunHere {
   }
 
   stop(): void {
-    if (!this.over) this.finish('stopped', 'it was stopped; its files are lost, what is shown is kept');
+    if (!this.over) this.finish('stopped', 'it was stopped; its files are lost, its lines and rows stay');
   }
 
   /** Resolves at the next event, or at the signal. */

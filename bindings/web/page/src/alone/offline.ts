@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The service worker: stores all files of the page and each opened document, so that the page opens without a
-// network. FILES and VERSION come from build.mjs.
+// The service worker: the page and each opened document also open without a network. Files of the page come
+// from the store, documents from the host as long as it answers. FILES and VERSION come from build.mjs.
 
 declare const FILES: string[];
 declare const VERSION: string;
@@ -12,6 +12,7 @@ interface Asked extends Event {
   respondWith(answer: Promise<Response>): void;
 }
 const cached = `asperity ${VERSION}`;
+const ofPage = new Set(FILES.map((file) => new URL(file, location.href).href));
 
 self.addEventListener('install', (event) => {
   (event as Lasting).waitUntil(caches.open(cached).then((cache) => cache.addAll(FILES)));
@@ -25,10 +26,15 @@ self.addEventListener('fetch', (event) => {
   const answer = async (): Promise<Response> => {
     const cache = await caches.open(cached);
     const stored = await cache.match(request, { ignoreSearch: true });
-    if (stored) return stored;
-    const fresh = await fetch(request);
-    if (request.method === 'GET' && fresh.ok) await cache.put(request, fresh.clone());
-    return fresh;
+    if (stored && ofPage.has(request.url.replace(/[?#].*/, ''))) return stored;
+    try {
+      const fresh = await fetch(request);
+      if (request.method === 'GET' && fresh.ok) await cache.put(request, fresh.clone());
+      return fresh;
+    } catch (error) {
+      if (stored) return stored;
+      throw error;
+    }
   };
   (event as Asked).respondWith(answer());
 });
