@@ -29,7 +29,7 @@ if [ "$1" = --everything ]; then
 else
   files=$({ git diff --name-only --diff-filter=d --no-renames "$1"; git ls-files --others --exclude-standard; } | sources)
   # shellcheck disable=SC2086  # a list of words
-  files=$(printf '%s\n' $files $(poorer "$1") | sort -u | other_code "$1")
+  files=$(printf '%s\n' $files $(poorer "$1") | sources | sort -u | other_code "$1")
 fi
 # A header whose source is compiled and includes it first is compiled there.
 # shellcheck disable=SC2086  # a list of words
