@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/commands/replay_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
@@ -150,6 +151,18 @@ EMSCRIPTEN_KEEPALIVE int asperity_run(const char* asked) {
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     const ConfinedRequest request = request_in(asperity::Json::parse(asked, "the request"), Work::run);
     const int status = asperity::cli::run(command_of(request, events));
+    std::fflush(nullptr);
+    return status;
+  });
+}
+
+// Replays the run directory `recorded` into a folder of /run. Returns the exit status.
+EMSCRIPTEN_KEEPALIVE int asperity_replay(const char* recorded) {
+  return asperity::web::guarded([recorded] {
+    asperity::cli::ReplayCommand command{};
+    command.recorded = recorded;
+    command.run.out = std::string(asperity::web::run_folder) + "/again";
+    const int status = asperity::cli::replay(command);
     std::fflush(nullptr);
     return status;
   });

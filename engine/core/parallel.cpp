@@ -25,7 +25,7 @@ thread_local bool single_threaded = false;
 
 class Loop {
  public:
-  Loop(std::int64_t blocks, int threads, const std::function<void(std::int64_t)>& block)
+  Loop(std::int64_t blocks, int threads, BlockFunction block)
       : block_(block), shares_(static_cast<std::size_t>(threads)) {
     for (int t = 0; t < threads; ++t) {
       shares_[static_cast<std::size_t>(t)].next = blocks * t / threads;
@@ -73,7 +73,7 @@ class Loop {
     }
   }
 
-  const std::function<void(std::int64_t)>& block_;
+  const BlockFunction block_;
   std::vector<Share> shares_;
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -189,7 +189,7 @@ void set_thread_count(int threads) { threads_wanted.store(std::max(threads, 0));
 SingleThreaded::SingleThreaded() : outer_(single_threaded) { single_threaded = true; }
 SingleThreaded::~SingleThreaded() { single_threaded = outer_; }
 
-void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block) {
+void parallel_for(std::int64_t blocks, BlockFunction block) {
   const std::int64_t threads = std::min<std::int64_t>(thread_count(), blocks);
   if (threads > 1) {
     Loop loop(blocks, static_cast<int>(threads), block);

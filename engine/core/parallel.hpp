@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 namespace asperity {
 
@@ -24,7 +23,22 @@ class SingleThreaded {
   bool outer_;
 };
 
+// Refers to a function, which must outlive it. std::function would instantiate ten functions for each of
+// five hundred loops.
+class BlockFunction {
+ public:
+  template <class Function>
+  BlockFunction(const Function& function)
+      : function_(&function),
+        call_([](const void* of, std::int64_t k) { (*static_cast<const Function*>(of))(k); }) {}
+  void operator()(std::int64_t k) const { call_(function_, k); }
+
+ private:
+  const void* function_;
+  void (*call_)(const void* function, std::int64_t k);
+};
+
 // Calls block(k), k in [0, blocks); checks the stop flag between blocks.
-void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block);
+void parallel_for(std::int64_t blocks, BlockFunction block);
 
 }  // namespace asperity

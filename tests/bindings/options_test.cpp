@@ -8,6 +8,17 @@ namespace {
 
 using Options = LuaTest;
 
+TEST(Held, CallsWithWhatWasCaptured) {
+  const std::size_t small = 3;
+  const std::string large(100, 'x');
+  EXPECT_FALSE(Held<std::size_t(std::size_t)>());
+  Held<std::size_t(std::size_t)> held([large](std::size_t k) { return large.size() + k; });
+  const auto copy = held;
+  held = [small](std::size_t k) { return small + k; };
+  EXPECT_EQ(copy(1), 101u);
+  EXPECT_EQ(held(1), 4u);
+}
+
 TEST_F(Options, UnknownKeysNameTheNearestAndAllThatThereAre) {
   EXPECT_EQ(
       run("lab.material{ young='70 GPa', poisson=0.3, hardnes='1 GPa' }"),

@@ -39,7 +39,7 @@ std::string in_lines(const std::string& text, std::size_t indent) {
   return result;
 }
 
-void list(const std::vector<lua::Lesson>& lessons) {
+void list(const std::vector<lua::Lesson>& lessons, const std::string& option) {
   for (const lua::Lesson& lesson : lessons)
     if (!lesson.problem.empty())
       std::printf("%s is no lesson: %s\n", lesson.file.c_str(), lesson.problem.c_str());
@@ -47,9 +47,10 @@ void list(const std::vector<lua::Lesson>& lessons) {
       std::printf("%d  %s: %s (%d min)\n   %s\n", lesson.number, lesson.name.c_str(), lesson.title.c_str(),
                   lesson.minutes, in_lines(lesson.question, 3).c_str());
   std::printf(
-      "\nasperity lesson NAME          shows one\n"
-      "asperity lesson NAME --copy   puts its script here, to be changed and run\n"
-      "asperity lesson NAME --run    runs it as it is\n");
+      "\nasperity lesson%s NAME          shows one\n"
+      "asperity lesson%s NAME --copy   puts its script here, to be changed and run\n"
+      "asperity lesson%s NAME --run    runs it as it is\n",
+      option.c_str(), option.c_str(), option.c_str());
 }
 
 void copy(const lua::Lesson& lesson) {
@@ -67,11 +68,12 @@ void copy(const lua::Lesson& lesson) {
 // Status: of the run, or 0; 2 for an unknown lesson or an existing file.
 int lesson(const LessonCommand& command, LessonsWith with) {
   const std::vector<lua::Lesson> all = with(command.folder);
+  const std::string option = command.folder.empty() ? "" : " --lessons " + command.folder;
   if (command.name.empty()) {
     if (command.copy || command.run)
       throw Error(ErrorCode::bad_value, "no lesson was named",
                   "name one, as in asperity lesson tilt; asperity lesson lists them");
-    return list(all), 0;
+    return list(all, option), 0;
   }
   const lua::Lesson& lesson = lua::find_lesson(command.name, all);
   if (command.copy) copy(lesson);
@@ -83,12 +85,12 @@ int lesson(const LessonCommand& command, LessonsWith with) {
   }
   if (!command.copy)
     std::printf(
-        "%s (%d minutes)\n\nQuestion: %s\n\nPredict: %s\n\n%s\nasperity lesson %s --copy   puts its script "
-        "here, to be changed and run\n"
-        "asperity lesson %s --run    runs it as it is\n",
+        "%s (%d minutes)\n\nQuestion: %s\n\nPredict: %s\n\n%s\nasperity lesson%s %s --copy   puts its "
+        "script here, to be changed and run\n"
+        "asperity lesson%s %s --run    runs it as it is\n",
         lesson.title.c_str(), lesson.minutes, in_lines(lesson.question, 0).c_str(),
-        in_lines(lesson.predict, 0).c_str(), lesson.explanation.c_str(), lesson.name.c_str(),
-        lesson.name.c_str());
+        in_lines(lesson.predict, 0).c_str(), lesson.explanation.c_str(), option.c_str(), lesson.name.c_str(),
+        option.c_str(), lesson.name.c_str());
   return 0;
 }
 

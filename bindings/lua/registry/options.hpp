@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/held.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/options.hpp"
@@ -105,20 +106,22 @@ std::optional<double> shown(const std::optional<T>& v) {
 template <class O>
 struct Option {
   OptionInfo info;
-  std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
+  Held<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
   // Script text, "" for none; may be null. For defaults and record.
-  std::function<std::string(const O&)> show;
+  Held<std::string(const O&)> show;
 
   Option() = default;
   template <class Base>
   requires(std::derived_from<O, Base> && !std::same_as<O, Base>) Option(Option<Base> base)
-      : info(std::move(base.info)), read(std::move(base.read)), show(std::move(base.show)) {}
+      : info(std::move(base.info)), read(std::move(base.read)) {
+    if (base.show) show = std::move(base.show);
+  }
 
   Option required() && {
     info.required = true;
     return std::move(*this);
   }
-  Option shown_by(std::function<std::string(const O&)> text) && {
+  Option shown_by(Held<std::string(const O&)> text) && {
     show = std::move(text);
     return std::move(*this);
   }

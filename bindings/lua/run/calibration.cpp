@@ -38,7 +38,8 @@ Option<CalibrationKeys> in_options(Option<CalibrationOptions> inner) {
                                                CalibrationKeys& keys, Problems& problems) {
     read(value, info, keys.options, problems);
   };
-  option.show = [show = std::move(inner.show)](const CalibrationKeys& keys) { return show(keys.options); };
+  if (inner.show)
+    option.show = [show = std::move(inner.show)](const CalibrationKeys& keys) { return show(keys.options); };
   return option;
 }
 

@@ -67,7 +67,10 @@ async function addModule() {
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
     "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'";
   const page = join(output, 'index.html');
-  const head = `<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="${policy}">`;
+  // The module loads beside the page's script.
+  const head =
+    `<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="${policy}">\n` +
+    '<link rel="preload" href="module.wasm" as="fetch" crossorigin>';
   writeFileSync(page, readFileSync(page, 'utf8').replace('<meta charset="utf-8">', head));
   for (const file of ['module.js', 'module.wasm']) copyFileSync(join(module, file), join(output, file));
   writeFileSync(join(output, 'worker.js'), await textOf('src/alone/worker.ts'));

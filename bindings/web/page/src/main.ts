@@ -594,5 +594,6 @@ showStatus();
 draw();
 resume();
 void greet();
-if (here) navigator.serviceWorker?.register('offline.js').catch(() => undefined); // without it the page needs the network
+// Its copies of all files would slow the first run. Without it the page needs the network.
+if (here) setTimeout(() => navigator.serviceWorker?.register('offline.js').catch(() => undefined), 5000);
 performance.mark('asperity-ready');

@@ -23,14 +23,30 @@ async function compile(): Promise<WebAssembly.Module> {
 }
 
 class Bench {
+  private static spare: Bench | undefined;
   private readonly worker = new Worker('worker.js');
   private readonly ready: Promise<void>;
+  private take = (told: Told): void => {
+    if ('failure' in told && Bench.spare === this) Bench.spare = undefined;
+  };
 
-  constructor(take: (told: Told) => void) {
-    this.worker.onmessage = (event: MessageEvent<Told>): void => take(event.data);
-    this.worker.onerror = (event): void => take({ failure: event.message });
+  private constructor() {
+    this.worker.onmessage = (event: MessageEvent<Told>): void => this.take(event.data);
+    this.worker.onerror = (event): void => this.take({ failure: event.message });
     this.ready = theModule().then((module) => this.worker.postMessage({ module } satisfies Task));
-    this.ready.catch((error: Error) => take({ failure: error.message }));
+    this.ready.catch((error: Error) => this.take({ failure: error.message }));
+  }
+
+  static for(take: (told: Told) => void): Bench {
+    const bench = Bench.spare ?? new Bench();
+    Bench.spare = undefined;
+    bench.take = take;
+    return bench;
+  }
+
+  /** The next bench starts without a wait. */
+  static prepare(): void {
+    Bench.spare ??= new Bench();
   }
 
   give(task: Task): void {
@@ -57,7 +73,7 @@ class Desk {
 
   private async send(question: object, patience: number): Promise<unknown> {
     await theModule();
-    this.bench ??= new Bench((t) => {
+    this.bench ??= Bench.for((t) => {
       if ('answer' in t) this.answered(t.answer);
       if ('failure' in t) this.answered(null);
     });
@@ -89,7 +105,7 @@ class RunHere {
   private why = '';
 
   constructor(task: Task) {
-    this.bench = new Bench((t) => this.take(t));
+    this.bench = Bench.for((t) => this.take(t));
     this.tell({ type: 'started' });
     this.bench.give(task);
   }
@@ -136,6 +152,7 @@ class RunHere {
 
   private finish(status: 'done' | 'failed' | 'stopped', reason: string, exit = 1): void {
     this.bench.end();
+    Bench.prepare();
     const seconds = (performance.now() - this.began) / 1000;
     this.tell({ type: 'finished', status, exit, seconds, ...(reason && { reason }) });
   }
@@ -154,7 +171,7 @@ class LiveHere {
   private moved: () => void = () => undefined;
 
   constructor(private readonly script: string) {
-    this.bench = new Bench((t) => {
+    this.bench = Bench.for((t) => {
       if ('facts' in t) {
         const facts = JSON.parse(t.facts) as LiveFacts & { move: number };
         if (facts.move === this.under?.move) this.under.take(facts, t.numbers);
@@ -206,7 +223,7 @@ export class Laboratory implements Api {
   }
 
   about = async (): Promise<About> => ({
-    version: (await this.desk.ask({ ask: 'version' })) as string,
+    version: await this.desk.ask({ ask: 'version' }).then((version) => (Bench.prepare(), version as string)),
     documents: await fetch('docs/index.html', { method: 'HEAD' }).then((answer) => answer.ok, () => false),
   });
   lessons = (): Promise<LessonEntry[]> => this.desk.ask({ ask: 'lessons' }) as Promise<LessonEntry[]>;
@@ -228,7 +245,7 @@ export class Laboratory implements Api {
 
   /** Replays the run directory at `folder` of the given files. */
   replay = (folder: string): Promise<{ id: string }> =>
-    this.begin({ command: ['replay', folder, '--out', '/run/again'], files: this.given });
+    this.begin({ replay: folder, files: this.given });
 
   stop = (id: string): Promise<unknown> => this.of(id).then((run) => run.stop());
 

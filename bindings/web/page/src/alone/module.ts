@@ -8,7 +8,7 @@ export type Task =
   | { module: WebAssembly.Module }
   | { ask: string } // JSON, as bindings/wasm/page.cpp takes it
   | { run: string; files: Files } // JSON
-  | { command: string[]; files: Files }
+  | { replay: string; files: Files } // a run directory
   | { move: string }; // JSON
 
 export type Told =

@@ -16,7 +16,6 @@ interface Folder {
 }
 interface Module {
   FS: Folder;
-  callMain(words: string[]): number;
   ccall(name: string, returns: string | null, types: string[], values: string[]): unknown;
 }
 declare const asperityModule: (settings: object) => Promise<Module>;
@@ -131,9 +130,8 @@ async function work(task: Task): Promise<void> {
       lab.FS.mkdirTree(`/files/${path}`.replace(/\/[^/]*$/, ''));
       lab.FS.writeFile(`/files/${path}`, bytes);
     }
-    const exit = status(() =>
-      'run' in task ? lab.ccall('asperity_run', 'number', ['string'], [task.run]) : lab.callMain(task.command),
-    );
+    const [act, asked] = 'run' in task ? ['asperity_run', task.run] : ['asperity_replay', task.replay];
+    const exit = status(() => lab.ccall(act, 'number', ['string'], [asked]));
     tellOutput();
     scope.postMessage({ exit, files: filesIn(lab.FS, runFolder) });
   }
