@@ -69,6 +69,12 @@ ReducedField reduced(const Field& field, int most) {
   small.block_y = block_of(field.ny());
   small.nx = (field.nx() + small.block_x - 1) / small.block_x;
   small.ny = (field.ny() + small.block_y - 1) / small.block_y;
+  if (small.block_x == 1 && small.block_y == 1) {
+    small.values.resize(field.size());
+    std::ranges::transform(field.values(), small.values.begin(),
+                           [](double value) { return static_cast<float>(value); });
+    return small;
+  }
   std::vector<double> sums(static_cast<std::size_t>(small.nx));
   std::vector<int> missing(sums.size());
   for (int j = 0; j < small.ny; ++j) {

@@ -40,7 +40,10 @@ bool read_whole(int descriptor, char* to, std::size_t bytes) {
 }
 
 std::string frame(std::span<const std::string_view> texts) {
+  std::size_t size = sizeof(std::uint64_t);
+  for (const std::string_view text : texts) size += sizeof(std::uint64_t) + text.size();
   std::string bytes;
+  bytes.reserve(size);
   put_number(bytes, texts.size());
   for (const std::string_view text : texts) {
     put_number(bytes, text.size());
@@ -84,16 +87,17 @@ std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::si
   const auto count = number();
   if (!count) return {};
   if (*count > most_texts) throw Error(ErrorCode::bad_file, "the received data are no frame");
-  std::vector<std::string> texts;
+  std::vector<std::string_view> found;
   for (std::uint64_t k = 0; k < *count; ++k) {
     const auto bytes = number();
     if (!bytes) return {};
     if (*bytes > most_bytes) throw Error(ErrorCode::bad_file, "a frame is too long");
     most_bytes -= static_cast<std::size_t>(*bytes);
     if (arrived.size() - at < *bytes) return {};
-    texts.push_back(arrived.substr(at, static_cast<std::size_t>(*bytes)));
+    found.push_back(std::string_view(arrived).substr(at, static_cast<std::size_t>(*bytes)));
     at += static_cast<std::size_t>(*bytes);
   }
+  std::vector<std::string> texts(found.begin(), found.end());
   arrived.erase(0, at);
   return texts;
 }

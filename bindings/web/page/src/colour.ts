@@ -31,8 +31,12 @@ const darkInk: Ink = {
   series: ['#6fb7ee', '#f0964b', '#4fc9a4', '#e194c4', '#e0cd4e', '#c6ccd2', '#9fd3f2', '#ffbf8f'],
 };
 
+const dark = matchMedia('(prefers-color-scheme: dark)');
+let ink = dark.matches ? darkInk : lightInk;
+dark.addEventListener('change', () => (ink = dark.matches ? darkInk : lightInk));
+
 export function inkNow(): Ink {
-  return matchMedia('(prefers-color-scheme: dark)').matches ? darkInk : lightInk;
+  return ink;
 }
 
 interface Palette {

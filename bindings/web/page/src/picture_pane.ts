@@ -41,6 +41,8 @@ export class PicturePane {
   private pending = false;
   private kept = ''; // view in the previous run
   private began: number | undefined; // the event behind a picture
+  private room = { width: 120, height: 120 }; // px, of the stage
+  private along = 0; // px, of the colour key
   private readonly which = new Choice('Picture', (name) => {
     this.scrubber.pause();
     void this.choose(name);
@@ -94,7 +96,14 @@ export class PicturePane {
     );
     element.append(this.empty, this.body);
     this.listen();
-    new ResizeObserver(() => this.draw()).observe(this.stage);
+    // Sizes are kept: to read them lays the page out again.
+    const observer = new ResizeObserver((entries) => {
+      for (const { target, contentRect } of entries)
+        if (target === this.key) this.along = contentRect.width;
+        else this.room = { width: Math.max(120, contentRect.width), height: Math.max(120, contentRect.height) };
+      this.draw();
+    });
+    for (const part of [this.stage, this.key]) observer.observe(part);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
   }
 
@@ -166,11 +175,11 @@ export class PicturePane {
 
   appear(): void {
     this.show(this.run);
-    this.draw();
+    this.drawSoon(false);
   }
 
   private get visible(): boolean {
-    return this.element.offsetParent !== null;
+    return !this.element.hidden;
   }
 
   private fetch(name: string): Promise<Field[]> {
@@ -242,8 +251,11 @@ export class PicturePane {
     this.drawSoon(false);
   }
 
+  /** A flat map is built at once, so that the next frame only paints it. */
   private draw(): void {
-    this.drawSoon(true);
+    const now = !this.map.hidden && this.visible && this.colour !== undefined;
+    if (now) this.build();
+    this.drawSoon(!now);
   }
 
   private rebuilt = false;
@@ -266,9 +278,8 @@ export class PicturePane {
   private build(): void {
     const colour = this.colour!;
     const ink = inkNow();
-    // Read before anything is written: the browser lays the page out once.
-    const { width, height } = this.room();
-    const along = Math.max(240, this.key.clientWidth);
+    const { width, height } = this.room;
+    const along = Math.max(240, this.along);
     const range = rangeOf(colour.name, colour.values);
     const factor = exaggerations[this.step];
     this.exaggerate.tell(this.step, this.relief ? factorText(factor) : '', factorText(factor));
@@ -300,7 +311,7 @@ export class PicturePane {
     if (!this.scene || !this.map.hidden) return;
     this.scene.turnTo(this.attitude);
     this.scene.render();
-    const { width, height } = this.room();
+    const { width, height } = this.room;
     const tags = this.scene.anchors(width, height).map(({ name, left, top, outward }) => {
       const tag = h('span.tag', anchorText(name, this.colour!, this.relief));
       // Inside the stage.
@@ -328,10 +339,6 @@ export class PicturePane {
   private title(): string {
     const name = this.shown || this.kept; // until the next arrives
     return this.run?.views.find((v) => v.name === name)?.title ?? name;
-  }
-
-  private room(): { width: number; height: number } {
-    return { width: Math.max(120, this.stage.clientWidth), height: Math.max(120, this.stage.clientHeight) };
   }
 
   private listen(): void {
