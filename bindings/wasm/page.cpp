@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/commands/repl_command.hpp"
 #include "bindings/cli/commands/replay_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/lua/editor/lessons.hpp"
@@ -165,6 +166,20 @@ EMSCRIPTEN_KEEPALIVE int asperity_replay(const char* recorded) {
     const int status = asperity::cli::replay(command);
     std::fflush(nullptr);
     return status;
+  });
+}
+
+// Takes a line of the prompt. Returns 0, 1 if the statement goes on in the next line, 2 at the end of the
+// session.
+EMSCRIPTEN_KEEPALIVE int asperity_line(const char* line) {
+  using asperity::cli::PromptLines;
+  static std::unique_ptr<PromptLines> prompt;
+  return asperity::web::guarded([line] {
+    if (!prompt)
+      prompt = std::make_unique<PromptLines>(
+          asperity::cli::ReplCommand{.out = asperity::web::run_folder, .no_history = true});
+    const bool goes_on = prompt->take(line);
+    return !goes_on ? 2 : prompt->continued() ? 1 : 0;
   });
 }
 

@@ -95,7 +95,7 @@ def ordered(seed, sources):
 
 def main():
     seed, name, n = sys.argv[1], pathlib.Path(sys.argv[2]), int(sys.argv[3])
-    sources = [path for path in (name, name.with_suffix(".hpp")) if path.exists()]
+    sources = [path for path in dict.fromkeys((name, name.with_suffix(".hpp"))) if path.exists()]
     _, kind, path, where, length, instead, old, new = ordered(seed, sources)[n]
     text = path.read_text()
     planted = text[:where] + instead + text[where + length :]

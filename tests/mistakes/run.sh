@@ -4,8 +4,8 @@
 #
 #   tests/mistakes/run.sh [--near] [NAME..]     ten mistakes in each of the sources, or in those named; a table
 #
-# Works in a copy of the tree, build/mistakes, with a build of its own. The tests of the source itself run first, compiled
-# with the assertions of the standard library, as the sanitizers of .ci/run would; if they find nothing, the whole test
+# Works in a copy of the tree, build/mistakes, with a build of its own. The tests of the source itself run first, with the
+# address sanitizer and the assertions of the standard library, as in .ci/run; if they find nothing, the whole test
 # program of the room runs (not with --near). A mistake that does not compile does not count. survivors.txt gives a reason
 # for each mistake that no test finds. Fails if fewer than 55 of 60 are found, or a survivor has no reason.
 set -euo pipefail
@@ -13,10 +13,10 @@ cd "$(dirname -- "$0")/../.."
 seed=1 each=10 least=55
 export LC_ALL=C.UTF-8 PYTHONDONTWRITEBYTECODE=1
 
-# NAME SOURCE TEST-OF-THE-SOURCE TEST-PROGRAM-OF-THE-ROOM
-rooms="junction_law engine/friction/junction_law.cpp tests/friction/junction_law_test.cpp friction
+# NAME SOURCE TESTS-OF-THE-SOURCE TEST-PROGRAM-OF-THE-ROOM
+rooms="junction_law engine/friction/junction_law.cpp tests/friction/junction_law_test.cpp,tests/friction/interlocking_test.cpp friction
 load_projection engine/contact/elasticity/half_space/solver/load_projection.cpp tests/contact/half_space/load_projection_test.cpp contact
-yield_law engine/contact/yield_law.cpp tests/contact/yield_law_test.cpp contact
+yield_law engine/contact/yield_law.hpp tests/contact/yield_law_test.cpp contact
 refinement engine/metrology/registration/refinement.cpp tests/metrology/refinement_test.cpp metrology
 table_reader engine/statistics/table_reader.cpp tests/statistics/table_reader_test.cpp statistics
 result_log engine/core/files/result_log.cpp tests/run/result_log_test.cpp run"
@@ -56,20 +56,27 @@ ninja_ $(cut -d' ' -f4 <<< "$rooms" | while read -r room; do libraries "$room"; 
   { tail -n 20 "$build/mistakes.log"; exit 2; }
 
 flags="-std=c++20 -O1 -fPIC -march=native -ffp-contract=off -Wall -Wextra -Wconversion -Wno-sign-conversion -Wno-restrict
-  -Werror -D_GLIBCXX_ASSERTIONS -DEIGEN_DONT_PARALLELIZE -I$tree -isystem /usr/include/eigen3"
+  -Werror -D_GLIBCXX_ASSERTIONS -fsanitize=address -DEIGEN_DONT_PARALLELIZE -I$tree -isystem /usr/include/eigen3"
 launcher=$(command -v ccache || true)
 # object SOURCE: compiles one source.
 object() {
   # shellcheck disable=SC2086  # lists of words
   $launcher c++ $flags "-DASPERITY_TEST_DATA=\"$tree/tests/reference\"" -c "$tree/$1" -o "$objects/$(basename "$1").o"
 }
-# near SOURCE TEST ROOM: runs the tests of a source alone, and prints the case that failed, `-`, or `none` without a build.
+# near SOURCE TESTS ROOM: runs the tests of a source alone, and prints the case that failed, `-`, or `none` without a build.
 near() {
-  object "$1" 2> "$objects/log" || { echo "none"; return; }
-  object "$2" 2> "$objects/log" || { echo "none"; return; }
+  local own= file
+  if [[ $1 != *.hpp ]]; then  # a header is compiled with its test
+    own=$objects/$(basename "$1").o
+    object "$1" 2> "$objects/log" || { echo "none"; return; }
+  fi
+  for file in ${2//,/ }; do
+    own+=" $objects/$(basename "$file").o"
+    object "$file" 2> "$objects/log" || { echo "none"; return; }
+  done
   object tests/support/open_files.cpp
-  # shellcheck disable=SC2046  # a list of words
-  (cd "$build" && c++ -fuse-ld=lld "$objects/$(basename "$1").o" "$objects/$(basename "$2").o" \
+  # shellcheck disable=SC2046,SC2086  # lists of words
+  (cd "$build" && c++ -fuse-ld=lld -fsanitize=address $own \
     "$objects/open_files.cpp.o" $(libraries "$3") -lpthread -o tests/test_near) 2> "$objects/log" ||
     { echo "none"; return; }
   tried "its own" 60 "$build/tests/test_near"
@@ -78,7 +85,9 @@ near() {
 tried() {
   local whose=$1 seconds=$2
   shift 2
-  if (ulimit -v 16000000; timeout "$seconds" "$@" --gtest_brief=1 --gtest_fail_fast) > "$objects/tests.log" 2>&1 < /dev/null; then
+  local bound='ulimit -v 16000000'
+  [ "$whose" != "its own" ] || bound='export ASAN_OPTIONS=hard_rss_limit_mb=8000:detect_leaks=0'
+  if ($bound; timeout "$seconds" "$@" --gtest_brief=1 --gtest_fail_fast) > "$objects/tests.log" 2>&1 < /dev/null; then
     echo "-"
   else
     echo "$whose: $(grep -m 1 -o 'FAILED  \] [^ ,]*' "$objects/tests.log" | cut -c11- | grep . || echo "a crash, or no end")"

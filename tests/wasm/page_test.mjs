@@ -101,6 +101,30 @@ test('Run, PrintsTheDigitsOfTheNativeProgram', () =>
     assert.ok((await on.text(page, '.output')).startsWith(expected), 'the native program prints the same digits');
   }));
 
+test('Prompt, ShowsValuesAndErrorsAndAnswersQuestions', () =>
+  visit({}, async (page) => {
+    await page.click('#prompt-button');
+    const enter = async (line, shown) => {
+      await page.type('.prompt input', `${line}\n`);
+      const told = (text) => document.querySelector('.prompt .output').textContent.split('\n> ').at(-1).includes(text);
+      await on.until(page, told, `${line} should show ${shown}`, shown);
+      await on.until(page, () => document.querySelector('.prompt button').disabled, `${line} should end`);
+    };
+    await enter('s = lab.surface.sine{ cells=64, size="1 mm", amplitude="2 um", wavelength="0.5 mm" }', 's = lab');
+    await enter('s:roughness().Ra', '1.269 um (1.2691463e-06 m)');
+    await enter('for k = 1, 2 do', 'for');
+    await enter('print(k * 7) end', '14');
+    await enter('lab.surfce', 'did you mean `surface`?');
+    await enter('help "how do I turn"', 'contact:rotate');
+    await enter('who', 's  surface 64 x 64 cells');
+    await enter('exit', 'the session has ended');
+    await enter('s', 'was never set');
+    await page.type('.prompt input', 'while true do end\n');
+    await on.until(page, () => !document.querySelector('.prompt button').disabled, 'the loop should run');
+    await page.click('.prompt button');
+    await enter('1 + 1', '2');
+  }));
+
 test('Requests, AllGoToThePagesHost', async () => {
   const page = await on.openPage(browser, null);
   const asked = [];

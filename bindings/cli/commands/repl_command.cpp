@@ -2,6 +2,8 @@
 // `asperity repl`: an interactive prompt, edited and completed on a terminal. Each line runs at once and
 // prints its value. The first written file creates a run directory, whose script.lua has the lines without
 // errors.
+#include "bindings/cli/commands/repl_command.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -29,18 +31,6 @@
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
-
-namespace {
-
-struct ReplCommand {
-  std::optional<std::string> out;
-  int threads = 0;  // 0: one per processor
-  std::uint64_t seed = 1;
-  std::optional<std::int64_t> limit_memory;  // bytes
-  std::optional<double> limit_time;          // seconds, each line
-  bool trust = false;
-  bool no_history = false;
-};
 
 class Conversation {
  public:
@@ -79,7 +69,7 @@ class Conversation {
           lua::version_text().c_str());
     std::string line;
     for (int number = 1;; ++number) {
-      const LineReader::Event event = reader_.read(bench_->prompt->continued() ? ">> " : "> ", line);
+      const LineReader::Event event = reader_.read(continued() ? ">> " : "> ", line);
       if (event == LineReader::Event::end) break;
       if (event == LineReader::Event::given_up)
         bench_->prompt->forget();
@@ -88,6 +78,10 @@ class Conversation {
     }
     return end();
   }
+
+  // False at the end of the session.
+  bool take(const std::string& line, int number);
+  bool continued() const { return bench_->prompt->continued(); }
 
  private:
   struct Bench {
@@ -167,47 +161,6 @@ class Conversation {
   // Equal lines need different digests.
   std::string unique_digest() { return "line " + std::to_string(++lines_) + " of a prompt"; }
 
-  // False at the end of the session.
-  bool take(const std::string& line, int number) {
-    lua::Prompt::Outcome outcome;
-    bool terminated = false;
-    StopReason stopped = StopReason::none;
-    {
-      Watchdog watchdog(
-          command_.limit_time,
-          [this](StopReason reason) {
-            std::fprintf(stderr, "asperity: %s; it could not be stopped, and the session ends\n",
-                         reason_text(reason).c_str());
-            finish(RunStatus::killed, reason_text(reason), std::chrono::milliseconds(500));
-          },
-          reader_.terminal() ? Watchdog::CtrlC::waits : Watchdog::CtrlC::ends_within_grace);
-      moves_.clear();
-      {
-        const Watchdog::Watching watching(watchdog, bench_->state.get());
-        bench_->session.script_digest = unique_digest();
-        const std::size_t knobs = bench_->session.knobs->made().size();
-        outcome = bench_->prompt->take(line, number);
-        error_ = bench_->prompt->error();
-        if (outcome == lua::Prompt::Outcome::failed) {
-          bench_->session.knobs->keep_first(knobs);
-          lua::note_knobs(bench_->session);
-        }
-      }
-      if (outcome == lua::Prompt::Outcome::done && !moves_.empty()) outcome = run_again(watchdog);
-      stopped = stop_flag().reason();
-      terminated = watchdog.terminated() || (stopped == StopReason::interrupt && !reader_.terminal());
-    }
-    hear_stops();
-    monitor_.clear();
-    std::fflush(stdout);
-    if (outcome == lua::Prompt::Outcome::failed) {
-      lines_failed_ = true;
-      std::fprintf(stderr, "asperity: %s\n", failure(stopped).c_str());
-    }
-    if (terminated) stopped_ = true;
-    return !terminated && outcome != lua::Prompt::Outcome::end;
-  }
-
   // Clears a stop for the next line.
   void hear_stops() {
     stop_flag().clear();
@@ -267,6 +220,54 @@ class Conversation {
   int lines_ = 0;
   bool lines_failed_ = false, stopped_ = false;
 };
+
+bool Conversation::take(const std::string& line, int number) {
+  lua::Prompt::Outcome outcome;
+  bool terminated = false;
+  StopReason stopped = StopReason::none;
+  {
+    Watchdog watchdog(
+        command_.limit_time,
+        [this](StopReason reason) {
+          std::fprintf(stderr, "asperity: %s; it could not be stopped, and the session ends\n",
+                       reason_text(reason).c_str());
+          finish(RunStatus::killed, reason_text(reason), std::chrono::milliseconds(500));
+        },
+        reader_.terminal() ? Watchdog::CtrlC::waits : Watchdog::CtrlC::ends_within_grace);
+    moves_.clear();
+    {
+      const Watchdog::Watching watching(watchdog, bench_->state.get());
+      bench_->session.script_digest = unique_digest();
+      const std::size_t knobs = bench_->session.knobs->made().size();
+      outcome = bench_->prompt->take(line, number);
+      error_ = bench_->prompt->error();
+      if (outcome == lua::Prompt::Outcome::failed) {
+        bench_->session.knobs->keep_first(knobs);
+        lua::note_knobs(bench_->session);
+      }
+    }
+    if (outcome == lua::Prompt::Outcome::done && !moves_.empty()) outcome = run_again(watchdog);
+    stopped = stop_flag().reason();
+    terminated = watchdog.terminated() || (stopped == StopReason::interrupt && !reader_.terminal());
+  }
+  hear_stops();
+  monitor_.clear();
+  std::fflush(stdout);
+  if (outcome == lua::Prompt::Outcome::failed) {
+    lines_failed_ = true;
+    std::fprintf(stderr, "asperity: %s\n", failure(stopped).c_str());
+  }
+  if (terminated) stopped_ = true;
+  return !terminated && outcome != lua::Prompt::Outcome::end;
+}
+
+PromptLines::PromptLines(const ReplCommand& command)
+    : command_(command), conversation_(std::make_unique<Conversation>(command_)) {}
+PromptLines::~PromptLines() = default;
+bool PromptLines::take(const std::string& line) { return conversation_->take(line, 1); }
+bool PromptLines::continued() const { return conversation_->continued(); }
+
+namespace {
 
 // Exit status: 0; from os.exit; without a terminal 1 after a failed line or expectation; 130 after a signal.
 int repl(const ReplCommand& command) { return Conversation(command).converse(); }

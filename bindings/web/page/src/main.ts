@@ -5,6 +5,7 @@
 import { takeDrops } from './alone/dropped';
 import { Laboratory } from './alone/laboratory';
 import { linked } from './alone/linked';
+import { PromptDialog } from './alone/prompt';
 import { ApiError, runKey, Server, tokenHint, type About, type Api, type Mark } from './api';
 import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
@@ -594,6 +595,5 @@ showStatus();
 draw();
 resume();
 void greet();
-// Its copies of all files would slow the first run. Without it the page needs the network.
-if (here) setTimeout(() => navigator.serviceWorker?.register('offline.js').catch(() => undefined), 5000);
+if (here) new PromptDialog(here.prompt, byId('keys-button'));
 performance.mark('asperity-ready');

@@ -163,6 +163,14 @@ class RunHere {
   }
 }
 
+/** What a line of the prompt brings. */
+export type Line = { stream: 'out' | 'err'; text: string } | { next: 'line' | 'more' | 'end' };
+
+export interface Lines {
+  enter(line: string): void;
+  end(): void;
+}
+
 class LiveHere {
   private readonly bench: Bench;
   private moves = 0;
@@ -220,6 +228,8 @@ export class Laboratory implements Api {
 
   constructor() {
     sessionStorage.removeItem(runKey); // runs end with the page
+    // Its copies of all files would slow the first run. Without it the page needs the network.
+    setTimeout(() => navigator.serviceWorker?.register('offline.js').catch(() => undefined), 5000);
   }
 
   about = async (): Promise<About> => ({
@@ -246,6 +256,16 @@ export class Laboratory implements Api {
   /** Replays the run directory at `folder` of the given files. */
   replay = (folder: string): Promise<{ id: string }> =>
     this.begin({ replay: folder, files: this.given });
+
+  /** A session of the prompt, which reads the given files. */
+  prompt = (take: (line: Line) => void): Lines => {
+    const bench = Bench.for((t) => {
+      if ('stream' in t) take(t);
+      if ('failure' in t) take({ stream: 'err', text: `the module ended: ${t.failure}\n` });
+      if ('taken' in t || 'failure' in t) take({ next: (['line', 'more'] as const)['taken' in t ? t.taken : 2] ?? 'end' });
+    });
+    return { enter: (line) => bench.give({ line, files: this.given }), end: () => bench.end() };
+  };
 
   stop = (id: string): Promise<unknown> => this.of(id).then((run) => run.stop());
 

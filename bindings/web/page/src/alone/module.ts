@@ -9,6 +9,7 @@ export type Task =
   | { ask: string } // JSON, as bindings/wasm/page.cpp takes it
   | { run: string; files: Files } // JSON
   | { replay: string; files: Files } // a run directory
+  | { line: string; files: Files } // of the prompt
   | { move: string }; // JSON
 
 export type Told =
@@ -18,5 +19,6 @@ export type Told =
   | { stream: 'out' | 'err'; text: string }
   | { facts: string; numbers: Float32Array[] } // of a live script
   | { moved: true }
+  | { taken: number } // a line of the prompt; 1: the statement goes on, from 2: the session has ended
   | { exit: number; files: Files }
   | { failure: string }; // the module is lost

@@ -130,6 +130,13 @@ async function work(task: Task): Promise<void> {
       lab.FS.mkdirTree(`/files/${path}`.replace(/\/[^/]*$/, ''));
       lab.FS.writeFile(`/files/${path}`, bytes);
     }
+    if ('line' in task) {
+      let taken = 2; // os.exit ends the session
+      status(() => (taken = lab.ccall('asperity_line', 'number', ['string'], [task.line]) as number));
+      tellOutput();
+      scope.postMessage({ taken });
+      return;
+    }
     const [act, asked] = 'run' in task ? ['asperity_run', task.run] : ['asperity_replay', task.replay];
     const exit = status(() => lab.ccall(act, 'number', ['string'], [asked]));
     tellOutput();

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The prompt: each line runs at once in a worker of its own, and shows its value. Stop and `exit` end the session.
+
+import { h } from '../dom';
+import type { Line, Lines } from './laboratory';
+
+const greeting = 'help() explains, help "how do I turn" finds sentences, who lists variables, exit ends.\n';
+
+export class PromptDialog {
+  private readonly log = h('pre.output', { tabIndex: 0, role: 'log', 'aria-label': 'What the prompt shows' }, greeting);
+  private readonly input = h('input', {
+    type: 'text',
+    autocomplete: 'off',
+    spellcheck: false,
+    'aria-label': 'A line of Lua',
+    onkeydown: (event: KeyboardEvent) => this.key(event),
+  });
+  private readonly stop = h('button', { disabled: true, onclick: () => this.end('stopped: all variables are lost') }, 'Stop');
+  private readonly close = h('button', { onclick: () => this.dialog.close() }, 'Close');
+  private readonly dialog: HTMLDialogElement = h('dialog.prompt', { 'aria-label': 'Prompt' },
+    h('h2', 'Prompt'), this.log, this.input, this.stop, this.close,
+  );
+  private lines: Lines | undefined;
+  private readonly before: string[] = []; // lines of the past
+  private at = 0; // place in them
+  private continued = false;
+
+  /** The button stands before `next`. */
+  constructor(
+    private readonly begin: (take: (line: Line) => void) => Lines,
+    next: HTMLElement,
+  ) {
+    document.body.append(this.dialog);
+    const open = (): void => {
+      this.dialog.showModal();
+      this.input.focus();
+    };
+    next.before(h('button', { id: 'prompt-button', 'aria-haspopup': 'dialog', onclick: open }, 'Prompt'));
+  }
+
+  private key(event: KeyboardEvent): void {
+    const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+    if (step !== undefined) {
+      event.preventDefault();
+      this.at = Math.min(this.before.length, Math.max(0, this.at + step));
+      this.input.value = this.before[this.at] ?? '';
+    } else if (event.key === 'Enter' && !this.busy) {
+      const line = this.input.value;
+      this.input.value = '';
+      if (line.trim()) this.before.push(line);
+      this.at = this.before.length;
+      this.show(`${this.continued ? '>>' : '>'} ${line}\n`, 'said');
+      this.lines ??= this.begin((told) => this.take(told));
+      this.busy = true;
+      this.lines.enter(line);
+    }
+  }
+
+  private get busy(): boolean {
+    return !this.stop.disabled;
+  }
+
+  private set busy(busy: boolean) {
+    this.stop.disabled = !busy;
+  }
+
+  private take(told: Line): void {
+    if ('text' in told) return this.show(told.text, told.stream);
+    if (told.next === 'end') return this.end('the session has ended; the next line begins another');
+    this.continued = told.next === 'more';
+    this.busy = false;
+  }
+
+  private end(why: string): void {
+    this.lines?.end();
+    this.lines = undefined;
+    this.continued = this.busy = false;
+    this.show(`${why}\n`, 'err');
+    this.input.focus();
+  }
+
+  private show(text: string, kind: string): void {
+    this.log.append(h(`span.${kind}`, text));
+    this.log.scrollTop = this.log.scrollHeight;
+  }
+}
