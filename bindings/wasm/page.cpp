@@ -169,8 +169,7 @@ EMSCRIPTEN_KEEPALIVE int asperity_replay(const char* recorded) {
   });
 }
 
-// Takes a line of the prompt. Returns 0, 1 if the statement goes on in the next line, 2 at the end of the
-// session.
+// Takes a line of the prompt. Returns 0, 1 for an incomplete statement, 2 at the end of the session.
 EMSCRIPTEN_KEEPALIVE int asperity_line(const char* line) {
   using asperity::cli::PromptLines;
   static std::unique_ptr<PromptLines> prompt;
