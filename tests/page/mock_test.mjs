@@ -386,6 +386,7 @@ test('Chart, LinesOnEachOtherAreBothSeen', () =>
     const dashed = () => page.$$eval('.chart svg .line path', (all) => all.map((e) => getComputedStyle(e).strokeDasharray !== 'none'));
     await on.run(page, '-- mock.alike\n');
     await on.finished(page);
+    await page.waitForSelector('.chart svg .line path'); // after the chunk of charts
     assert.match(await on.text(page, '.charts .caption'), /8 points, 2 lines, one per way/);
     assert.deepEqual(await dashed(), [false, true]);
     await on.run(page, 'for N = 1, 8 do end\n');
