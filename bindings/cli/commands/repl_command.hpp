@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The prompt without its terminal, for a caller with lines of its own.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct ReplCommand {
 
 class Conversation;
 
-// A prompt whose lines come from the caller. Prints values on standard output, errors on standard error.
+// Prints values on standard output, errors on standard error.
 class PromptLines {
  public:
   explicit PromptLines(const ReplCommand& command);

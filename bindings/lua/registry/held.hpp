@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A function with what it has captured. std::function would instantiate ten functions for each of a thousand
+// A function with its captures. std::function would instantiate ten functions for each of a thousand
 // options.
 #pragma once
 
@@ -18,7 +18,7 @@ template <class Result, class... Given>
 class Held<Result(Given...)> {
  public:
   Held() = default;
-  // Small captures are kept inside, others shared between copies.
+  // Small captures stay inside, others shared between copies.
   template <class Function>
   requires(!std::same_as<Function, Held>) Held(Function function) {
     if constexpr (std::is_trivially_copyable_v<Function> && sizeof(Function) <= sizeof inside_) {

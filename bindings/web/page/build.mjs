@@ -67,7 +67,7 @@ async function addModule() {
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; " +
     "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'";
   const page = join(output, 'index.html');
-  // The module loads beside the page's script.
+  // The module loads while the page's script loads.
   const head =
     `<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="${policy}">\n` +
     '<link rel="preload" href="module.wasm" as="fetch" crossorigin>';

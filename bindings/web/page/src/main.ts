@@ -568,15 +568,16 @@ const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (o
 const keys = byId<HTMLDialogElement>('keys');
 byId('keys-close').addEventListener('click', () => keys.close());
 byId('keys-button').addEventListener('click', () => keys.showModal());
+const openDialog = (): Element | null => document.querySelector('dialog[open]');
 document.addEventListener(
   'keydown',
   (event) => {
     if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) {
       event.preventDefault();
       void start();
-    } else if (event.key === 'Escape' && filling.on && !keys.open) {
+    } else if (event.key === 'Escape' && filling.on && !openDialog()) {
       filling.set(false);
-    } else if (event.key === 'Escape' && (run?.active || live.busy) && !keys.open && !editor.wantsEscape) {
+    } else if (event.key === 'Escape' && (run?.active || live.busy) && !openDialog() && !editor.wantsEscape) {
       void stop();
     }
   },

@@ -96,7 +96,7 @@ export class PicturePane {
     );
     element.append(this.empty, this.body);
     this.listen();
-    // Sizes are kept: to read them lays the page out again.
+    // Reading a size would lay the page out again.
     const observer = new ResizeObserver((entries) => {
       for (const { target, contentRect } of entries)
         if (target === this.key) this.along = contentRect.width;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The laboratory without a server, behind the server's interface: the WebAssembly module in workers. One
-// worker answers checks and completions, one each run, one the script whose knobs move. Stop ends a worker.
+// worker answers checks and completions, one each run, one the script whose knobs move, one the prompt; one
+// waits for the next of them. Stop ends a worker.
 
 import { ApiError, runKey, type About, type Api, type Check, type Lesson, type LessonEntry } from '../api';
 import type { Candidate, RunEvent, View } from '../api';
@@ -163,7 +164,7 @@ class RunHere {
   }
 }
 
-/** What a line of the prompt brings. */
+/** Output of a line of the prompt, or its end. */
 export type Line = { stream: 'out' | 'err'; text: string } | { next: 'line' | 'more' | 'end' };
 
 export interface Lines {

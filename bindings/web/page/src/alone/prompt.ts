@@ -21,7 +21,7 @@ export class PromptDialog {
     h('h2', 'Prompt'), this.log, this.input, this.stop, this.close,
   );
   private lines: Lines | undefined;
-  private readonly before: string[] = []; // lines of the past
+  private readonly before: string[] = []; // earlier lines
   private at = 0; // place in them
   private continued = false;
 
