@@ -11,6 +11,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/surface/generators/table_product.hpp"
 
 namespace asperity::plane_waves_test {
 namespace {
@@ -39,6 +40,24 @@ double direct(const std::vector<PlaneWave>& waves, int i, int j) {
 
 Field sum(const std::vector<PlaneWave>& waves, int nx, int ny) {
   return sum_of_plane_waves(nx, ny, waves, Monitor::silent(), "waves");
+}
+
+// With fused operations, most of these sums would differ in the last bit.
+TEST(TableProduct, RoundsEachProductAndEachSum) {
+  constexpr int rows = 2 * table_product::row_step, columns = 2 * table_product::column_step, depth = 100;
+  const Stream stream(11, "tables");
+  std::vector<double> left(rows * depth), right(columns * depth), sum(rows * columns), wanted(rows * columns);
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = stream.uniform(k) - .5;
+  for (std::size_t k = 0; k < right.size(); ++k) right[k] = stream.uniform(left.size() + k) - .5;
+  for (std::size_t place = 0; place < wanted.size(); ++place) {
+    const std::size_t row = place % rows, column = place / rows;
+    for (std::size_t k = 0; k < depth; ++k) {
+      const volatile double product = left[k * rows + row] * right[k * columns + column];
+      wanted[place] += product;
+    }
+  }
+  table_product::add(rows, columns, depth, left.data(), rows, right.data(), columns, sum.data(), rows);
+  EXPECT_EQ(sum, wanted);
 }
 
 // About twenty places, including both ends.
