@@ -24,6 +24,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/core/text.hpp"
+#include "engine/plot/gnuplot.hpp"
 #include "engine/run/run_knobs.hpp"
 
 // An event of a run, as one line of JSON.
@@ -177,13 +178,16 @@ EMSCRIPTEN_KEEPALIVE int asperity_line(const char* line) {
     if (!prompt)
       prompt = std::make_unique<PromptLines>(
           asperity::cli::ReplCommand{.out = asperity::web::run_folder, .no_history = true});
+    const int charts = asperity::pictures_left_to_page();
     const bool goes_on = prompt->take(line);
+    if (asperity::pictures_left_to_page() > charts)
+      std::fputs("charts are drawn for scripts: put these lines into the editor, and run them\n", stderr);
     return !goes_on ? 2 : prompt->continued() ? 1 : 0;
   });
 }
 
-// Answers a question of the live script; the first call has the script: {script, move, knobs, view}. Returns
-// 0, or the exit status of an error.
+// Answers a question of the live script; the first call has the script: {script, move, knobs, view, map}.
+// Returns 0, or the exit status of an error.
 EMSCRIPTEN_KEEPALIVE int asperity_move(const char* question) {
   using namespace asperity::web;
   static std::unique_ptr<Live> live;

@@ -112,6 +112,19 @@ test('Prompt, ShowsValuesAndErrorsAndAnswersQuestions', () =>
     };
     await enter('s = lab.surface.sine{ cells=64, size="1 mm", amplitude="2 um", wavelength="0.5 mm" }', 's = lab');
     await enter('s:roughness().Ra', '1.269 um (1.2691463e-06 m)');
+    const tab = async (line, completed) => {
+      await page.type('.prompt input', line);
+      await page.keyboard.press('Tab');
+      await on.until(page, (text) => document.querySelector('.prompt input').value === text, `Tab should give ${completed}`, completed);
+      await page.$eval('.prompt input', (input) => (input.value = ''));
+    };
+    await tab('lab.surface.self_a', 'lab.surface.self_affine');
+    await tab('s:rough', 's:roughness');
+    await enter('lab.notebook "kept":write{ Ra = s:roughness().Ra }', 'kept');
+    await on.until(page, () => document.querySelector('.prompt [aria-label="Save kept.csv"]'), 'its file should be offered');
+    await enter('lab.notebook "kept":chart{ x="Ra", y="Ra", file="c.svg" }', 'charts are drawn for scripts');
+    await on.assertAccessible(page, 'the prompt');
+    await on.assertFits(page, 'the prompt');
     await enter('for k = 1, 2 do', 'for');
     await enter('print(k * 7) end', '14');
     await enter('lab.surfce', 'did you mean `surface`?');

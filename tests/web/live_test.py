@@ -43,8 +43,8 @@ def begin(server, script, tab="tab", token=None):
     return answer.json()["id"]
 
 
-def move(server, live, token=None, view="", **knobs):
-    answer = server.ask("POST", f"/api/live/{live}", {"knobs": knobs, "view": view}, token=token)
+def move(server, live, token=None, view="", map="", **knobs):
+    answer = server.ask("POST", f"/api/live/{live}", {"knobs": knobs, "view": view, "map": map}, token=token)
     assert answer.status == 200, (answer.status, answer.body)
     return frames(answer.body)
 
@@ -95,6 +95,10 @@ def test_a_move_computes_what_the_knob_touches():
         assert again["numbers"] == first["numbers"]
         surface = whole(move(server, live, view="surface-1"))
         assert surface["view"]["name"] == "surface-1" and len(surface["numbers"]) == 1
+        gap, others = move(server, live, map="gap")
+        assert (gap["part"], gap["first"], others["part"]) == ("whole", 1, "others"), (gap, others)
+        assert others["numbers"][:1] + gap["numbers"] + others["numbers"][1:] == first["numbers"]
+        assert whole(move(server, live, map="height"))["numbers"] == first["numbers"], "a map of another view"
         assert children_of(server.process.pid) == [process], "no other process was started"
 
 

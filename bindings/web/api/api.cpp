@@ -362,7 +362,7 @@ HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
   return json_answer(Json::object({{"id", live_.begin(person, tab, asked)->id}}), 201);
 }
 
-// POST {knobs, view?}: streams the results as frames.
+// POST {knobs, view?, map?}: streams the results as frames.
 HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const std::string& id) {
   if (request.method == "DELETE") {
     live_.end(person, id);
@@ -372,10 +372,13 @@ HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const 
   if (session == nullptr) return problem_answer(404, "there is no such script that follows its knobs");
   const Json body = body_of(request);
   const GivenKnobs knobs = knobs_member(body, "knobs");
-  const std::string view = body.find("view") == nullptr ? "" : text_member(body, "view", longest_name);
+  const auto name_in = [&body](const char* member) {
+    return body.find(member) == nullptr ? std::string() : text_member(body, member, longest_name);
+  };
+  const std::string view = name_in("view"), map = name_in("map");
   const auto share = streams_.take(person, std::chrono::milliseconds(0));
   if (share == nullptr) return too_many_answers();
-  const std::int64_t move = live_.move(*session, knobs, view);
+  const std::int64_t move = live_.move(*session, knobs, view, map);
   HttpResponse response;
   response.type = "application/octet-stream";
   response.headers = {{"Cache-Control", "no-store"}};

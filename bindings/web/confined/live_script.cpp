@@ -133,6 +133,7 @@ KnobQuestion knob_question(const std::string& text) {
   question.move = static_cast<std::int64_t>(member("move").number());
   for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
   question.view = member("view").string();
+  question.map = member("map").string();
   return question;
 }
 
@@ -352,7 +353,15 @@ void LiveScript::Runner::say(const KnobQuestion& question, Found found, Json ans
   answer.set("events", std::move(found.events)).set("views", std::move(views));
   if (looked_at != nullptr)
     answer.set("view", Json::object({{"name", name_of_it}, {"title", view.title}, {"fields", view.fields}}));
-  asker_.send(answer, view.values);
+  const bool whole = answer.find("factor")->number() == 1;
+  const auto in_view = std::ranges::find_if(
+      view.fields, [&](const Json& field) { return field.find("name")->string() == question.map; });
+  const auto first = in_view - view.fields.begin();
+  if (!whole || in_view == view.fields.end() || view.fields.size() == 1)
+    return asker_.send(answer, view.values);
+  asker_.send(answer.set("first", first), {std::move(view.values[static_cast<std::size_t>(first)])});
+  view.values.erase(view.values.begin() + first);
+  asker_.send(Json::object({{"move", question.move}, {"part", "others"}}), view.values);
 }
 
 LiveScript::LiveScript(const ConfinedRequest& request, KnobAsker& asker)

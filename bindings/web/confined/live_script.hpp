@@ -30,6 +30,7 @@ struct KnobQuestion {
   std::int64_t move = 0;
   GivenKnobs knobs;
   std::string view;
+  std::string map;  // of the view; its numbers come first
 };
 // Throws Error{bad_file}.
 KnobQuestion knob_question(const std::string& text);
@@ -54,7 +55,7 @@ class LiveScript {
   LiveScript(const LiveScript&) = delete;
   LiveScript& operator=(const LiveScript&) = delete;
 
-  // One or two calls of `send`.
+  // Up to three calls of `send`: on fewer cells; on all, with the map in view; the other maps.
   void answer(const KnobQuestion& question);
 
  private:

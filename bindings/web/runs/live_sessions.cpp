@@ -66,14 +66,15 @@ LiveSession::Clock::time_point LiveSession::last_used() const {
   return used_;
 }
 
-std::int64_t LiveSession::move(const GivenKnobs& knobs, const std::string& view,
+std::int64_t LiveSession::move(const GivenKnobs& knobs, const std::string& view, const std::string& map,
                                std::shared_ptr<void> share) {
   Json given = Json::object();
   for (const auto& [name, text] : knobs) given.set(name, text);
   const std::lock_guard lock(mutex_);
   if (share != nullptr) share_ = std::move(share);
   used_ = Clock::now();
-  question_ = Json::object({{"move", ++moves_}, {"knobs", std::move(given)}, {"view", view}}).text();
+  question_ =
+      Json::object({{"move", ++moves_}, {"knobs", std::move(given)}, {"view", view}, {"map", map}}).text();
   const std::uint64_t one = 1;
   (void)!::write(wake_.get(), &one, sizeof one);
   return moves_;
@@ -154,13 +155,13 @@ class LiveFollower final : public Follower {
       there = got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
       if (got <= 0) break;
       arrived_.append(piece, static_cast<std::size_t>(got));
+      try {
+        while (const auto texts = take_frame(arrived_, longest_answer)) session_.take(*texts);
+      } catch (const Error&) {
+        return false;
+      }
     }
-    try {
-      while (const auto texts = take_frame(arrived_, longest_answer)) session_.take(*texts);
-      return there;
-    } catch (const Error&) {
-      return false;
-    }
+    return there;
   }
 
   LiveSession& session_;
@@ -189,7 +190,7 @@ void LiveSession::take(const std::vector<std::string>& texts) {
   const Json *number = json.find("move"), *part = json.find("part");
   if (number == nullptr || part == nullptr) throw Error(ErrorCode::bad_file, "an answer says not of what");
   const double told = number->number();
-  const bool last = part->string() != "coarse";
+  const bool last = part->string() != "coarse" && json.find("first") == nullptr;
   const std::vector<std::string_view> all(texts.begin(), texts.end());
   const std::lock_guard lock(mutex_);
   if (!(told > static_cast<double>(answered_) && told <= static_cast<double>(moves_))) return;
@@ -267,14 +268,15 @@ std::shared_ptr<LiveSession> LiveSessions::find(std::size_t owner, const std::st
                                                                                             : found->second;
 }
 
-std::int64_t LiveSessions::move(LiveSession& session, const GivenKnobs& knobs, const std::string& view) {
+std::int64_t LiveSessions::move(LiveSession& session, const GivenKnobs& knobs, const std::string& view,
+                                const std::string& map) {
   std::shared_ptr<void> share;
   if (!session.busy()) {
     share = turns_.take(session.owner, turn_patience);
     if (share == nullptr)
       throw Error(ErrorCode::bad_state, "the server is busy with the knobs of others", "try again");
   }
-  return session.move(knobs, view, std::move(share));
+  return session.move(knobs, view, map, std::move(share));
 }
 
 void LiveSessions::end(std::size_t owner, const std::string& id) {

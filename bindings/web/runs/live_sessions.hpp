@@ -51,7 +51,8 @@ class LiveSession {
   const std::string tab;
 
   // Sends a question; returns its move number. Holds `share` until the newest move is answered.
-  std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
+  std::int64_t move(const GivenKnobs& knobs, const std::string& view, const std::string& map,
+                    std::shared_ptr<void> share);
   // The next part of a move's answer: a frame or nothing yet. False after the last.
   bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
   bool busy() const;
@@ -100,7 +101,8 @@ class LiveSessions {
   // Null if unknown or ended.
   std::shared_ptr<LiveSession> find(std::size_t owner, const std::string& id) const;
   // Waits for a turn; throws Error{bad_state} on timeout.
-  std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view);
+  std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view,
+                    const std::string& map);
   void end(std::size_t owner, const std::string& id);
   std::size_t count() const;
   void close();

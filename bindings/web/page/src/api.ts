@@ -3,7 +3,7 @@
 // which browsers never send. It moves to the tab's session storage at once, hidden from projectors, and is
 // sent only in the Authorization header.
 
-import { framesOf, type LiveFacts } from './live';
+import { framesOf, type LiveFacts, type LookedAt } from './live';
 
 export interface Mark {
   line: number;
@@ -231,11 +231,11 @@ export class Server {
   async moveLive(
     id: string,
     knobs: Record<string, string>,
-    view: string,
+    looked: LookedAt,
     take: (facts: LiveFacts, numbers: Float32Array[]) => void,
     signal: AbortSignal,
   ): Promise<void> {
-    const answer = await this.request('POST', `/api/live/${encodeURIComponent(id)}`, { knobs, view }, { signal });
+    const answer = await this.request('POST', `/api/live/${encodeURIComponent(id)}`, { knobs, ...looked }, { signal });
     const text = new TextDecoder();
     await framesOf(answer.body!, (texts) =>
       take(

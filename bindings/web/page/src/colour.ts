@@ -127,26 +127,15 @@ function noneOf(field: string): [number, number, number] | undefined {
 
 /** From above, y upwards, one pixel a node. `colours`: three bytes a node. */
 export function drawFlat(canvas: HTMLCanvasElement, { nx, ny }: { nx: number; ny: number }, colours: Uint8Array): void {
-  canvas.width = nx;
-  canvas.height = ny;
+  // Setting a size costs a layout, even the same size.
+  if (canvas.width !== nx) canvas.width = nx;
+  if (canvas.height !== ny) canvas.height = ny;
   const pixels = new ImageData(nx, ny);
   const words = new Uint32Array(pixels.data.buffer); // little-endian, as the views are
   for (let j = 0, k = 0; j < ny; ++j)
     for (let to = (ny - 1 - j) * nx, end = to + nx; to < end; ++to, k += 3)
       words[to] = 0xff000000 | (colours[k + 2] << 16) | (colours[k + 1] << 8) | colours[k];
   canvas.getContext('2d')!.putImageData(pixels, 0, 0);
-}
-
-const strips = new Map<string, string>(); // a canvas takes long to read
-
-/** All colours of a field from left to right, as an address. */
-function stripOf(field: string): string {
-  const canvas = document.createElement('canvas');
-  if (!strips.has(field)) {
-    drawFlat(canvas, { nx: 256, ny: 1 }, tableOf(field));
-    strips.set(field, canvas.toDataURL());
-  }
-  return strips.get(field)!;
 }
 
 export const legendHeight = 42; // px
@@ -176,10 +165,12 @@ export function legend(field: string, unit: string, range: Range, width: number,
       svg('text', { x: left - 34, y: 36, 'text-anchor': 'middle' }, 'none'),
     );
   const bar = { ...frame, x: left, width: width - 24 - left };
-  root.append(
-    svg('image', { ...bar, href: stripOf(field), preserveAspectRatio: 'none' }),
-    svg('rect', { ...bar, fill: 'none' }),
+  const { colours } = paletteOf(field);
+  const stops = colours.map((colour, k) =>
+    svg('stop', { offset: k / (colours.length - 1), 'stop-color': `rgb(${bytesOf(colour).join(',')})` }),
   );
+  const id = `colours-of-${field}`;
+  root.append(svg('linearGradient', { id }, ...stops), svg('rect', { ...bar, fill: `url(#${id})` }));
   const place = scaleLinear([low, high], [bar.x, bar.x + bar.width]);
   for (const tick of place.ticks(Math.max(2, Math.floor(bar.width / 70)))) {
     const x = place(tick);

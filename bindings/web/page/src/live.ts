@@ -17,6 +17,7 @@ export interface Followed {
 export interface LiveResults {
   part: 'coarse' | 'whole'; // coarse, then whole
   factor: number; // of `cells`
+  first?: number; // the map that came; part 'others' brings the others
   seconds: number;
   computed: number; // heavy results
   recalled: number; // from memory
@@ -25,11 +26,18 @@ export interface LiveResults {
   view?: View<FieldFacts> & { name: string };
 }
 
-export type LiveFacts = LiveResults | { part: 'outdated' | 'ended' };
+export type LiveFacts = LiveResults | { part: 'others' | 'outdated' | 'ended' };
+
+/** '': the last view, no map in view. */
+export interface LookedAt {
+  view: string;
+  map: string;
+}
 
 export interface LivePicture {
   name: string;
-  fields: Field[];
+  first?: Field; // before the others
+  fields: Promise<Field[]>;
 }
 
 interface Move {
@@ -60,6 +68,7 @@ export class Live {
   private timer = 0;
   private going = false;
   private took = 0; // ms, last full answer
+  private others: (numbers: Float32Array[]) => void = () => undefined; // of the answer that has come in part
 
   constructor(
     private readonly api: Api,
@@ -67,7 +76,7 @@ export class Live {
       answered: (run: Run, of: Followed, picture: LivePicture | undefined, began: number) => void;
       changed: () => void;
       failed: (error: unknown) => void;
-      view: () => string; // '' the last
+      looked: () => LookedAt;
     },
   ) {
     addEventListener('pagehide', () => this.end());
@@ -159,12 +168,13 @@ export class Live {
       const take = (facts: LiveFacts, numbers: Float32Array[]): void => {
         if (under.stop.signal.aborted) return;
         if (facts.part === 'ended') gone = true;
+        if (facts.part === 'others') this.others(numbers);
         if (facts.part !== 'coarse' && facts.part !== 'whole') return;
         under.coarse ||= facts.part === 'coarse';
         this.take(move, facts, numbers);
         this.hurry();
       };
-      await this.api.moveLive(id, valuesOf(move.knobs), this.on.view(), take, under.stop.signal);
+      await this.api.moveLive(id, valuesOf(move.knobs), this.on.looked(), take, under.stop.signal);
       if (gone && !under.stop.signal.aborted) {
         this.session = undefined;
         if (again && mine) await this.ask(move, false);
@@ -194,23 +204,30 @@ export class Live {
     for (const event of facts.events) run.take(event);
     if (run.errors.length > 0) run.status = 'failed';
     for (const { name, title } of facts.views) run.take({ n: 0, type: 'view', name, title });
-    this.on.answered(run, of, pictureIn(facts, numbers), move.began);
+    this.on.answered(run, of, this.pictureIn(facts, numbers), move.began);
   }
 
   private async look(move: Move, name: string): Promise<Field[]> {
-    let found: Field[] = [];
+    let found: Promise<Field[]> | Field[] = [];
     const id = await this.open(move.of.script);
     const take = (facts: LiveFacts, numbers: Float32Array[]): void => {
-      const picture = facts.part === 'whole' ? pictureIn(facts, numbers) : undefined;
+      const picture = facts.part === 'whole' ? this.pictureIn(facts, numbers) : undefined;
       if (picture?.name === name) found = picture.fields;
     };
-    await this.api.moveLive(id, valuesOf(move.knobs), name, take, new AbortController().signal);
+    await this.api.moveLive(id, valuesOf(move.knobs), { view: name, map: '' }, take, new AbortController().signal);
     return found;
   }
-}
 
-function pictureIn({ view }: LiveResults, numbers: Float32Array[]): LivePicture | undefined {
-  return view && { name: view.name, fields: view.fields.map((f, k) => fieldOf(f, numbers[k])) };
+  private pictureIn({ view, first }: LiveResults, numbers: Float32Array[]): LivePicture | undefined {
+    if (!view) return undefined;
+    const { name } = view;
+    const fieldsOf = (of: Float32Array[]): Field[] => view.fields.map((f, k) => fieldOf(f, of[k]));
+    if (first === undefined) return { name, fields: Promise.resolve(fieldsOf(numbers)) };
+    const fields = new Promise<Field[]>((resolve) => {
+      this.others = (rest) => resolve(fieldsOf([...rest.slice(0, first), numbers[0], ...rest.slice(first)]));
+    });
+    return { name, first: fieldOf(view.fields[first], numbers[0]), fields };
+  }
 }
 
 /** Frames: a number of texts, then each after its length. */

@@ -84,7 +84,7 @@ const table = new TablePane(byId('table'));
 const charts = new ChartPane(byId('chart'), failed);
 const pictures = new PicturePane(byId('picture'), api, failed, (): boolean => knobs.held);
 const files = new FilesPane(byId('files'), api, failed);
-const live = new Live(api, { answered, changed: draw, failed, view: () => pictures.lookedAt });
+const live = new Live(api, { answered, changed: draw, failed, looked: () => pictures.lookedAt });
 const knobs = new KnobsPane(api, {
   again,
   stop,
@@ -596,5 +596,5 @@ showStatus();
 draw();
 resume();
 void greet();
-if (here) new PromptDialog(here.prompt, byId('keys-button'));
+if (here) new PromptDialog(here, byId('keys-button'));
 performance.mark('asperity-ready');

@@ -18,7 +18,7 @@ import {
   type Attitude,
   type Field,
 } from './pictures';
-import type { LivePicture } from './live';
+import type { LivePicture, LookedAt } from './live';
 import type { Run } from './run';
 import type { ReliefScene } from './scene';
 import { Scrubber } from './scrub';
@@ -41,6 +41,7 @@ export class PicturePane {
   private pending = false;
   private kept = ''; // view in the previous run
   private began: number | undefined; // the event behind a picture
+  private first: Field | undefined; // of a live picture, before its other maps
   private room = { width: 120, height: 120 }; // px, of the stage
   private along = 0; // px, of the colour key
   private readonly which = new Choice('Picture', (name) => {
@@ -132,9 +133,8 @@ export class PicturePane {
     if (name !== this.shown && this.visible) void this.look(name);
   }
 
-  /** '' for the last view. */
-  get lookedAt(): string {
-    return this.followed ? '' : this.shown;
+  get lookedAt(): LookedAt {
+    return { view: this.followed ? '' : this.shown, map: this.colour?.name ?? '' };
   }
 
   /** Other values: the old picture stays until the new one arrives. */
@@ -142,7 +142,8 @@ export class PicturePane {
     this.scrubber.pause();
     this.take(run);
     this.maps.clear();
-    if (picture) this.maps.set(picture.name, Promise.resolve(picture.fields));
+    if (picture) this.maps.set(picture.name, picture.fields);
+    this.first = picture?.first;
     this.kept = run.views.some((v) => v.name === this.shown) ? this.shown : '';
     this.shown = '';
     this.began = began;
@@ -155,7 +156,7 @@ export class PicturePane {
     if (run?.script !== this.run?.script) {
       // Another script needs its own exaggeration.
       this.fields = [];
-      this.relief = undefined;
+      this.colour = this.relief = undefined;
     }
     this.run = run;
   }
@@ -202,7 +203,13 @@ export class PicturePane {
 
   private async look(name: string): Promise<void> {
     this.shown = name;
-    const run = this.run;
+    const { run, first, colour: old } = this;
+    this.first = undefined;
+    const alike = first?.name === old?.name && first?.nx === old?.nx && first?.ny === old?.ny;
+    if (first && alike && !this.map.hidden) {
+      this.colour = first;
+      this.draw();
+    }
     try {
       const [fields] = await Promise.all([this.fetch(name), this.prepare()]);
       if (this.run !== run || this.shown !== name || fields.length === 0) return;
@@ -221,6 +228,7 @@ export class PicturePane {
 
   private pick(colour: string, relief: string): void {
     const previous = this.relief;
+    const drawn = this.colour?.values;
     this.colour = this.fields.find((f) => f.name === colour) ?? this.fields[0];
     this.relief = reliefFields(this.fields).find(
       (f) => f.name === relief && f.nx === this.colour!.nx && f.ny === this.colour!.ny,
@@ -229,7 +237,7 @@ export class PicturePane {
     this.reliefChoice.select.value = this.relief?.name ?? 'flat';
     // Equal reliefs share a factor for comparison.
     if (this.relief && previous?.name !== this.relief.name) this.step = fittingExaggeration(this.relief);
-    this.draw();
+    if (this.map.hidden || this.colour.values !== drawn) this.draw();
   }
 
   private async prepare(): Promise<void> {

@@ -5,7 +5,7 @@
 
 import { ApiError, runKey, type About, type Api, type Check, type Lesson, type LessonEntry } from '../api';
 import type { Candidate, RunEvent, View } from '../api';
-import type { LiveFacts } from '../live';
+import type { LiveFacts, LookedAt } from '../live';
 import type { Files, Task, Told } from './module';
 
 const checkPatience = 5000; // ms, for the dry run of a script
@@ -164,8 +164,8 @@ class RunHere {
   }
 }
 
-/** Output of a line of the prompt, or its end. */
-export type Line = { stream: 'out' | 'err'; text: string } | { next: 'line' | 'more' | 'end' };
+/** Output of a line of the prompt; its end, with the files so far. */
+export type Line = { stream: 'out' | 'err'; text: string } | { next: 'line' | 'more' | 'end'; files: Files };
 
 export interface Lines {
   enter(line: string): void;
@@ -193,7 +193,7 @@ class LiveHere {
   /** Resolves when the answers have come, or at the signal; the next move waits for the answers. */
   async move(
     knobs: Record<string, string>,
-    view: string,
+    looked: LookedAt,
     take: (facts: LiveFacts, numbers: Float32Array[]) => void,
     signal: AbortSignal,
   ): Promise<void> {
@@ -203,7 +203,7 @@ class LiveHere {
     const move = ++this.moves;
     this.under = { move, take };
     this.free = new Promise((resolve) => (this.moved = resolve));
-    this.bench.give({ move: JSON.stringify({ script: this.script, move, knobs, view }) });
+    this.bench.give({ move: JSON.stringify({ script: this.script, move, knobs, ...looked }) });
     await Promise.race([this.free, aborted]);
   }
 
@@ -263,7 +263,8 @@ export class Laboratory implements Api {
     const bench = Bench.for((t) => {
       if ('stream' in t) take(t);
       if ('failure' in t) take({ stream: 'err', text: `the module ended: ${t.failure}\n` });
-      if ('taken' in t || 'failure' in t) take({ next: (['line', 'more'] as const)['taken' in t ? t.taken : 2] ?? 'end' });
+      if ('failure' in t) take({ next: 'end', files: new Map() });
+      if ('taken' in t) take({ next: (['line', 'more'] as const)[t.taken] ?? 'end', files: t.files });
     });
     return { enter: (line) => bench.give({ line, files: this.given }), end: () => bench.end() };
   };
@@ -304,10 +305,10 @@ export class Laboratory implements Api {
   moveLive = (
     id: string,
     knobs: Record<string, string>,
-    view: string,
+    looked: LookedAt,
     take: (facts: LiveFacts, numbers: Float32Array[]) => void,
     signal: AbortSignal,
-  ): Promise<void> => this.lives.get(id)?.move(knobs, view, take, signal) ?? absent('This script');
+  ): Promise<void> => this.lives.get(id)?.move(knobs, looked, take, signal) ?? absent('This script');
 
   endLive(id: string): void {
     this.lives.get(id)?.end();

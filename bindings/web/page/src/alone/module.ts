@@ -19,6 +19,6 @@ export type Told =
   | { stream: 'out' | 'err'; text: string }
   | { facts: string; numbers: Float32Array[] } // of a live script
   | { moved: true }
-  | { taken: number } // a line of the prompt; 1: the statement goes on, from 2: the session has ended
+  | { taken: number; files: Files } // a line of the prompt; 1: the statement goes on, from 2: the session has ended
   | { exit: number; files: Files }
   | { failure: string }; // the module is lost

@@ -134,7 +134,7 @@ async function work(task: Task): Promise<void> {
       let taken = 2; // os.exit ends the session
       status(() => (taken = lab.ccall('asperity_line', 'number', ['string'], [task.line]) as number));
       tellOutput();
-      scope.postMessage({ taken });
+      scope.postMessage({ taken, files: filesIn(lab.FS, runFolder) });
       return;
     }
     const [act, asked] = 'run' in task ? ['asperity_run', task.run] : ['asperity_replay', task.replay];
