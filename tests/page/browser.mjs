@@ -201,6 +201,19 @@ export const inEditor = (page, selector) =>
     selector,
   );
 
+/** Accepts a candidate by Enter once it has been selected for longer than the editor's delay of 75 ms. */
+export async function accept(page, wanted) {
+  let since;
+  await comesTrue(async () => {
+    const [selected] = await page.$$eval('>>> .cm-tooltip-autocomplete li[aria-selected] .cm-completionLabel', (all) =>
+      all.map((e) => e.textContent),
+    );
+    since = selected === wanted ? (since ?? Date.now()) : undefined;
+    return since !== undefined && Date.now() - since > 300;
+  }, `the editor should offer ${wanted}`);
+  await page.keyboard.press('Enter');
+}
+
 export const text = (page, selector) => page.$eval(selector, (e) => e.textContent);
 
 /** The number field of the first knob. */
@@ -310,8 +323,16 @@ async function shoot(page, selector) {
   }, shot);
 }
 
-/** Number of colours, drawn share and sampled bytes of the relief. */
+/** Number of colours, drawn share and sampled bytes of the relief, once two shots are equal. */
 export async function pixels(page) {
+  for (let now = await shotOfStage(page), before; ; now = await shotOfStage(page)) {
+    if (before && differing(before, now) === 0) return now;
+    before = now;
+    await painted(page);
+  }
+}
+
+async function shotOfStage(page) {
   await shoot(page, '.stage');
   return page.evaluate(() => {
     const bytes = window.shot.data;

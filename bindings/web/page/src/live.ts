@@ -37,7 +37,7 @@ export interface LookedAt {
 export interface LivePicture {
   name: string;
   first?: Field; // before the others
-  fields: Promise<Field[]>;
+  fields: Promise<Field[]>; // none if a newer move came before the others
 }
 
 interface Move {
@@ -225,6 +225,7 @@ export class Live {
     if (first === undefined) return { name, fields: Promise.resolve(fieldsOf(numbers)) };
     const fields = new Promise<Field[]>((resolve) => {
       this.others = (rest) => resolve(fieldsOf([...rest.slice(0, first), numbers[0], ...rest.slice(first)]));
+      this.under?.stop.signal.addEventListener('abort', () => resolve([]));
     });
     return { name, first: fieldOf(view.fields[first], numbers[0]), fields };
   }

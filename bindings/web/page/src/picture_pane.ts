@@ -212,7 +212,8 @@ export class PicturePane {
     }
     try {
       const [fields] = await Promise.all([this.fetch(name), this.prepare()]);
-      if (this.run !== run || this.shown !== name || fields.length === 0) return;
+      if (this.run !== run || this.shown !== name) return;
+      if (fields.length === 0) return void this.maps.delete(name);
       const before = { colour: this.colour?.name, relief: this.relief?.name };
       const same = this.fields.length > 0 && this.fields.map((f) => f.name).join() === fields.map((f) => f.name).join();
       this.fields = fields;
