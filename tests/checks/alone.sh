@@ -4,7 +4,7 @@
 # once do not see an #include that is missing, nor what shadows what. Headers too, by the source of their name where that
 # includes them first; and where a header gave up an #include, the sources that include it and find what it included nowhere else.
 #
-#   alone.sh COMMIT        what differs from the commit, committed or not: the newest 100 sources, some three minutes
+#   alone.sh COMMIT        what differs from the commit, committed or not; of more than 100 sources the newest 100, some three minutes
 #   alone.sh --everything  every source
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."

@@ -55,7 +55,8 @@ class LiveScript {
   LiveScript(const LiveScript&) = delete;
   LiveScript& operator=(const LiveScript&) = delete;
 
-  // Up to three calls of `send`: on fewer cells; on all, with the map in view; the other maps.
+  // Calls `send` up to three times: the answer on fewer cells, the whole answer with the map in view, and
+  // the other maps.
   void answer(const KnobQuestion& question);
 
  private:

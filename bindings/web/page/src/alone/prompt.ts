@@ -57,11 +57,11 @@ export class PromptDialog {
       this.lines.enter(line);
     } else if (event.key === 'Tab' && !event.shiftKey && /[\w.:]$/.test(this.input.value)) {
       event.preventDefault();
-      void this.complete();
+      this.complete().catch(() => undefined);
     }
   }
 
-  /** The end of the line; candidates are shown if they differ there. */
+  /** Completes the last word as far as all candidates agree; after that, shows the candidates. */
   private async complete(): Promise<void> {
     const typed = this.input.value;
     const text = [...this.before, typed].join('\n');
