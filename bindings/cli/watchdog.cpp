@@ -11,10 +11,17 @@ namespace asperity::cli {
 
 namespace {
 using Clock = std::chrono::steady_clock;
-constexpr auto grace = std::chrono::milliseconds(2000);
+// Of the thread's own processor time: work on a busy machine keeps its time to stop.
+constexpr auto grace = std::chrono::milliseconds(2000), longest_wait = 5 * grace;
 constexpr auto look_every = std::chrono::milliseconds(50);
 
 std::atomic<int> met_signal{0};
+
+std::chrono::nanoseconds used_by(clockid_t thread) {
+  timespec used{};
+  ::clock_gettime(thread, &used);
+  return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
+}
 }  // namespace
 
 const sigset_t& stop_signals() {
@@ -42,7 +49,9 @@ Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopR
     : last_words_(std::move(last_words)), ctrl_c_(ctrl_c) {
   met_signal.store(0);
   pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
-  thread_ = std::thread([this, limit_seconds] { guard(limit_seconds); });
+  clockid_t watched = CLOCK_PROCESS_CPUTIME_ID;
+  pthread_getcpuclockid(pthread_self(), &watched);
+  thread_ = std::thread([this, limit_seconds, watched] { guard(limit_seconds, watched); });
 }
 
 Watchdog::~Watchdog() {
@@ -62,15 +71,19 @@ void Watchdog::ask(StopReason reason) {
   if (state_ != nullptr) lua::interrupt(state_);
 }
 
-void Watchdog::guard(std::optional<double> limit_seconds) {
+void Watchdog::guard(std::optional<double> limit_seconds, clockid_t watched) {
   const auto start = Clock::now();
-  std::optional<Clock::time_point> patience_ends;
+  std::optional<Clock::time_point> asked;
+  std::chrono::nanoseconds used_before{};
+  const auto waited = [&] {
+    return asked && (used_by(watched) - used_before >= grace || Clock::now() - *asked >= longest_wait);
+  };
   for (;;) {
     auto wait = std::chrono::duration<double>(3600);
-    if (limit_seconds && !patience_ends)
+    if (limit_seconds && !asked)
       wait = std::min(wait, std::chrono::duration<double>(start - Clock::now()) +
                                 std::chrono::duration<double>(*limit_seconds));
-    if (patience_ends) wait = std::min<std::chrono::duration<double>>(wait, look_every);
+    if (asked) wait = std::min<std::chrono::duration<double>>(wait, look_every);
     const double seconds = std::max(wait.count(), 0.0);
     timespec timeout{};
     timeout.tv_sec = static_cast<time_t>(seconds);
@@ -82,17 +95,19 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
     if (signal > 0) {
       int none = 0;
       met_signal.compare_exchange_strong(none, signal);
-      const bool waited = patience_ends.has_value() && Clock::now() >= *patience_ends;
-      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::waits || signal != SIGINT || waited);
+      end_now = asked && (ctrl_c_ != CtrlC::waits || signal != SIGINT || waited());
       if (signal != SIGINT) terminated_.store(true);
       ask(StopReason::interrupt);
-    } else if (limit_seconds && !patience_ends &&
+    } else if (limit_seconds && !asked &&
                std::chrono::duration<double>(Clock::now() - start).count() >= *limit_seconds) {
       ask(StopReason::time_limit);
     }
-    if (stop_flag().reason() != StopReason::none && !patience_ends) patience_ends = Clock::now() + grace;
+    if (stop_flag().reason() != StopReason::none && !asked) {
+      asked = Clock::now();
+      used_before = used_by(watched);
+    }
     const bool waits = ctrl_c_ == CtrlC::waits && stop_flag().reason() == StopReason::interrupt;
-    if (patience_ends && (end_now || (!waits && Clock::now() >= *patience_ends))) {
+    if (end_now || (!waits && waited())) {
       const StopReason reason = stop_flag().reason();
       last_words_(reason);
       std::fflush(stdout);

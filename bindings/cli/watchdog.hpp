@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -50,7 +51,7 @@ class Watchdog {
 
  private:
   void watch(lua_State* L);
-  void guard(std::optional<double> limit_seconds);
+  void guard(std::optional<double> limit_seconds, clockid_t watched);
   void ask(StopReason reason);
 
   std::function<void(StopReason)> last_words_;

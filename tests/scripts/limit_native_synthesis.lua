@@ -6,5 +6,5 @@
 --! not output: finished
 --! file: manifest.json: "status": "failed"
 local lab = require "asperity"
-lab.surface.weierstrass_mandelbrot{ cells=4096, D=2.5, gamma=1.1, M=40, n_max=4096 }
+lab.surface.weierstrass_mandelbrot{ cells=2048, D=2.5, gamma=1.1, M=40, n_max=4096 }
 print "finished"

@@ -116,6 +116,7 @@ std::size_t sum_axis_waves(std::span<const Standing> waves, Array<double>& along
   Array<double> row(longer), unused(longer);
   std::size_t k = 0;
   for (; k < waves.size() && (waves[k].step_x == 0 || waves[k].step_y == 0); ++k) {
+    stop_flag().check();
     const Standing& w = waves[k];
     const bool is_y = w.step_x == 0;
     Array<double>& sum = is_y ? along_y : along_x;
@@ -267,6 +268,7 @@ Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseI
   Array<PlaneWave> waves;
   waves.reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(last + 1));
   for (int n = 0; n <= o.n_max; ++n) {
+    stop_flag().check();
     // A phase function's results must not depend on the grid.
     if (n > last && o.phases != WavePhases::function) break;
     const double amplitude = relative_amplitude(o.D, log_gamma, n);
