@@ -144,13 +144,16 @@ const pixel = Buffer.from(
   'base64',
 );
 
-// As in its file: a failed setting has no error.
-const study = `way,cells,end,error,seconds [s],reason
-finer grid,16,measured,0.0054,0.0005,
-finer grid,32,measured,0.00032,0.0013,
-"tighter, 64 cells",64,measured,0.0005,0.0045,
-"tighter, 64 cells",64,failed,,,"no ""answer"", it says"
-`;
+// A failed setting has no error.
+const study = {
+  rows: [
+    { way: 'finer grid', knobs: { cells: 16 }, end: 'measured', value: 1.0054, error: 0.0054 },
+    { way: 'finer grid', knobs: { cells: 32 }, end: 'measured', value: 1.00032, error: 0.00032 },
+    { way: 'tighter, 64 cells', knobs: { cells: 64 }, end: 'measured', value: 1.0005, error: 0.0005 },
+    { way: 'tighter, 64 cells', knobs: { cells: 64 }, end: 'failed', reason: 'no "answer", it says' },
+  ],
+  seconds: [0.0005, 0.0013, 0.0045, null],
+};
 
 /** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; the script fails above MOST. */
 function knobIn(line, given) {
@@ -254,7 +257,7 @@ function* eventsOf(script, knobs, mock) {
     }
     const [, guess, found] = /mock\.guess (\w+) (\S+)/.exec(line) ?? [];
     if (guess) yield { type: 'row', notebook: 'guesses', row: { guess, found: Number(found) || found } };
-    if (/lab\.work_precision/.test(line)) yield { type: 'study', name: 'work_precision' };
+    if (/lab\.work_precision/.test(line)) yield { type: 'study', name: 'work_precision', ...study };
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
     for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
     for (const [, name] of line.matchAll(/mock\.file (\S+)/g))
@@ -513,8 +516,6 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
           ? send(200, chart, 'image/svg+xml')
           : rest[0].endsWith('.png')
             ? send(200, pixel, 'image/png')
-          : rest[0] === 'work_precision.csv'
-            ? send(200, study, 'text/csv')
           : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');
       return send(404, { error: { message: 'nothing is there' } });
     } catch (error) {

@@ -558,11 +558,13 @@ test('Picture, OfARunOneAfterTheOtherByKeysAlone', () =>
     await on.release(page);
     await place('7 of 7');
     await on.until(page, () => document.querySelector('.scrubber button').textContent === 'Play', 'it should end');
+    await on.hold(page);
     await page.keyboard.press('Space');
     await place('1 of 7');
     const [which] = await page.$$('.pictures select');
     await which.select('state-4');
     await place('5 of 7');
+    await on.release(page);
     await on.assertAccessible(page, 'with pictures to go through');
     await on.assertFits(page, 'with pictures to go through');
   }));
@@ -707,8 +709,8 @@ test('Knob, TakesANumberWithItsUnit', () =>
     await printed(page, 'pressure is 3000000\n');
     const before = mock.runs.size;
     for (const [given, words] of [
-      ['fast', '“fast” is no number. Give a number with its unit, for example 1.5 MPa.'],
-      ['5 Mpa', '“Mpa” is no unit. Give a number with its unit, for example 1.5 MPa.'],
+      ['fast', '“fast” is no number. Give Pa, for example 1.5 MPa.'],
+      ['5 Mpa', '“Mpa” is no unit of this. Give Pa, for example 1.5 MPa.'],
       ['5 mm', '“mm” is no unit of this. Give Pa, for example 1.5 MPa.'],
       ['5 GPa', '5 GPa is out of bounds. Give pressure from 1 MPa to 300 MPa.'],
     ]) {

@@ -86,7 +86,7 @@ test('Chart, AxesHaveTheScriptsWordsAndNoneIsCut', () =>
 
 test('Chart, OfAStudyIsErrorAgainstSeconds', () =>
   visit({}, async (page) => {
-    await charted(page, 'local study = lab.work_precision{ try={} } -- mock.file work_precision.csv\nstudy:chart "cost.svg"\n', 3);
+    await charted(page, 'local study = lab.work_precision{ try={} }\nstudy:chart "cost.svg"\n', 3);
     assert.equal(
       await on.text(page, '.charts .caption'),
       'error against seconds [ms]: 3 points, 2 lines, one per way. 1 row is left out: no number, or none above zero for a logarithmic axis.',

@@ -201,7 +201,11 @@ std::optional<Json> told_of(std::string_view event, const Json& fields) {
       told.set("columns", std::move(columns));
     return told;
   }
-  if (event == "study end") return Json::object({{"type", "study"}, {"name", field_or_null(fields, "name")}});
+  if (event == "study end")
+    return Json::object({{"type", "study"},
+                         {"name", field_or_null(fields, "name")},
+                         {"rows", field_or_null(field_or_null(fields, "found"), "rows")},
+                         {"seconds", field_or_null(field_or_null(fields, "unhashed"), "seconds")}});
   if (event == "chart") {
     const Json study = field_or_null(fields, "study"), notebook = field_or_null(fields, "notebook");
     if (!study.is_null()) return Json::object({{"type", "chart"}, {"study", study}});

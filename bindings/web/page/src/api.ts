@@ -104,6 +104,7 @@ export interface View<Field = FieldFacts & { data: string }> {
 }
 
 export type Cell = number | string | boolean | null;
+type Row = Record<string, Cell>;
 
 /** A chart as the script writes it: columns, and rows that it takes. */
 export interface Charted {
@@ -130,7 +131,7 @@ export type RunEvent = { n: number } & (
   | { type: 'progress'; task: string; fraction?: number; eta_s?: number }
   | { type: 'row'; notebook: string; row: Record<string, Cell>; units?: Record<string, string>; columns?: string[] }
   | ChartEvent
-  | { type: 'study'; name: string }
+  | { type: 'study'; name: string; rows: ({ knobs: Row } & Row)[]; seconds: (number | null)[] }
   | { type: 'file'; name: string; bytes: number }
   | { type: 'view'; name: string; title?: string }
   | { type: 'views_left_out'; count: number }

@@ -133,8 +133,9 @@ export function columnsLike(notebook: Notebook, column: string): string[] {
 
 function firstChoice(run: Run, notebook: Notebook): ChartChoice {
   const columns = numericColumns(notebook);
-  const keys = keysIn(run.script);
-  const written = (c: string): number => (keys.includes(c) ? keys.indexOf(c) : keys.length);
+  // What a script varies is named before what it finds.
+  const written = (c: string): number =>
+    run.script.search(new RegExp(`(?<!\\w)${c.replace(/\W/g, '\\$&')}(?!\\w)`)) + 1 || run.script.length + 1;
   const varied = columns.filter((c) => varies(notebook, c)).sort((a, b) => written(a) - written(b));
   const per = partedBy(notebook);
   if (columns.length < 2) {
@@ -151,22 +152,6 @@ function partedBy(notebook: Notebook): string {
   const numeric = numericColumns(notebook);
   const few = (count: number): boolean => count > 1 && count <= 8;
   return notebook.columns.find((c) => !numeric.includes(c) && few(distinct(notebook, c))) ?? '';
-}
-
-/** Table keys of a script in order, without units: `N`, `["Ra [m]"]`. Rows lack this order. */
-function keysIn(script: string): string[] {
-  const text = /"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|\[(?<level>=*)\[[^]*?\]\k<level>\]/;
-  const key = /(?:\[(?<quote>["'])(?<text>[^"'\n]*?)(?: *\[[^"'\n]*\])?\k<quote>\]|(?<word>[A-Za-z_]\w*))\s*=(?!=)/;
-  const part = new RegExp(`--\\[(=*)\\[[^]*?\\]\\1\\]|--[^\\n]*|${key.source}|${text.source}|[([{}\\])]`, 'g');
-  const open: string[] = [];
-  const keys = new Set<string>();
-  for (const { 0: found, groups } of script.matchAll(part)) {
-    if ('([{'.includes(found)) open.push(found);
-    else if (')]}'.includes(found)) open.pop();
-    else if (groups?.text) keys.add(groups.text);
-    else if (groups?.word && open.at(-1) === '{') keys.add(groups.word);
-  }
-  return [...keys];
 }
 
 /** With the notebook's columns only; undefined without both axes. */

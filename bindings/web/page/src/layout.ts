@@ -144,6 +144,25 @@ export class Filling {
   }
 }
 
+/** A dialog with its button in the head; asks when it opens and every two seconds until it closes. */
+export function asking(name: string, ask: () => Promise<void>, failed: (error: unknown) => void): HTMLDialogElement {
+  const dialog = byId<HTMLDialogElement>(name);
+  let timer = 0;
+  const again = (): Promise<void> =>
+    ask().catch((error: unknown) => {
+      dialog.close();
+      failed(error);
+    });
+  byId(`${name}-button`).addEventListener('click', () => {
+    dialog.showModal();
+    void again();
+    timer = window.setInterval(again, 2000);
+  });
+  byId(`${name}-close`).addEventListener('click', () => dialog.close());
+  dialog.addEventListener('close', () => clearInterval(timer));
+  return dialog;
+}
+
 /** F6: next visible pane; Shift-F6: previous. From outside all panes: the nearest in document order. */
 export function goRound(panes: { element: HTMLElement; enter: () => void }[]): void {
   document.addEventListener('keydown', (event) => {

@@ -22,7 +22,7 @@ import { PicturePane } from './picture_pane';
 import { newcomer } from './newcomer';
 import type { Guess } from './prediction_box';
 import { HelpButton, Room } from './room';
-import { endText, errorText, leftText, limitsText, readStudy, Run, statusText } from './run';
+import { endText, errorText, leftText, limitsText, Run, statusText } from './run';
 import { RecordedRuns, savedRun } from './save';
 import { offerFiles } from './script_file';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
@@ -361,7 +361,6 @@ function follow(next: Run, key: string, quietly = false): void {
         }
         if (run !== next) return;
         if (event.type === 'error') markError();
-        if (event.type === 'file') readStudy(next, event.name, api).then((read) => read && draw(), failed);
         if (event.type === 'finished') ended(next);
         announce();
         draw();

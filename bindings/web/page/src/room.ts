@@ -4,27 +4,18 @@
 
 import type { Api, RoomPerson, RoomRun, SharedScript } from './api';
 import { byId, h, table } from './dom';
-
-const askedAgain = 2000; // ms
+import { asking } from './layout';
 
 export class Room {
-  private readonly dialog = byId<HTMLDialogElement>('room');
   private readonly list = byId('room-runs');
   private readonly people = byId('room-people');
-  private timer = 0;
 
   constructor(
     private readonly api: Api,
     private readonly look: (student: string) => void,
     private readonly failed: (error: unknown) => void,
   ) {
-    byId('room-button').addEventListener('click', () => {
-      this.dialog.showModal();
-      void this.ask();
-      this.timer = window.setInterval(() => void this.ask(), askedAgain);
-    });
-    byId('room-close').addEventListener('click', () => this.dialog.close());
-    this.dialog.addEventListener('close', () => clearInterval(this.timer));
+    asking('room', () => this.ask(), failed);
   }
 
   offer(teacher: boolean): void {
@@ -32,14 +23,9 @@ export class Room {
   }
 
   private async ask(): Promise<void> {
-    try {
-      const [runs, people] = await Promise.all([this.api.room(), this.api.people()]);
-      this.show(runs.filter((run) => run.state === 'running' || run.state === 'waiting'));
-      this.showPeople(people, runs);
-    } catch (error) {
-      this.dialog.close();
-      this.failed(error);
-    }
+    const [runs, people] = await Promise.all([this.api.room(), this.api.people()]);
+    this.show(runs.filter((run) => run.state === 'running' || run.state === 'waiting'));
+    this.showPeople(people, runs);
   }
 
   private show(runs: RoomRun[]): void {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run as the sum of its events. Panes draw this record once a frame: 10,000 lines cost one drawing.
 
-import type { About, Api, Cell, ChartEvent, EventOf, RunEvent } from './api';
+import type { About, Cell, ChartEvent, EventOf, RunEvent } from './api';
 import type { Knob } from './knobs';
 import type { LiveResults } from './live';
 import type { Field } from './pictures';
@@ -40,7 +40,6 @@ export class Run {
   live: LiveRun | undefined; // not a recorded run
   readonly errors: EventOf<'error'>[] = [];
   readonly charted = new Map<string, ChartEvent>(); // each once
-  readonly studies = new Set<string>(); // of work and precision, by name
   private characters = 0;
 
   constructor(
@@ -75,7 +74,9 @@ export class Run {
         if (this.charted.size < mostCharts) this.charted.set(JSON.stringify({ ...event, n: 0 }), event);
         break;
       case 'study':
-        this.studies.add(event.name);
+        event.rows.forEach(({ knobs, ...row }, k) =>
+          this.write(event.name, { ...knobs, ...row, seconds: event.seconds[k] }, { seconds: 's' }, ['way']),
+        );
         break;
       case 'file':
         this.files.set(event.name, event);
@@ -185,40 +186,6 @@ export function columnsAlong(notebook: Notebook): string[] {
 
 export function numericColumns(notebook: Notebook): string[] {
   return notebook.columns.filter((c) => notebook.rows.some((r) => typeof r[c] === 'number'));
-}
-
-/** Rows of a work-precision study, which contain seconds, are in <name>.csv instead of a notebook. Here they
-    become a notebook. True if rows were added. */
-export async function readStudy(run: Run, file: string, api: Api): Promise<boolean> {
-  const name = file.replace(/\.csv$/, '');
-  if (name === file || !run.studies.has(name)) return false;
-  const { columns, units, rows } = studyTable(await (await api.file(run.id, file)).text());
-  run.notebooks.set(name, { name, columns, units, rows });
-  return true;
-}
-
-/** Units are in brackets after column names. */
-function studyTable(text: string): { columns: string[]; units: Record<string, string>; rows: Record<string, Cell>[] } {
-  const [head, ...lines] = text.split('\n').filter(Boolean).map(cellsOf);
-  const units: Record<string, string> = {};
-  const columns = (head ?? []).map((c) => {
-    const [, name, unit] = /^(.*?)(?: \[(.*)\])?$/.exec(c)!;
-    if (unit) units[name] = unit;
-    return name;
-  });
-  const rows = lines.map((cells) => {
-    const row: Record<string, Cell> = {};
-    columns.forEach((c, k) => {
-      const value = cells[k] ?? '';
-      if (value !== '') row[c] = Number.isNaN(Number(value)) ? value : Number(value);
-    });
-    return row;
-  });
-  return { columns, units, rows };
-}
-
-function cellsOf(line: string): string[] {
-  return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map((m) => m[1]?.replace(/""/g, '"') ?? m[2] ?? '');
 }
 
 export function leftText(p: EventOf<'progress'>): string {

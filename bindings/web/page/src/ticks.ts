@@ -19,17 +19,14 @@ export type Apart = (labels: string[], shares: number[]) => boolean;
 export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
   let [low, high] = extentOf(values);
   const whole = values.every((v) => Math.abs(v) < 1e9 && Math.abs(v - Math.round(v)) < 1e-9);
-  const single = sameToRounding(low, high);
-  if (single && log) [low, high] = [low / 2, high * 2];
-  else if (single) [low, high] = whole ? [low - 1, high + 1] : [low - spare(low), high + spare(low)];
+  if (sameToRounding(low, high)) {
+    const spare = whole ? 1 : Math.abs(high) / 10 || 1;
+    [low, high] = log ? [low / 2, high * 2] : [low - spare, high + spare];
+  }
   const domain: [number, number] = log ? aLittleBeyond(low, high) : niceAround(low, high, whole);
   const sets = log ? logarithmic(domain) : linear(domain, whole);
-  for (const ticks of sets) {
-    const labels = log ? labelsOfPowers(ticks) : labelsOf(ticks);
-    if (apart(labels, ticks.map((t) => shareOf(t, domain, log)))) return { domain, ticks, labels, log };
-  }
-  const last = sets[sets.length - 1].slice(0, 1);
-  return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last), log };
+  const axes = sets.map((ticks) => ({ domain, ticks, labels: log ? labelsOfPowers(ticks) : labelsOf(ticks), log }));
+  return axes.find(({ ticks, labels }) => apart(labels, ticks.map((t) => shareOf(t, domain, log)))) ?? axes.at(-1)!;
 }
 
 /** If necessary only every second, third … name is written. */
@@ -43,10 +40,6 @@ export function axisOfNames(names: string[], apart: Apart): Axis {
   }
 }
 
-function spare(value: number): number {
-  return Math.abs(value) / 10 || 1;
-}
-
 /** Room for a whole mark. */
 function aLittleBeyond(low: number, high: number): [number, number] {
   const factor = (high / low) ** 0.03;
@@ -58,36 +51,30 @@ function niceAround(low: number, high: number, whole: boolean): [number, number]
   return whole ? [Math.floor(from), Math.ceil(to)] : [from, to];
 }
 
+/** The last is a single tick. */
 function linear([low, high]: [number, number], whole: boolean): number[][] {
   const scale = scaleLinear().domain([low, high]);
   const sets = [8, 6, 5, 4, 3, 2].map((count) => scale.ticks(count).filter((t) => !whole || Number.isInteger(t)));
-  return distinct([...sets, [low, high], [high]]);
+  return [...sets.filter((ticks) => ticks.length > 0), [low, high], [high]];
 }
 
 function logarithmic([low, high]: [number, number]): number[][] {
   const decades = Math.log10(high / low);
-  const powers: number[] = [];
-  for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; ++power) powers.push(power);
+  const first = Math.floor(Math.log10(low));
+  const powers = Array.from({ length: Math.ceil(decades) + 1 }, (_, k) => first + k);
   const of = (factors: number[], every = 1): number[][] => {
     const all = powers.filter((p) => p % every === 0).flatMap((p) => factors.map((f) => Number(`${f}e${p}`)));
     const ticks = all.filter((t) => t >= low && t <= high);
     return ticks.length >= 2 ? [ticks] : [];
   };
-  const sets = [
-    ...(decades < 0.8 ? linear([low, high], false).filter((ticks) => ticks[0] > 0 && ticks.length > 1) : []),
+  const even = linear([low, high], false).map((ticks) => ticks.filter((t) => t > 0));
+  return [
+    ...(decades < 0.8 ? even.filter((ticks) => ticks.length > 1) : []),
     ...(decades < 4 ? of([1, 2, 5]) : []),
     ...(decades < 5 ? of([1, 3]) : []),
     ...[1, 2, 3, 4, 5, 10, 20, 50].flatMap((every) => of([1], every)),
+    ...even.slice(-3),
   ];
-  const within = scaleLinear()
-    .domain([low, high])
-    .ticks(3)
-    .filter((t) => t > 0);
-  return distinct([...sets, within, [high]].filter((ticks) => ticks.length > 0));
-}
-
-function distinct(sets: number[][]): number[][] {
-  return sets.filter((ticks, k) => ticks.length > 0 && sets.findIndex((other) => String(other) === String(ticks)) === k);
 }
 
 /** Plain, or with a common power of ten; enough digits to distinguish them. */

@@ -5,16 +5,16 @@
 import { ApiError, type Api, type Lesson, type RoomPerson } from './api';
 import { inkNow } from './colour';
 import { byId, Choice, h } from './dom';
+import { asking } from './layout';
 import { guessesIn, type Value } from './prediction_box';
 import { Run } from './run';
 import { grouped } from './units';
 
-const askedAgain = 2000; // ms
 const revealed = 'Show the answer';
 const widest = 640; // px of the chart, scaled to the window
 
 export class Wall {
-  private readonly dialog = byId<HTMLDialogElement>('wall');
+  private readonly dialog: HTMLDialogElement;
   private readonly which = new Choice('Question', () => this.show(undefined));
   private readonly question = h('p');
   private readonly figure = h('figure');
@@ -27,7 +27,6 @@ export class Wall {
   private readonly answers = new Map<string, Promise<Map<string, Value>>>(); // of a lesson, by name
   private answer: { question: string; value: Value } | undefined;
   private people: RoomPerson[] = [];
-  private timer = 0;
 
   constructor(
     private readonly api: Api,
@@ -35,13 +34,7 @@ export class Wall {
   ) {
     const { element } = this.which;
     byId('wall-predictions').append(element, this.reveal, this.question, this.figure, this.caption, this.details);
-    byId('wall-button').addEventListener('click', () => {
-      this.dialog.showModal();
-      void this.ask();
-      this.timer = window.setInterval(() => void this.ask(), askedAgain);
-    });
-    byId('wall-close').addEventListener('click', () => this.dialog.close());
-    this.dialog.addEventListener('close', () => clearInterval(this.timer));
+    this.dialog = asking('wall', () => this.ask(), failed);
   }
 
   offer(teacher: boolean): void {
@@ -49,13 +42,8 @@ export class Wall {
   }
 
   private async ask(): Promise<void> {
-    try {
-      this.people = await this.api.people();
-      await this.draw();
-    } catch (error) {
-      this.dialog.close();
-      this.failed(error);
-    }
+    this.people = await this.api.people();
+    await this.draw();
   }
 
   private show(answer: Wall['answer']): void {
