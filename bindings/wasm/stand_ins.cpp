@@ -19,6 +19,7 @@
 #include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
+#include "engine/contact/elasticity/slabs/slab_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
 
@@ -72,6 +73,25 @@ std::vector<std::filesystem::path> part_places(const LoadedPart&) { return {}; }
 void* part_symbol(const LoadedPart& part, const char* symbol) { return part_symbol(part, symbol, {}); }
 void* part_symbol(const LoadedPart& part, const char*, const std::vector<std::filesystem::path>&) {
   refuse_absent(std::string(part.purpose) + " by the part asperity-" + std::string(part.name), native);
+}
+
+// A module is one process.
+namespace {
+[[noreturn]] void refuse_slabs() { refuse_absent("`lab.spread` needs the processes of mpirun", native); }
+}  // namespace
+SlabSurface slab_surface(Team&, const Grid&, const SlabRow&, Monitor&) { refuse_slabs(); }
+SlabSurface slab_self_affine(Team&, const SelfAffineOptions&, Monitor&) { refuse_slabs(); }
+SlabSurface slab_sine(Team&, const SineOptions&, Monitor&) { refuse_slabs(); }
+SlabSurface slab_flat(Team&, const Grid&, Monitor&) { refuse_slabs(); }
+SlabSurface slab_read(Team&, const std::string&, const SlabFileOptions&, Monitor&) { refuse_slabs(); }
+void write_slabs(Team&, const Slab&, const SlabRow&, const std::string&, Monitor&) { refuse_slabs(); }
+SlabTerms slab_terms(const std::optional<Material>&, const Material&, const Effects&) { refuse_slabs(); }
+SlabContactAnswer solve_slabs_at_pressure(Team&, const SlabContactProblem&, double, const SlabContactAnswer*,
+                                          Monitor&) {
+  refuse_slabs();
+}
+SlabContactAnswer solve_slabs_at_approach(Team&, const SlabContactProblem&, double, Monitor&) {
+  refuse_slabs();
 }
 
 namespace cli {

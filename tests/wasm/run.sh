@@ -72,14 +72,15 @@ for lesson in $lessons; do
   grep -q "the same again" out || { cat out; fail "lesson $lesson"; }
   echo "lesson $lesson: native $before; wasm $(cat cost)"
 done
-for absent in "serve" "run press.lua --confined" "run press.lua --limit-time 5s"; do
+echo 'require "asperity".spread.flat{ cells=16, size="1 mm" }' >spread.lua
+for absent in "serve" "run press.lua --confined" "run press.lua --limit-time 5s" "run spread.lua"; do
   ! measured node --no-experimental-fetch asperity.js $absent || fail "$absent is not refused"
   grep -q WebAssembly out || { cat out; fail "$absent: the reason is missing"; }
 done
 
 [ -d "$module/site" ] || fail "$module/site is missing: build the target asperity_site"
 bytes=0
-for file in "$module"/site/*.js "$module"/site/*.css "$module"/site/*.html "$module"/site/*.wasm; do
+for file in "$module"/site/*.js "$module"/site/*.css "$module"/site/*.html "$module"/site/module.xz; do
   bytes=$((bytes + $(gzip -9 <"$file" | wc -c)))
 done
 echo "the page: $bytes bytes after gzip -9, without documents"

@@ -478,9 +478,9 @@ async function greet(): Promise<void> {
     byId('about').textContent = limitsText(about);
     byId('documents').hidden = about.documents !== true;
     const student = about.classroom === true && about.teacher !== true;
-    room.offer(about.teacher === true);
+    room?.offer(about.teacher === true);
     hand.offer(about.teacher === true);
-    wall.offer(about.teacher === true);
+    wall?.offer(about.teacher === true);
     help.offer(student, about.help === true);
     offer.begin(student);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
@@ -557,8 +557,8 @@ const shown = new ShownScript(
   },
   failed,
 );
-const room = new Room(api, (student) => void shown.show(student), failed);
-const wall = new Wall(api, failed);
+const room = ALONE ? undefined : new Room(api, (student) => void shown.show(student), failed);
+const wall = ALONE ? undefined : new Wall(api, failed);
 const help = new HelpButton(api, () => sent(opened.title, editor.text, 20_000), failed);
 const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (on) => {
   byId('fill').textContent = on ? 'Put it back' : 'Fill the window';

@@ -16,11 +16,11 @@ let compiled: Promise<WebAssembly.Module> | undefined;
 const theModule = (): Promise<WebAssembly.Module> => (compiled ??= compile());
 
 async function compile(): Promise<WebAssembly.Module> {
-  const answer = await fetch('module.wasm');
-  if (!answer.ok) throw new ApiError('refused', 'The file module.wasm is missing', 'copy the whole folder of the page');
-  // Compiled while it loads, if the host tells the type.
-  const streams = answer.headers.get('Content-Type') === 'application/wasm';
-  return streams ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+  const [answer, { XzReadableStream }] = await Promise.all([fetch('module.xz'), import('./module')]);
+  if (!answer.ok) throw new ApiError('refused', 'The file module.xz is missing', 'copy the whole folder of the page');
+  // Compiled while it loads.
+  const headers = { 'Content-Type': 'application/wasm' };
+  return WebAssembly.compileStreaming(new Response(new XzReadableStream(answer.body!), { headers }));
 }
 
 class Bench {
