@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -205,21 +206,29 @@ void RoomBoard::predict(std::size_t person, const std::string& lesson, const Jso
   predictions[lesson] = std::move(given);
 }
 
-void RoomBoard::ask_for_help(std::size_t person, bool wanted) {
+void RoomBoard::ask_for_help(std::size_t person, bool wanted, std::optional<SharedScript> script) {
   const std::lock_guard lock(mutex_);
   of_[person].help = wanted;
+  of_[person].script = std::move(script);
 }
 
-std::map<std::string, RoomBoard::Prediction> RoomBoard::predictions_of(std::size_t person) const {
+void RoomBoard::hand(std::optional<SharedScript> script) {
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t clock = std::chrono::duration_cast<milliseconds>(now).count();
   const std::lock_guard lock(mutex_);
-  const auto found = of_.find(person);
-  return found == of_.end() ? std::map<std::string, Prediction>{} : found->second.predictions;
+  handed_ = {std::max(handed_.number + 1, clock), std::move(script)};
 }
 
-bool RoomBoard::needs_help(std::size_t person) const {
+RoomBoard::Notes RoomBoard::notes_of(std::size_t person) const {
   const std::lock_guard lock(mutex_);
   const auto found = of_.find(person);
-  return found != of_.end() && found->second.help;
+  return found == of_.end() ? Notes{} : found->second;
+}
+
+RoomBoard::Handed RoomBoard::handed() const {
+  const std::lock_guard lock(mutex_);
+  return handed_;
 }
 
 Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page,
@@ -331,7 +340,7 @@ HttpResponse Api::about(std::size_t person) const {
                                                             {"runs", setup_.at_once}})},
                                    {"classroom", setup_.classroom},
                                    {"documents", documents_.built()},
-                                   {"help", board_.needs_help(person)},
+                                   {"help", board_.notes_of(person).help},
                                    {"teacher", is_teacher(person)}}));
 }
 
@@ -423,14 +432,15 @@ HttpResponse Api::people() const {
   Json::List list;
   for (std::size_t person = 1; person < access_.people().size(); ++person) {
     Json::List predictions, whys;
-    for (const auto& [lesson, given] : board_.predictions_of(person)) {
+    const RoomBoard::Notes notes = board_.notes_of(person);
+    for (const auto& [lesson, given] : notes.predictions) {
       for (const auto& [name, value] : given.guesses)
         predictions.push_back(Json::object({{"lesson", lesson}, {"name", name}, {"value", value}}));
       if (!given.why.empty()) whys.push_back(Json::object({{"lesson", lesson}, {"text", given.why}}));
     }
     list.push_back(Json::object({{"name", access_.people()[person].name},
-                                 {"help", board_.needs_help(person)},
-                                 {"script", scripts_.shown_by(person).has_value()},
+                                 {"help", notes.help},
+                                 {"script", notes.script.has_value()},
                                  {"predictions", std::move(predictions)},
                                  {"whys", std::move(whys)}}));
   }
@@ -451,8 +461,8 @@ HttpResponse Api::help(std::size_t person, const HttpRequest& request) {
   const Json body = body_of(request);
   const bool wanted = flag_member(body, "wanted");
   const bool shows = wanted && body.find("script") != nullptr;
-  scripts_.show(person, shows ? std::optional(script_member(body, SharedScripts::most_shown)) : std::nullopt);
-  board_.ask_for_help(person, wanted);
+  board_.ask_for_help(person, wanted,
+                      shows ? std::optional(script_member(body, RoomBoard::most_shown)) : std::nullopt);
   return json_answer(Json::object({{"wanted", wanted}}));
 }
 
@@ -489,13 +499,13 @@ HttpResponse Api::lesson(std::size_t person, const std::string& name) const {
 HttpResponse Api::hand(const HttpRequest& request) {
   const Json body = body_of(request);
   const bool given = body.find("script") != nullptr;
-  scripts_.hand(given ? std::optional(script_member(body, SharedScripts::most_handed)) : std::nullopt);
-  return json_answer(Json::object({{"number", scripts_.handed().number}}));
+  board_.hand(given ? std::optional(script_member(body, RoomBoard::most_handed)) : std::nullopt);
+  return json_answer(Json::object({{"number", board_.handed().number}}));
 }
 
 // {number}, with the script if it is newer than the query's `after`.
 HttpResponse Api::handed(const HttpRequest& request) const {
-  const SharedScripts::Handed now = scripts_.handed();
+  const RoomBoard::Handed now = board_.handed();
   const auto after = request.parameters.find("after");
   const bool known = after != request.parameters.end() && after->second == std::to_string(now.number);
   Json answer = now.script && !known ? json_of(*now.script) : Json::object();
@@ -504,7 +514,7 @@ HttpResponse Api::handed(const HttpRequest& request) const {
 
 HttpResponse Api::shown_by(const std::string& name) const {
   const auto person = std::ranges::find(access_.people(), name, &Person::name);
-  const auto shown = scripts_.shown_by(static_cast<std::size_t>(person - access_.people().begin()));
+  const auto shown = board_.notes_of(static_cast<std::size_t>(person - access_.people().begin())).script;
   return shown ? json_answer(json_of(*shown)) : problem_answer(404, "this student shows no script");
 }
 

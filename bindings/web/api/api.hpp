@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -17,7 +18,6 @@
 #include <vector>
 
 #include "bindings/web/api/access.hpp"
-#include "bindings/web/api/shared_scripts.hpp"
 #include "bindings/web/http/http.hpp"
 #include "bindings/web/runs/live_sessions.hpp"
 #include "bindings/web/runs/run_queue.hpp"
@@ -47,32 +47,45 @@ class PageFiles {
 // A sentence about building the page.
 extern const char* const page_needs;
 
-// Predictions and requests for help in a classroom. In memory, bounded for each person. Thread-safe.
+struct SharedScript {
+  std::string name, script;
+};
+
+// What the teacher and the students of a classroom leave for each other. In memory, bounded for each person.
+// Thread-safe.
 class RoomBoard {
  public:
-  static constexpr std::size_t longest_name = 60, most_lessons = 40, most_guesses = 12, longest_why = 2000;
+  static constexpr std::size_t longest_name = 60, most_lessons = 40, most_guesses = 12, longest_why = 2000,
+                               most_handed = std::size_t{256} << 10, most_shown = std::size_t{64} << 10;
 
   struct Prediction {
     std::map<std::string, Json> guesses;  // by name: numbers and choices
     std::string why;
   };
+  struct Notes {
+    std::map<std::string, Prediction> predictions;  // by lesson
+    bool help = false;                              // asked for
+    std::optional<SharedScript> script;             // sent with the request
+  };
+  // To the room. The number grows with each script, also over server starts.
+  struct Handed {
+    std::int64_t number = 0;
+    std::optional<SharedScript> script;
+  };
 
   // Replaces the person's prediction for a lesson; no `guesses` (an object) and no `why` delete it. Throws
   // Error{bad_value} beyond these limits, or for a guess that is no finite number and no text.
   void predict(std::size_t person, const std::string& lesson, const Json& guesses, const std::string& why);
-  void ask_for_help(std::size_t person, bool wanted);
+  void ask_for_help(std::size_t person, bool wanted, std::optional<SharedScript> script);
+  // None takes the script of the room back.
+  void hand(std::optional<SharedScript> script);
 
-  // By lesson.
-  std::map<std::string, Prediction> predictions_of(std::size_t person) const;
-  bool needs_help(std::size_t person) const;
+  Notes notes_of(std::size_t person) const;
+  Handed handed() const;
 
  private:
-  struct Notes {
-    std::map<std::string, Prediction> predictions;
-    bool help = false;
-  };
-
   mutable std::mutex mutex_;
+  Handed handed_;
   std::map<std::size_t, Notes> of_;
 };
 
@@ -124,7 +137,6 @@ class Api final : public HttpHandler {
   const PageFiles page_;
   const PageFiles documents_;
   RoomBoard board_;
-  SharedScripts scripts_;
   Turns checks_{{.places = 4, .for_quick = 2}};  // two for quick checks
   Turns completions_{{.places = 4}};             // one per person
   Turns streams_;                                // long-lived answers

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scripts between a teacher and students: the teacher hands one to the room, each student's page offers it,
-// and a student's script comes with the request for help.
+// Scripts between a teacher and students: the teacher hands one to the room, and each student's page offers it.
 
 import type { Api, SharedScript } from './api';
 import { byId, h } from './dom';
@@ -98,36 +97,5 @@ export class HandButton {
   private show(name: string | undefined): void {
     const back = h('button', { onclick: () => void this.hand() }, 'Take it back');
     this.line.replaceChildren(h('span', name ? `Handed out: ${name}` : 'No script is handed out.'), name ? back : '');
-  }
-}
-
-/** A student's script in the teacher's room, to be read. */
-export class ShownScript {
-  private readonly place = byId('room-script');
-
-  constructor(
-    private readonly api: Api,
-    private readonly open: (student: string, script: SharedScript) => void,
-    private readonly failed: (error: unknown) => void,
-  ) {}
-
-  async show(student: string): Promise<void> {
-    try {
-      const shown = await this.api.shownBy(student);
-      const title = h('h3', { tabIndex: -1 }, `Script of ${student}: ${shown.name}`);
-      this.place.replaceChildren(
-        title,
-        h('pre.sample', { tabIndex: 0 }, shown.script),
-        h('button', { onclick: () => this.take(student, shown) }, 'Open a copy'),
-      );
-      title.focus();
-    } catch (error) {
-      this.failed(error);
-    }
-  }
-
-  private take(student: string, shown: SharedScript): void {
-    this.place.closest('dialog')!.close();
-    this.open(student, shown);
   }
 }

@@ -6,13 +6,13 @@ import { takeDrops } from './alone/dropped';
 import { Laboratory } from './alone/laboratory';
 import { linked } from './alone/linked';
 import { PromptDialog } from './alone/prompt';
-import { ApiError, runKey, Server, tokenHint, type About, type Api, type Mark } from './api';
+import { ApiError, runKey, Server, tokenHint, type About, type Api, type Mark, type SharedScript } from './api';
 import { chartsOf, foretell } from './chart_choice';
 import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
-import { HandButton, Offer, sent, ShownScript } from './handed';
+import { HandButton, Offer, sent } from './handed';
 import { KnobsPane } from './knobs';
 import { divider, Filling, goRound, Messages, showPane, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
@@ -549,15 +549,11 @@ byId('script-button').addEventListener('click', () => {
   showPane('script', byId('script').hidden);
   keep(`script-pane.${opened.key}`, byId('script').hidden ? 'closed' : 'open');
 });
-const shown = new ShownScript(
-  api,
-  (student, { name, script }) => {
-    open({ key: `of.${student}`, title: `${name} of ${student}`, script, original: script });
-    void lessons.list();
-  },
-  failed,
-);
-const room = ALONE ? undefined : new Room(api, (student) => void shown.show(student), failed);
+const openOf = (student: string, { name, script }: SharedScript): void => {
+  open({ key: `of.${student}`, title: `${name} of ${student}`, script, original: script });
+  void lessons.list();
+};
+const room = ALONE ? undefined : new Room(api, openOf, failed);
 const wall = ALONE ? undefined : new Wall(api, failed);
 const help = new HelpButton(api, () => sent(opened.title, editor.text, 20_000), failed);
 const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (on) => {

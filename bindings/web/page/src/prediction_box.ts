@@ -7,6 +7,7 @@
 import type { Lesson } from './api';
 import { h, prose } from './dom';
 import { answer, inLanguage, reasonOf, verdict } from './language';
+import { numberTyped } from './quantity';
 import type { Run } from './run';
 import { keep, kept } from './storage';
 
@@ -176,13 +177,6 @@ function choiceField(name: string, choices: string[], word: Word, put: (value: V
       for (const radio of radios) radio.checked = radio.value === value;
     },
   };
-}
-
-/** With comma or point. */
-function numberTyped(text: string): number | undefined {
-  const plain = text.trim().replace('−', '-').replace(',', '.');
-  const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
-  return Number.isFinite(value) ? value : undefined;
 }
 
 interface Guesses {

@@ -29,13 +29,21 @@ function factorOf(written: string, unit: string): number | undefined {
   return others[unit]?.[name] ?? (prefix && prefix ** power);
 }
 
+/** With comma or point; undefined for another text. */
+export function numberTyped(text: string): number | undefined {
+  const plain = text.trim().replace('−', '-').replace(',', '.');
+  const value = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  return Number.isFinite(value) ? value : undefined;
+}
+
 /** The SI value. A number without a unit has the unit of `shown`, the value on the screen. Throws QuantityError. */
 export function quantityIn(text: string, unit: string, shown: number): number {
   const scale = scaleFor(unit, Math.abs(shown));
   const wanted = `Give ${unitText(unit) || 'a plain number'}, for example 1.5${scale.unit && ` ${scale.unit}`}.`;
-  const found = /^\s*([+\-−]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$/.exec(text);
-  if (!found) throw new QuantityError(`“${text.trim()}” is no number. ${wanted}`);
-  const factor = found[2] === '' ? scale.factor : factorOf(found[2], unitText(unit));
-  if (factor === undefined) throw new QuantityError(`“${found[2]}” is no unit of this. ${wanted}`);
-  return Number((Number(found[1].replace(',', '.').replace('−', '-')) * factor).toPrecision(15));
+  const [, typed = '', written = ''] = /^([+\-−]?[\d.,]+(?:e[+-]?\d+)?)\s*(.*)$/i.exec(text.trim()) ?? [];
+  const number = numberTyped(typed);
+  if (number === undefined) throw new QuantityError(`“${text.trim()}” is no number. ${wanted}`);
+  const factor = written === '' ? scale.factor : factorOf(written, unitText(unit));
+  if (factor === undefined) throw new QuantityError(`“${written}” is no unit of this. ${wanted}`);
+  return Number((number * factor).toPrecision(15));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The teacher's view of the classroom, polled while open: runs, names, requests for help. Also the student's help
-// button.
+// The teacher's view of the classroom, polled while open: runs, names, requests for help with the student's script.
+// Also the student's help button.
 
 import type { Api, RoomPerson, RoomRun, SharedScript } from './api';
 import { byId, h, table } from './dom';
@@ -9,10 +9,11 @@ import { asking } from './layout';
 export class Room {
   private readonly list = byId('room-runs');
   private readonly people = byId('room-people');
+  private readonly script = byId('room-script');
 
   constructor(
     private readonly api: Api,
-    private readonly look: (student: string) => void,
+    private readonly open: (student: string, script: SharedScript) => void,
     private readonly failed: (error: unknown) => void,
   ) {
     asking('room', () => this.ask(), failed);
@@ -60,7 +61,23 @@ export class Room {
 
   private lookAt(name: string): HTMLElement {
     const label = `Show script of ${name}`;
-    return h('button', { id: `room-look-${name}`, 'aria-label': label, onclick: () => this.look(name) }, 'Show script');
+    return h('button', { id: `room-look-${name}`, 'aria-label': label, onclick: () => void this.look(name) }, 'Show script');
+  }
+
+  private async look(student: string): Promise<void> {
+    try {
+      const shown = await this.api.shownBy(student);
+      const title = h('h3', { tabIndex: -1 }, `Script of ${student}: ${shown.name}`);
+      const take = (): void => {
+        this.script.closest('dialog')!.close();
+        this.open(student, shown);
+      };
+      const text = h('pre.sample', { tabIndex: 0 }, shown.script);
+      this.script.replaceChildren(title, text, h('button', { onclick: take }, 'Open a copy'));
+      title.focus();
+    } catch (error) {
+      this.failed(error);
+    }
   }
 
   private async stop(id: string): Promise<void> {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages between the page and a worker that holds one instance of the WebAssembly module.
 
-/** Unpacks the module while it loads. */
-export { XzReadableStream } from 'xz-decompress';
-
 export type Files = Map<string, Uint8Array>; // by path
 
 /** The first message has the compiled module; each worker does one kind of work. */
