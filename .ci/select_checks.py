@@ -282,6 +282,8 @@ class Selection:
         if os.path.basename(path) == "CMakeLists.txt":
             self.add_folder(path)
             return
+        if path.startswith("tests/checks/"):
+            return  # they run each time
         for source in includers([path]) | {path}:
             group = group_of(source)
             if group is None:

@@ -16,12 +16,11 @@ let compiled: Promise<WebAssembly.Module> | undefined;
 const theModule = (): Promise<WebAssembly.Module> => (compiled ??= compile());
 
 async function compile(): Promise<WebAssembly.Module> {
-  const [answer, xz] = await Promise.all([fetch('module.xz'), import('xz-decompress')]);
+  const [answer, { default: xz }] = await Promise.all([fetch('module.xz'), import('xz-decompress')]);
   if (!answer.ok) throw new ApiError('refused', 'The file module.xz is missing', 'copy the whole folder of the page');
   // Compiled while it loads.
-  const { XzReadableStream } = (xz as { default?: typeof xz }).default ?? xz; // CommonJS
   const headers = { 'Content-Type': 'application/wasm' };
-  return WebAssembly.compileStreaming(new Response(new XzReadableStream(answer.body!), { headers }));
+  return WebAssembly.compileStreaming(new Response(new xz.XzReadableStream(answer.body!), { headers }));
 }
 
 class Bench {
