@@ -11,7 +11,7 @@ namespace asperity::cli {
 
 namespace {
 using Clock = std::chrono::steady_clock;
-// Of the thread's own processor time: work on a busy machine keeps its time to stop.
+// Grace counts processor time of the watched thread: a busy machine does not shorten it.
 constexpr auto grace = std::chrono::milliseconds(2000), longest_wait = 5 * grace;
 constexpr auto look_every = std::chrono::milliseconds(50);
 

@@ -51,7 +51,7 @@ struct SharedScript {
   std::string name, script;
 };
 
-// What the teacher and the students of a classroom leave for each other. In memory, bounded for each person.
+// Predictions, requests for help and shared scripts of a classroom. In memory, bounded for each person.
 // Thread-safe.
 class RoomBoard {
  public:

@@ -133,7 +133,7 @@ export function columnsLike(notebook: Notebook, column: string): string[] {
 
 function firstChoice(run: Run, notebook: Notebook): ChartChoice {
   const columns = numericColumns(notebook);
-  // What a script varies is named before what it finds.
+  // A script usually names its inputs before its results.
   const written = (c: string): number =>
     run.script.search(new RegExp(`(?<!\\w)${c.replace(/\W/g, '\\$&')}(?!\\w)`)) + 1 || run.script.length + 1;
   const varied = columns.filter((c) => varies(notebook, c)).sort((a, b) => written(a) - written(b));
