@@ -7,7 +7,7 @@ usage: select_checks.py [--since COMMIT] [--why]    the paths of the difference 
        select_checks.py --everything
 
 Prints a line for each part of .ci/run: `release`, `sanitize` and `thread` with a regular expression of CTest's names, and
-`sanitize_targets`, `thread_targets`, `fuzz`, `packages`, `newcomer`, `selection` with words. An empty word means: not at all.
+`sanitize_targets`, `thread_targets`, `fuzz`, `packages`, `newcomer`, `wasm`, `selection` with words. An empty word means: not at all.
 Where the difference is not known, everything is called for.
 """
 import argparse
@@ -114,6 +114,8 @@ USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runne
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: a change there may change anything. A CMakeLists.txt below a folder of tests/ changes the tests of that folder.
 BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/|tests/.+/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
+# The page without a server and its module, which are built for WebAssembly only.
+WASM = ("bindings/wasm", "tests/wasm")
 # The record of passes, which changes nothing.
 CHECKED = recorded.CHECKED
 
@@ -234,10 +236,14 @@ class Selection:
         self.everything = False
         self.release, self.names = {"checks"}, set()
         self.sanitize, self.fuzz = set(), set()
-        self.packages = self.newcomer = False
+        self.packages = self.newcomer = self.wasm = False
 
     def add(self, path):
         if path == CHECKED:
+            return
+        if under(path, WASM + ("bindings/web/page/src/alone",)):
+            self.wasm = True
+        if under(path, WASM):
             return
         if may_change_anything(path):
             self.everything = True
@@ -323,14 +329,14 @@ class Selection:
 
         if self.everything:
             return {"release": ".", "sanitize": ".", "sanitize_targets": "all", **threads(THREADED), "fuzz": " ".join(FUZZED),
-                    "packages": "yes", "newcomer": "yes", "selection": "everything"}
+                    "packages": "yes", "newcomer": "yes", "wasm": "", "selection": "everything"}
         release = "^(" + "|".join(GROUPS[name][0] for name in GROUPS if name in self.release) + ")"
         release += "".join(f"|^{name}$" for name in sorted(self.names))
         corpora = f"^fuzz: ({'|'.join(sorted(self.fuzz))}): " if self.fuzz else ""
         sanitize = "|".join(filter(None, (shards(self.sanitize), corpora)))
         return {"release": release, "sanitize": sanitize, "sanitize_targets": targets(self.sanitize),
                 **threads(self.sanitize), "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
-                "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release))}
+                "newcomer": "yes" if self.newcomer else "", "wasm": "yes" if self.wasm else "", "selection": " ".join(sorted(self.release))}
 
 
 def select(paths):
