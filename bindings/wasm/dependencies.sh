@@ -8,7 +8,8 @@ set -eu
 root=$(dirname -- "$(readlink -f -- "$0")")/../..
 mkdir -p "$root/build/wasm-deps/apt/lists" "$root/build/wasm-deps/source" "$root/build/wasm-deps/include" "$root/build/wasm-deps/lib"
 deps=$(readlink -f "$root/build/wasm-deps")
-flags='-O2 -fwasm-exceptions -msimd128 -mbulk-memory -w'
+features='-fwasm-exceptions -msimd128 -mbulk-memory -w'
+small="-Oz $features" # a page loads them
 # Debian's tools of emscripten look for modules of node here. node 18 and later take `fetch` for the file system.
 export NODE_PATH=/usr/share/nodejs NODE_OPTIONS=--no-experimental-fetch
 
@@ -50,19 +51,10 @@ archive() {
   rm -rf "objects-$name"
   mkdir "objects-$name"
   for file in "$@"; do
-    $compiler $flags -I. -I"$deps/include" -c "$file" -o "objects-$name/$(basename "$file").o"
+    $compiler -I. -I"$deps/include" -c "$file" -o "objects-$name/$(basename "$file").o"
   done
   emar rcs "$deps/lib/lib$name.a" "objects-$name"/*.o
 }
-# configured NAME OPTIONS..: ./configure and make install.
-configured() {
-  cd "$deps/source/$1"
-  shift
-  CFLAGS=$flags emconfigure ./configure --quiet --host=none --build=none --disable-shared --prefix="$deps" "$@" >configure.out 2>&1 ||
-    fail "configure failed: $PWD/configure.out"
-  { emmake make && emmake make install; } >make.out 2>&1 || fail "make failed: $PWD/make.out"
-}
-
 missing() { [ ! -f "$deps/lib/lib$1.a" ]; }
 
 apt update
@@ -72,42 +64,51 @@ if missing lua; then
   cd "$deps/source/lua5.4/src"
   echo '#define DEB_HOST_MULTIARCH "wasm32"' >"$deps/include/lua5.4-deb-multiarch.h"
   cp lua.h luaconf.h lualib.h lauxlib.h lua.hpp "$deps/include"
-  archive lua "em++ -x c++ -std=c++17" $(ls ./*.c | grep -vE '/(lua|luac)\.c$')
+  archive lua "em++ -O2 $features -x c++ -std=c++17" $(ls ./*.c | grep -vE '/(lua|luac)\.c$')
 fi
 if missing z; then
   cd "$deps/source/zlib"
   cp zlib.h zconf.h "$deps/include"
-  archive z emcc ./*.c
+  archive z "emcc $small" ./*.c
 fi
 if missing pugixml; then
   cd "$deps/source/pugixml/src"
   cp pugixml.hpp pugiconfig.hpp "$deps/include"
-  archive pugixml em++ pugixml.cpp
+  archive pugixml "em++ $small" pugixml.cpp
 fi
 if missing xxhash; then
   cd "$deps/source/xxhash"
   cp xxhash.h "$deps/include"
-  archive xxhash emcc xxhash.c
+  archive xxhash "emcc $small" xxhash.c
 fi
 if missing md; then
   cd "$deps/source/libmd"
   cp include/md5.h include/sha2.h "$deps/include"
   : >src/config.h
-  archive md "emcc -Iinclude -Isrc" src/md5.c src/sha2.c
+  archive md "emcc $small -Iinclude -Isrc" src/md5.c src/sha2.c
 fi
 if missing zip; then
   cd "$deps/source/libzip"
   # emscripten 3.1.6 reads the sizes of types as 9.
-  emcmake cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS="$flags" -DBUILD_SHARED_LIBS=OFF \
+  emcmake cmake -S . -B build -DCMAKE_C_FLAGS="$small" -DBUILD_SHARED_LIBS=OFF \
     -DBUILD_TOOLS=OFF -DBUILD_REGRESS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_DOC=OFF -DENABLE_BZIP2=OFF -DENABLE_LZMA=OFF \
     -DENABLE_OPENSSL=OFF -DENABLE_GNUTLS=OFF -DENABLE_MBEDTLS=OFF -DHAVE_SIZEOF_OFF_T=1 -DSIZEOF_OFF_T=8 \
     -DHAVE_SIZEOF_SIZE_T=1 -DSIZEOF_SIZE_T=4 -DZLIB_LIBRARY="$deps/lib/libz.a" -DZLIB_INCLUDE_DIR="$deps/include" \
     -DCMAKE_INSTALL_PREFIX="$deps" >configure.out 2>&1 || fail "cmake failed: $PWD/configure.out"
   cmake --build build --target install >make.out 2>&1 || fail "make failed: $PWD/make.out"
 fi
-if missing gmp; then
-  mkdir -p "$deps/source/gmp/doc"
-  echo 'all install:' >"$deps/source/gmp/doc/Makefile.in"
-  configured gmp --disable-assembly
+# With mini-gmp, an eighth of GMP, and with GMP's header, which Boost reads.
+if missing mpfr; then
+  configured() {
+    CFLAGS=$small emconfigure ./configure --quiet --host=none --build=none --disable-shared --prefix="$deps" "$@" >configure.out 2>&1 ||
+      fail "configure failed: $PWD/configure.out"
+  }
+  cd "$deps/source/gmp"
+  mkdir -p doc
+  : >doc/Makefile.in
+  configured --disable-assembly
+  cp gmp.h "$deps/include"
+  cd "$deps/source/mpfr4"
+  configured --disable-thread-safe --with-mini-gmp="$deps/source/gmp/mini-gmp"
+  emmake make -C src install >make.out 2>&1 || fail "make failed: $PWD/make.out"
 fi
-if missing mpfr; then configured mpfr4 --disable-thread-safe --with-gmp="$deps"; fi

@@ -18,7 +18,7 @@ package(Boost::headers)
 package(nlohmann_json::nlohmann_json)
 package(CLI11::CLI11)
 package(PkgConfig::FFTW3)  # grids over MPI ranks only
-package(PkgConfig::MPFR mpfr gmp)
+package(PkgConfig::MPFR mpfr)
 package(PkgConfig::XXHASH xxhash)
 package(PkgConfig::PUGIXML pugixml)
 package(PkgConfig::LIBZIP zip z)

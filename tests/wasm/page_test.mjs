@@ -62,17 +62,26 @@ local st = c:press{ pressure=pressure }
 print(("%.17g"):format(st.area_fraction))
 `;
 
-// Times are printed only: they depend on the machine.
+// Times are printed only: they depend on the machine. The page clicks by itself, because a driver of a browser waits
+// for frames before each click.
 test('Start, ShowsTheChartOfTheFirstScript', async () => {
   const page = await on.openPage(browser);
-  const begun = Date.now();
+  await page.evaluateOnNewDocument(() => {
+    const find = (selector) => document.querySelector(selector);
+    window.firstChart = new Promise((shown) => {
+      const painted = () => requestAnimationFrame(() => setTimeout(() => shown(performance.now())));
+      const steps = [
+        [() => find('#run:enabled'), () => find('#run').click()],
+        [() => find('#status').textContent.startsWith('Done'), () => find('#tab-chart').click()],
+        [() => find('.chart svg circle'), painted],
+      ];
+      new MutationObserver(() => {
+        while (steps.length > 0 && steps[0][0]()) steps.shift()[1]();
+      }).observe(document, { subtree: true, childList: true, attributes: true, characterData: true });
+    });
+  });
   await page.goto(url);
-  await on.until(page, () => !document.querySelector('#run').disabled, 'the first script should be ready');
-  await page.click('#run');
-  await on.finished(page);
-  await on.openTab(page, 'chart');
-  await page.waitForSelector('.chart svg circle');
-  const whole = Date.now() - begun;
+  const whole = Math.round(await page.evaluate(() => window.firstChart));
   const loaded = await page.evaluate(() => Math.round(performance.getEntriesByType('navigation')[0].loadEventEnd));
   console.log(`# first chart ${whole} ms after the navigation, ${whole - loaded} ms after loading`);
   await page.done();
