@@ -113,7 +113,7 @@ USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runne
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: a change there may change anything. A CMakeLists.txt below a folder of tests/ changes the tests of that folder.
-BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/|tests/.+/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
+BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/|tests/.+/|bindings/wasm/)((.*/)?CMakeLists\.txt|.*\.cmake)$|(CMakePresets\.json|lab|\.clang-format)$")
 # The page without a server and its module, which are built for WebAssembly only.
 WASM = ("bindings/wasm", "tests/wasm")
 # The record of passes, which changes nothing.

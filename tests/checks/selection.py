@@ -71,6 +71,10 @@ for folder, groups in {"page": {"page"}, "web": {"web", "serve"}, "scripts": {"s
 for path in ("tests/checks/budget.txt", "tests/checks/english.py"):
     selection = chooser.select([path])
     expect(not selection.everything and selection.release == {"checks"}, f"{path} calls for more than checks")
+for path in ("bindings/wasm/CMakeLists.txt", "bindings/wasm/page.cpp", "tests/wasm/run.sh"):
+    selection = chooser.select([path])
+    expect(selection.wasm and not selection.everything and selection.release == {"checks"},
+           f"{path} calls for {' '.join(sorted(selection.release))}, or not for WebAssembly")
 expect(chooser.select(None).everything, "what is not known calls for everything")
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
                    "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/softer_body_yields.lua": "reproductions: softer body yields",
