@@ -68,13 +68,9 @@ for folder, groups in {"page": {"page"}, "web": {"web", "serve"}, "scripts": {"s
     selection = chooser.select([f"tests/{folder}/CMakeLists.txt"])
     expect(not selection.everything and selection.release == groups | {"checks"},
            f"tests/{folder}/CMakeLists.txt calls for {' '.join(sorted(selection.release))}")
-for path in ("tests/checks/budget.txt", "tests/checks/english.py"):
+for path in ("tests/checks/budget.txt", "tests/checks/english.py", "bindings/wasm/CMakeLists.txt", "tests/wasm/run.sh"):
     selection = chooser.select([path])
-    expect(not selection.everything and selection.release == {"checks"}, f"{path} calls for more than checks")
-for path in ("bindings/wasm/CMakeLists.txt", "bindings/wasm/page.cpp", "tests/wasm/run.sh"):
-    selection = chooser.select([path])
-    expect(selection.wasm and not selection.everything and selection.release == {"checks"},
-           f"{path} calls for {' '.join(sorted(selection.release))}, or not for WebAssembly")
+    expect((selection.everything, selection.release, selection.wasm) == (False, {"checks"}, "wasm" in path), f"{path} calls for other checks")
 expect(chooser.select(None).everything, "what is not known calls for everything")
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
                    "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/softer_body_yields.lua": "reproductions: softer body yields",
