@@ -91,7 +91,7 @@ done
 mkdir -p docs/pictures/stability
 rm -f docs/pictures/stability/*.svg
 cp "$runs"/*/*.svg docs/pictures/stability/
-find docs/stability -name '*.md' ! -name found.md -delete
+find docs/stability -name '*.md' ! -name found.md ! -name random_scenes.md -delete
 pages "$runs" docs
 echo "docs/stability.md, docs/stability and docs/pictures/stability are written"
 exit $failed
