@@ -4,10 +4,10 @@
 
 Reads the #include lines of every source and header, nothing cleverer. Complains about a room that includes one it does not
 see, about a circle (of rooms in the list, of folders, or of files), about Lua in the engine, and about an include by anything but its
-path from the project's folder. The graph of the rooms, as they include each other, stands in docs/contributor.md.
+path from the project's folder. docs/contributor.md has the table of the rooms, as they include each other.
 
 usage: rooms.py [FOLDER]          check the project in FOLDER (default: the one this file stands in)
-       rooms.py --draw [FOLDER]   write the graph into docs/contributor.md
+       rooms.py --draw [FOLDER]   write the table into docs/contributor.md
 """
 import pathlib
 import re
@@ -106,7 +106,7 @@ def circle(graph):
 
 
 def drawn(sources):
-    """The graph of the rooms in Mermaid's language, without arrows that follow from others."""
+    """A table of the rooms, each with the rooms that it includes, without those that follow from others."""
     edges = {room: set() for room in SEES}
     for path, text in sources.items():
         for _, quoted, _ in includes(text):
@@ -119,11 +119,11 @@ def drawn(sources):
             below(target, seen)
         return seen
 
-    lines = ["```mermaid", "flowchart BT"]
+    lines = ["| room | includes, besides the rooms that these include |", "|---|---|"]
     for room in SEES:
         beyond = set().union(*(below(target, set()) for target in edges[room]))
-        lines += [f"  {target} --> {room}" for target in sorted(edges[room] - beyond)]
-    return "\n".join(lines) + "\n```\n"
+        lines.append(f"| {room} | {', '.join(sorted(edges[room] - beyond))} |")
+    return "\n".join(lines) + "\n"
 
 
 def main(arguments):
@@ -157,7 +157,7 @@ def main(arguments):
     if around := circle(folders):
         found.append("folders include each other in a circle: " + " -> ".join(around))
     if old != drawn(sources):
-        found.append("docs/contributor.md: the graph of the rooms is old: tests/checks/rooms.py --draw")
+        found.append("docs/contributor.md: the table of the rooms is old: tests/checks/rooms.py --draw")
     if not found:
         print(f"{len(sources)} files include only their own room and those it sees")
     return found
