@@ -158,7 +158,7 @@ Verdict after() {
 const Family controls{"controls",
                       {.model = Wanted::Model::half_space, .lightest = 1e-6, .most_cells = 64, .longest = 3},
                       check,
-                      60,
+                      500,
                       after};
 
 }  // namespace asperity::stability
