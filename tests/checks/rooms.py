@@ -119,7 +119,7 @@ def drawn(sources):
             below(target, seen)
         return seen
 
-    lines = ["| room | includes, besides the rooms that these include |", "|---|---|"]
+    lines = ["| room | includes |", "|---|---|"]
     for room in SEES:
         beyond = set().union(*(below(target, set()) for target in edges[room]))
         lines.append(f"| {room} | {', '.join(sorted(edges[room] - beyond))} |")
