@@ -16,6 +16,7 @@ std::string format_exact(double value);
 std::string format_short(double value, int digits = 6);
 // "12.5 MiB", four digits.
 std::string format_bytes(std::int64_t bytes);
+std::string lower_case(std::string_view text);
 std::string hexadecimal(std::span<const unsigned char> bytes);
 // "`name`".
 std::string quoted(std::string_view name);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Ten deliberate mistakes, each in a clone of what is committed, and whether the short run of the room it is in finds it:
+# Eleven deliberate mistakes, each in a clone of what is committed, and whether the short run of the room it is in finds it:
 # .ci/run must fail at the step named, in words that name the mistake. By hand, not by CTest: each is a build and its tests.
 # Prints for each what was selected, the step that failed, and the seconds it took.
 #
@@ -41,6 +41,9 @@ mistake format engine/metrology/roughness.cpp 's/^namespace asperity {$/namespac
   "layout and include direction" "roughness.cpp"
 mistake upward engine/core/digest.cpp 's|^#include "engine/core/digest.hpp"$|&\n\n#include "engine/contact/plan.hpp"|' \
   "layout and include direction" "engine/core does not see engine/contact"
+mistake knot engine/core/files/source_file.cpp \
+  's|^#include "engine/core/files/text_encoding.hpp"$|&\n#include "engine/core/files/text_table.hpp"|' \
+  "layout and include direction" "circle: engine/core/files/source_file -> engine/core/files/text_table"
 mistake stale docs/reference.md '0,/^### `lab\.surface\.sine`/s/^### `lab\.surface\.sine`/&!/' \
   "its tests" "checks:generated.*Failed"
 mistake race engine/run/ledger.cpp '/^void Ledger::add(std::string_view/,/^}/{/scoped_lock/d}' \

@@ -11,7 +11,6 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_encoding.hpp"
-#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -70,12 +70,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 Separator separator_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return Separator::semicolon;
   if (line.find(',') != std::string_view::npos && !commas_are_decimal(trimmed(line))) return Separator::comma;

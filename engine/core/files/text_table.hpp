@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,7 +31,6 @@ class LineReader {
 };
 
 std::string_view trimmed(std::string_view text);
-std::string lower_case(std::string_view text);
 
 // Except with `comma`, a decimal comma is a point: "1,5 2,5" is two cells, "1, 5, 2" three; "1,5" alone is
 // two.
