@@ -16,7 +16,6 @@
 #include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
-#include "engine/core/text.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 #include "engine/surface/operations/missing_points.hpp"
 

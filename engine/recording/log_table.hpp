@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/files/text_table.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/statistics/cell_column.hpp"

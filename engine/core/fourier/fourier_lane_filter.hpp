@@ -4,7 +4,6 @@
 // passes over memory. Real is the precision of transforms and multiplier.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <span>
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/core/require.hpp"
-#include "engine/metrology/blocked_sums.hpp"
 #include "engine/metrology/gaussian_filter.hpp"
 #include "engine/metrology/levelling.hpp"
 

@@ -3,8 +3,6 @@
 // over measured nodes, which biases heights near holes and rims; use nodes with `share` near 1.
 #pragma once
 
-#include <array>
-
 #include "engine/core/grid.hpp"
 #include "engine/surface/surface.hpp"
 

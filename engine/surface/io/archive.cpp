@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 

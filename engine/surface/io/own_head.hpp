@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "engine/core/files/source_file.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/surface/io/column_head.hpp"
 
 namespace asperity {

@@ -4,7 +4,6 @@
 // contribute; nodes past their yield pressure add 1/K_h to K.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
@@ -12,7 +11,6 @@
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"

@@ -2,7 +2,6 @@
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/core/parallel.hpp"
 
