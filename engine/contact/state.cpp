@@ -43,6 +43,77 @@ class Lazy {
 
 const std::array<std::string, 5> names_of_fields = {"pressure", "gap", "contact", "displacement", "plastic"};
 
+// Forward, at facing nodes, not across the rim.
+double combined_rms_slope(const ContactGeometry& geometry) {
+  const Field& z = geometry.combined();
+  const Grid& grid = geometry.grid();
+  double squares = 0, nodes = 0;
+  for (int j = 0; j + 1 < grid.ny; ++j)
+    for (int i = 0; i + 1 < grid.nx; ++i) {
+      const double along = (z(i + 1, j) - z(i, j)) / grid.hx(), up = (z(i, j + 1) - z(i, j)) / grid.hy();
+      if (!std::isfinite(along) || !std::isfinite(up)) continue;
+      squares += along * along + up * up;
+      ++nodes;
+    }
+  return nodes > 0 ? std::sqrt(squares / nodes) : 0;
+}
+
+// Name and hardness.
+std::pair<std::string, double> softer_body(const ContactGeometry& geometry) {
+  const auto hardness = [](const Material* material) {
+    return material != nullptr && !material->rigid ? material->hardness.value_or(infinity) : infinity;
+  };
+  const double lower = hardness(lower_material(geometry.lower())),
+               upper = hardness(upper_material(geometry.upper()));
+  return upper < lower ? std::pair("upper", upper) : std::pair("lower", lower);
+}
+
+// Empty without a warning, and for flats.
+std::string cut_off_at_the_rim(const State& state) {
+  const ContactGeometry& geometry = state.geometry();
+  const Grid& grid = state.grid();
+  if (state.plan().elasticity->is_local() || geometry.boundary() != Boundary::free ||
+      !(geometry.peak_to_valley() > 0))
+    return {};
+  const auto contact = state.field("contact");
+  const auto gap = state.plan().attracts() ? state.field("gap") : contact;
+  double least = infinity;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1)) {
+      if ((*contact)(i, j) > 0)
+        return "the contact reaches the rim of the free tile, where the bodies end; press less, or give a "
+               "larger tile";
+      if (!std::isnan((*gap)(i, j))) least = std::min(least, std::max((*gap)(i, j), 0.0));
+    }
+  constexpr double noticeable = 0.01;  // of the traction at touch
+  for (const GapTerm& term : state.plan().attraction)
+    if (const double share = term.work > 0 ? term.traction(least) / term.greatest() : 0; share > noticeable)
+      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end, with " +
+             format_short(100 * share, 2) +
+             " % of its greatest traction; take a larger tile or a shorter range";
+  return {};
+}
+
+Hdf5Array field_array(const State& state, const std::string& name) {
+  const std::shared_ptr<const Field> field = state.field(name);
+  std::vector<std::size_t> shape{static_cast<std::size_t>(field->ny()),
+                                 static_cast<std::size_t>(field->nx())};
+  if (name == "contact") {
+    Array<std::uint8_t> touching(field->size());
+    for (std::size_t k = 0; k < touching.size(); ++k) touching[k] = (*field)[k] != 0 ? 1 : 0;
+    return owning_array(name, std::move(shape), std::move(touching));
+  }
+  return {name, std::move(shape), field->values(), name == "pressure" ? "Pa" : "m", field};
+}
+
+// Without "plastic" unless something can yield.
+std::vector<std::string> fields_of(const State& state) {
+  const auto names = State::field_names();
+  std::vector<std::string> fields(names.begin(), names.end());
+  if (!state.yields()) std::erase(fields, "plastic");
+  return fields;
+}
+
 }  // namespace
 
 StateCost elasticity_alone(const Cost& cost) { return {cost, {{std::string(elasticity_effect), cost}}}; }
@@ -420,61 +491,6 @@ std::string State::text(const std::string& of_the_cells) const {
          format_short(static_cast<double>(total.bytes) / mebibyte, 3) + " MiB; " + solver();
 }
 
-namespace {
-
-// Forward, at facing nodes, not across the rim.
-double combined_rms_slope(const ContactGeometry& geometry) {
-  const Field& z = geometry.combined();
-  const Grid& grid = geometry.grid();
-  double squares = 0, nodes = 0;
-  for (int j = 0; j + 1 < grid.ny; ++j)
-    for (int i = 0; i + 1 < grid.nx; ++i) {
-      const double along = (z(i + 1, j) - z(i, j)) / grid.hx(), up = (z(i, j + 1) - z(i, j)) / grid.hy();
-      if (!std::isfinite(along) || !std::isfinite(up)) continue;
-      squares += along * along + up * up;
-      ++nodes;
-    }
-  return nodes > 0 ? std::sqrt(squares / nodes) : 0;
-}
-
-// Name and hardness.
-std::pair<std::string, double> softer_body(const ContactGeometry& geometry) {
-  const auto hardness = [](const Material* material) {
-    return material != nullptr && !material->rigid ? material->hardness.value_or(infinity) : infinity;
-  };
-  const double lower = hardness(lower_material(geometry.lower())),
-               upper = hardness(upper_material(geometry.upper()));
-  return upper < lower ? std::pair("upper", upper) : std::pair("lower", lower);
-}
-
-// Empty without a warning, and for flats.
-std::string cut_off_at_the_rim(const State& state) {
-  const ContactGeometry& geometry = state.geometry();
-  const Grid& grid = state.grid();
-  if (state.plan().elasticity->is_local() || geometry.boundary() != Boundary::free ||
-      !(geometry.peak_to_valley() > 0))
-    return {};
-  const auto contact = state.field("contact");
-  const auto gap = state.plan().attracts() ? state.field("gap") : contact;
-  double least = infinity;
-  for (int j = 0; j < grid.ny; ++j)
-    for (int i = 0; i < grid.nx; i += j == 0 || j == grid.ny - 1 ? 1 : std::max(grid.nx - 1, 1)) {
-      if ((*contact)(i, j) > 0)
-        return "the contact reaches the rim of the free tile, where the bodies end; press less, or give a "
-               "larger tile";
-      if (!std::isnan((*gap)(i, j))) least = std::min(least, std::max((*gap)(i, j), 0.0));
-    }
-  constexpr double noticeable = 0.01;  // of the traction at touch
-  for (const GapTerm& term : state.plan().attraction)
-    if (const double share = term.work > 0 ? term.traction(least) / term.greatest() : 0; share > noticeable)
-      return quoted(term.effect) + " reaches the rim of the free tile, where the bodies end, with " +
-             format_short(100 * share, 2) +
-             " % of its greatest traction; take a larger tile or a shorter range";
-  return {};
-}
-
-}  // namespace
-
 std::vector<std::string> state_limits(const State& state) {
   const ContactGeometry& geometry = state.geometry();
   std::vector<std::string> sentences;
@@ -505,30 +521,6 @@ std::vector<std::string> state_limits(const State& state) {
   }
   return sentences;
 }
-
-namespace {
-
-Hdf5Array field_array(const State& state, const std::string& name) {
-  const std::shared_ptr<const Field> field = state.field(name);
-  std::vector<std::size_t> shape{static_cast<std::size_t>(field->ny()),
-                                 static_cast<std::size_t>(field->nx())};
-  if (name == "contact") {
-    Array<std::uint8_t> touching(field->size());
-    for (std::size_t k = 0; k < touching.size(); ++k) touching[k] = (*field)[k] != 0 ? 1 : 0;
-    return owning_array(name, std::move(shape), std::move(touching));
-  }
-  return {name, std::move(shape), field->values(), name == "pressure" ? "Pa" : "m", field};
-}
-
-// Without "plastic" unless something can yield.
-std::vector<std::string> fields_of(const State& state) {
-  const auto names = State::field_names();
-  std::vector<std::string> fields(names.begin(), names.end());
-  if (!state.yields()) std::erase(fields, "plastic");
-  return fields;
-}
-
-}  // namespace
 
 void write_state(const State& state, const std::filesystem::path& path, std::vector<std::string> fields) {
   const std::string extension = file_extension(path.string());

@@ -25,6 +25,33 @@ void require_cap(const std::optional<double>& value, std::string_view key) {
   if (value) require(*value > 0, key, *value, "", "give a pressure above zero; leave it out for no cap");
 }
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Least normal stress at the cap; the same test as for level junctions.
+double stress_at_cap(const JunctionLaw& law) {
+  if (!law.tau_max()) return infinite;
+  const double room = *law.tau_max() - law.tau0();
+  if (room <= 0) return 0;
+  return law.alpha() > 0 ? room / law.alpha() : infinite;
+}
+
+struct Neighbours {
+  int before, after, steps;
+};
+Neighbours neighbours(int k, int n, bool wraps) {
+  if (wraps) return {k > 0 ? k - 1 : n - 1, k < n - 1 ? k + 1 : 0, 2};
+  const int before = std::max(0, k - 1), after = std::min(n - 1, k + 1);
+  return {before, after, std::max(1, after - before)};
+}
+
+// With heights; overhanging bodies have a free boundary without wrap.
+template <class There>
+Neighbours inside(Neighbours all, int k, There there) {
+  if (!there(all.before)) all.before = k;
+  if (!there(all.after)) all.after = k;
+  return {all.before, all.after, std::max(1, all.after - all.before)};
+}
+
 }  // namespace
 
 void check_rest(std::optional<double> rest, const Effects& effects) {
@@ -104,37 +131,6 @@ std::string JunctionLaw::text() const {
   if (!tau_max_) return "tau = " + line;
   return "tau = min(" + line + ", " + format_quantity(*tau_max_, dimension::pressure) + ")";
 }
-
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// Least normal stress at the cap; the same test as for level junctions.
-double stress_at_cap(const JunctionLaw& law) {
-  if (!law.tau_max()) return infinite;
-  const double room = *law.tau_max() - law.tau0();
-  if (room <= 0) return 0;
-  return law.alpha() > 0 ? room / law.alpha() : infinite;
-}
-
-struct Neighbours {
-  int before, after, steps;
-};
-Neighbours neighbours(int k, int n, bool wraps) {
-  if (wraps) return {k > 0 ? k - 1 : n - 1, k < n - 1 ? k + 1 : 0, 2};
-  const int before = std::max(0, k - 1), after = std::min(n - 1, k + 1);
-  return {before, after, std::max(1, after - before)};
-}
-
-// With heights; overhanging bodies have a free boundary without wrap.
-template <class There>
-Neighbours inside(Neighbours all, int k, There there) {
-  if (!there(all.before)) all.before = k;
-  if (!there(all.after)) all.after = k;
-  return {all.before, all.after, std::max(1, all.after - all.before)};
-}
-
-}  // namespace
 
 InclinedJunction inclined_junction(const JunctionLaw& law, double pressure, double along, double across) {
   const double rise = 1 + along * along;

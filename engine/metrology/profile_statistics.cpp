@@ -80,27 +80,6 @@ double boxes_at(std::span<const double> z, double unit, int s, bool wrap) {
   return count * (per_box / static_cast<double>(columns));
 }
 
-}  // namespace
-
-void step_statistics(std::span<const double> heights, double spacing, double unit, const Stepping& stepping,
-                     std::span<double> statistics, std::span<double> mean_square_slopes) {
-  for (std::size_t k = 0; k < stepping.steps.size(); ++k) {
-    const int s = stepping.steps[k];
-    if (stepping.method == DimensionMethod::length) {
-      const Length length = length_at(heights, spacing, s, stepping);
-      statistics[k] = length.excess;
-      if (!mean_square_slopes.empty()) mean_square_slopes[k] = length.mean_square_slope;
-    } else if (stepping.method == DimensionMethod::box) {
-      statistics[k] = boxes_at(heights, unit, s, stepping.wrap);
-    } else {
-      statistics[k] =
-          difference_at(heights, unit, s, stepping, stepping.method == DimensionMethod::structure);
-    }
-  }
-}
-
-namespace {
-
 // √(2x/π) eˣ times K0(x), K1(x): of order one where the functions vanish.
 struct ScaledBessel {
   double k0, k1;
@@ -142,6 +121,23 @@ constexpr double very_steep = 1e9;
 constexpr double very_flat = 1e-150;
 
 }  // namespace
+
+void step_statistics(std::span<const double> heights, double spacing, double unit, const Stepping& stepping,
+                     std::span<double> statistics, std::span<double> mean_square_slopes) {
+  for (std::size_t k = 0; k < stepping.steps.size(); ++k) {
+    const int s = stepping.steps[k];
+    if (stepping.method == DimensionMethod::length) {
+      const Length length = length_at(heights, spacing, s, stepping);
+      statistics[k] = length.excess;
+      if (!mean_square_slopes.empty()) mean_square_slopes[k] = length.mean_square_slope;
+    } else if (stepping.method == DimensionMethod::box) {
+      statistics[k] = boxes_at(heights, unit, s, stepping.wrap);
+    } else {
+      statistics[k] =
+          difference_at(heights, unit, s, stepping, stepping.method == DimensionMethod::structure);
+    }
+  }
+}
 
 double expected_length_ratio(double rms_slope) {
   const double s = std::abs(rms_slope);

@@ -148,6 +148,19 @@ Window chosen(Window asked, bool periodic) {
   return periodic ? Window::none : Window::hann;
 }
 
+// Recurrences run to here; the series are exact to 1e-14 beyond.
+constexpr double far_out = 16;
+
+// Criterion of empty_band.
+constexpr double least_gap = 1, standard_deviations = 3.5;
+
+// Cached for the last length.
+const Array<double>& cached_hann_window(int n) {
+  thread_local Array<double> window;
+  if (window.size() == static_cast<std::size_t>(n)) return window;
+  return window = hann_window(n);
+}
+
 }  // namespace
 
 Array<double> hann_window(int n) {
@@ -176,16 +189,6 @@ Spectrum spectrum(const Profile& profile, const SpectrumOptions& options) {
   return result;
 }
 
-namespace {
-
-// Recurrences run to here; the series are exact to 1e-14 beyond.
-constexpr double far_out = 16;
-
-// Criterion of empty_band.
-constexpr double least_gap = 1, standard_deviations = 3.5;
-
-}  // namespace
-
 // The Hann window leaks the mean into the first ordinate; waves below three samples are aliased.
 std::vector<SpectralBand> spectral_bands(int n, bool wrap) {
   std::vector<SpectralBand> result;
@@ -208,17 +211,6 @@ std::vector<double> band_wavelengths(int n, bool wrap) {
   }
   return result;
 }
-
-namespace {
-
-// Cached for the last length.
-const Array<double>& cached_hann_window(int n) {
-  thread_local Array<double> window;
-  if (window.size() == static_cast<std::size_t>(n)) return window;
-  return window = hann_window(n);
-}
-
-}  // namespace
 
 void band_log_powers(std::span<const double> heights, double unit, bool wrap, std::span<double> log_powers) {
   const auto n = static_cast<int>(heights.size());

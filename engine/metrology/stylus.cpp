@@ -234,6 +234,41 @@ Surface with_heights(const Surface& surface, Field heights) {
   return Surface(surface.grid(), std::move(heights), std::move(traits));
 }
 
+constexpr double same = 1e-9;  // relative tolerance
+
+double spacing_of(const StylusOptions& o) {
+  require_positive("spacing", o.spacing);
+  require_positive("speed", o.speed);
+  require_positive("rate", o.rate);
+  if (o.speed && !o.rate && !o.spacing)
+    refuse("`speed` is given without `rate`, so the distance between samples is not known",
+           "give `rate`, such as \"100 Hz\", or `spacing`");
+  if (!o.speed || !o.rate) return o.spacing.value_or(stylus_spacing);
+  const double travelled = *o.speed / *o.rate;
+  if (!(std::isfinite(travelled) && travelled > 0))
+    refuse("`speed`/`rate` is " + format_short(travelled) + " m",
+           "give a speed and a rate that make a spacing");
+  if (!o.spacing) return travelled;
+  if (std::abs(*o.spacing - travelled) > same * travelled)
+    refuse("`spacing` is " + metres(*o.spacing) + ", and `speed`/`rate` is " + metres(travelled),
+           "give two of the three, or three that agree");
+  return *o.spacing;
+}
+
+std::int64_t whole_spacings(double length, double spacing) {
+  return static_cast<std::int64_t>(std::floor(length / spacing * (1 + same)));
+}
+
+double ratio(double with, double without) { return with == without ? 1 : with / without; }
+
+// The tolerance admits the diagonal.
+std::optional<Range> fitting_angles(double length, double width, double height) {
+  const double low = length > width ? elementary::acos(width / length) : 0;
+  const double high = length > height ? elementary::asin(height / length) : 0.5 * std::numbers::pi;
+  if (low > high + same) return {};
+  return Range{.min = low, .max = std::max(low, high)};
+}
+
 }  // namespace
 
 SphericalTip::SphericalTip(const Surface& surface, double radius)
@@ -310,45 +345,6 @@ Surface closed(const Surface& surface, double radius, Monitor& monitor) {
   const Field lifted = extremes(surface, surface.heights(), 1, radius, monitor, "dilation by the tip");
   return with_heights(surface, extremes(surface, lifted, -1, radius, monitor, "erosion by the tip"));
 }
-
-namespace {
-
-constexpr double same = 1e-9;  // relative tolerance
-
-double spacing_of(const StylusOptions& o) {
-  require_positive("spacing", o.spacing);
-  require_positive("speed", o.speed);
-  require_positive("rate", o.rate);
-  if (o.speed && !o.rate && !o.spacing)
-    refuse("`speed` is given without `rate`, so the distance between samples is not known",
-           "give `rate`, such as \"100 Hz\", or `spacing`");
-  if (!o.speed || !o.rate) return o.spacing.value_or(stylus_spacing);
-  const double travelled = *o.speed / *o.rate;
-  if (!(std::isfinite(travelled) && travelled > 0))
-    refuse("`speed`/`rate` is " + format_short(travelled) + " m",
-           "give a speed and a rate that make a spacing");
-  if (!o.spacing) return travelled;
-  if (std::abs(*o.spacing - travelled) > same * travelled)
-    refuse("`spacing` is " + metres(*o.spacing) + ", and `speed`/`rate` is " + metres(travelled),
-           "give two of the three, or three that agree");
-  return *o.spacing;
-}
-
-std::int64_t whole_spacings(double length, double spacing) {
-  return static_cast<std::int64_t>(std::floor(length / spacing * (1 + same)));
-}
-
-double ratio(double with, double without) { return with == without ? 1 : with / without; }
-
-// The tolerance admits the diagonal.
-std::optional<Range> fitting_angles(double length, double width, double height) {
-  const double low = length > width ? elementary::acos(width / length) : 0;
-  const double high = length > height ? elementary::asin(height / length) : 0.5 * std::numbers::pi;
-  if (low > high + same) return {};
-  return Range{.min = low, .max = std::max(low, high)};
-}
-
-}  // namespace
 
 Stylus::Stylus(const StylusOptions& options)
     : tip_(options.tip),

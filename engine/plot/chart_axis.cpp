@@ -115,6 +115,22 @@ std::vector<Tic> logarithmic_tics(double low, double high) {
   return tics;
 }
 
+AxisLayout names_layout(const ChartAxis& axis) {
+  constexpr std::size_t longest = 24;
+  constexpr double character = 11.8, between = 14;  // pixels
+  AxisLayout layout;
+  layout.label = axis.label;
+  layout.low = -0.5;
+  layout.high = static_cast<double>(axis.names.size()) - 0.5;
+  const double room = axis.names_room / static_cast<double>(axis.names.size());
+  for (std::size_t k = 0; k < axis.names.size(); ++k) {
+    const std::string name = shortened(axis.names[k], longest);
+    layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;
+    layout.tics.push_back({static_cast<double>(k), name});
+  }
+  return layout;
+}
+
 }  // namespace
 
 double round_below(double value) {
@@ -166,26 +182,6 @@ std::string shortened(std::string_view text, std::size_t longest) {
     } while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80);
   return std::string(text.substr(0, end)) + "…";
 }
-
-namespace {
-
-AxisLayout names_layout(const ChartAxis& axis) {
-  constexpr std::size_t longest = 24;
-  constexpr double character = 11.8, between = 14;  // pixels
-  AxisLayout layout;
-  layout.label = axis.label;
-  layout.low = -0.5;
-  layout.high = static_cast<double>(axis.names.size()) - 0.5;
-  const double room = axis.names_room / static_cast<double>(axis.names.size());
-  for (std::size_t k = 0; k < axis.names.size(); ++k) {
-    const std::string name = shortened(axis.names[k], longest);
-    layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;
-    layout.tics.push_back({static_cast<double>(k), name});
-  }
-  return layout;
-}
-
-}  // namespace
 
 AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double margin) {
   if (!axis.names.empty()) return names_layout(axis);

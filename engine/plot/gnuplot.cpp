@@ -111,6 +111,13 @@ std::string without_ends(std::string text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+std::function<GnuplotDrawer>& drawer() {
+  static std::function<GnuplotDrawer> other;
+  return other;
+}
+
+int left = 0;
+
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
@@ -198,15 +205,6 @@ std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::pa
   return {asperity::quoted(file.filename().string()) + " may look wrong; gnuplot reports: " + said +
           (result.messages.size() > longest ? " …" : "")};
 }
-
-namespace {
-std::function<GnuplotDrawer>& drawer() {
-  static std::function<GnuplotDrawer> other;
-  return other;
-}
-
-int left = 0;
-}  // namespace
 
 bool leave_to_page() {
 #if defined(__EMSCRIPTEN__)

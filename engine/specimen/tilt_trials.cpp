@@ -214,6 +214,20 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
   return note;
 }
 
+SlipShare share_at(const Solver& contact, const State& state, double friction, double angle,
+                   Monitor& monitor) {
+  SlipShare share{angle, 1, 1, {}};
+  if (!(friction > 0)) return share;
+  // The slip angle is accurate to rounding only.
+  constexpr double rounding = 1e-9;
+  const double ratio = elementary::tan(angle) / friction;
+  share.ratio = ratio < 1 - rounding ? ratio : 1;
+  const PartialSlip slip = shear(contact, state, {{}, share.ratio, friction}, monitor);
+  share.slip_fraction = slip.slip_fraction();
+  share.displacement = slip.displacement();
+  return share;
+}
+
 }  // namespace
 
 std::uint64_t tilt_placement(const TiltTrialOptions& options, int trial) {
@@ -326,24 +340,6 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     add_sentence(result.note, "`spread` covers trials on one pair of faces, not other seeds or specimens");
   return result;
 }
-
-namespace {
-
-SlipShare share_at(const Solver& contact, const State& state, double friction, double angle,
-                   Monitor& monitor) {
-  SlipShare share{angle, 1, 1, {}};
-  if (!(friction > 0)) return share;
-  // The slip angle is accurate to rounding only.
-  constexpr double rounding = 1e-9;
-  const double ratio = elementary::tan(angle) / friction;
-  share.ratio = ratio < 1 - rounding ? ratio : 1;
-  const PartialSlip slip = shear(contact, state, {{}, share.ratio, friction}, monitor);
-  share.slip_fraction = slip.slip_fraction();
-  share.displacement = slip.displacement();
-  return share;
-}
-
-}  // namespace
 
 std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
                                    const TiltTrialOptions& options, int steps, Monitor& monitor) {

@@ -125,6 +125,14 @@ std::vector<TableColumn> joined_columns(const Table& table, const Table& other, 
   return columns;
 }
 
+// Without an exponent up to a million.
+std::string readable_number(double number, int digits) {
+  constexpr double most = 1e7;
+  const std::string text = format_short(number, digits);
+  if (text.find('e') == std::string::npos || std::abs(number) < 1 || std::abs(number) >= most) return text;
+  return std::to_string(static_cast<std::int64_t>(std::strtod(text.c_str(), nullptr)));
+}
+
 }  // namespace
 
 Table rows_of(const Table& table, std::span<const std::size_t> rows) {
@@ -206,18 +214,6 @@ Table columns_of(const Table& table, std::span<const std::string> names) {
   chosen.rename(table.name());
   return chosen;
 }
-
-namespace {
-
-// Without an exponent up to a million.
-std::string readable_number(double number, int digits) {
-  constexpr double most = 1e7;
-  const std::string text = format_short(number, digits);
-  if (text.find('e') == std::string::npos || std::abs(number) < 1 || std::abs(number) >= most) return text;
-  return std::to_string(static_cast<std::int64_t>(std::strtod(text.c_str(), nullptr)));
-}
-
-}  // namespace
 
 std::string table_text(const Table& table, std::size_t most, int digits) {
   const std::size_t rows = table.rows() > most ? most : table.rows();

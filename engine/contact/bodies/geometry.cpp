@@ -27,6 +27,20 @@ std::int64_t mark_missing(Field& heights, std::span<const std::uint8_t> uncovere
   return facing;
 }
 
+std::shared_ptr<const Field> raised_field(const std::shared_ptr<const Field>& before, double at_first,
+                                          const Field& values) {
+  Field result = before ? *before : Field(values.nx(), values.ny(), at_first);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::max(result[k], values[k]);
+  return std::make_shared<const Field>(std::move(result));
+}
+
+// (1−ν²)/E, 1/Pa; none if the material lacks moduli.
+std::optional<double> compliance(const Material* material) {
+  if (material == nullptr) return {};
+  if (!material->rigid && !(material->young && material->poisson)) return {};
+  return 1.0 / plane_strain_modulus(*material);
+}
+
 }  // namespace
 
 ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory,
@@ -104,17 +118,6 @@ const Material* upper_material(const UpperBody& upper) {
   return rough.material() ? &*rough.material() : nullptr;
 }
 
-namespace {
-
-std::shared_ptr<const Field> raised_field(const std::shared_ptr<const Field>& before, double at_first,
-                                          const Field& values) {
-  Field result = before ? *before : Field(values.nx(), values.ny(), at_first);
-  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::max(result[k], values[k]);
-  return std::make_shared<const Field>(std::move(result));
-}
-
-}  // namespace
-
 MetMemory met(const ContactGeometry& geometry, const NodeMemory& memory, double at_first) {
   MetMemory here{memory.lower, memory.upper_here};
   if (memory.upper_here || !memory.upper) return here;
@@ -138,17 +141,6 @@ NodeMemory raised(const ContactGeometry& geometry, const NodeMemory& before, con
   }
   return after;
 }
-
-namespace {
-
-// (1−ν²)/E, 1/Pa; none if the material lacks moduli.
-std::optional<double> compliance(const Material* material) {
-  if (material == nullptr) return {};
-  if (!material->rigid && !(material->young && material->poisson)) return {};
-  return 1.0 / plane_strain_modulus(*material);
-}
-
-}  // namespace
 
 double contact_modulus(const ContactGeometry& geometry, const std::string& needs, const std::string& purpose,
                        const std::string& otherwise) {

@@ -19,54 +19,6 @@ int modulo(long long value, int n) {
   const long long rest = value % n;
   return static_cast<int>(rest < 0 ? rest + n : rest);
 }
-}  // namespace
-
-LatticeIsometry::LatticeIsometry(int nx, int ny) : nx_(nx), ny_(ny) {}
-
-LatticeIsometry::Node LatticeIsometry::turn(Node node, int quarters) const {
-  if (quarters == 1) return {ny_ - 1 - node.j, node.i};
-  if (quarters == 2) return {nx_ - 1 - node.i, ny_ - 1 - node.j};
-  if (quarters == 3) return {node.j, nx_ - 1 - node.i};
-  return node;
-}
-
-LatticeIsometry LatticeIsometry::turned(int quarters) const {
-  const int turns = modulo(quarters, 4);
-  if (turns % 2 != 0 && nx_ != ny_)
-    refuse("a turn by " + std::to_string(turns * 90) + " deg does not fit a grid of " + std::to_string(nx_) +
-               " x " + std::to_string(ny_) + " cells",
-           "turn it by 180 deg, or use a square tile");
-  LatticeIsometry result = *this;
-  result.quarters_ = modulo(quarters_ + turns, 4);
-  // turn ∘ shift(s) = shift(R s) ∘ turn
-  int x = shift_x_, y = shift_y_;
-  for (int turn = 0; turn < turns; ++turn) x = -std::exchange(y, x);
-  result.shift_x_ = modulo(x, nx_);
-  result.shift_y_ = modulo(y, ny_);
-  return result;
-}
-
-LatticeIsometry LatticeIsometry::shifted(int cells_x, int cells_y) const {
-  LatticeIsometry result = *this;
-  result.shift_x_ = modulo(static_cast<long long>(shift_x_) + cells_x, nx_);
-  result.shift_y_ = modulo(static_cast<long long>(shift_y_) + cells_y, ny_);
-  return result;
-}
-
-LatticeIsometry::Node LatticeIsometry::to_lower(Node own) const {
-  const Node turned = turn({nx_ - 1 - own.i, own.j}, quarters_);
-  return {modulo(static_cast<long long>(turned.i) + shift_x_, nx_),
-          modulo(static_cast<long long>(turned.j) + shift_y_, ny_)};
-}
-
-LatticeIsometry::Node LatticeIsometry::to_upper(Node lower) const {
-  const Node back = turn({modulo(static_cast<long long>(lower.i) - shift_x_, nx_),
-                          modulo(static_cast<long long>(lower.j) - shift_y_, ny_)},
-                         (4 - quarters_) % 4);
-  return {nx_ - 1 - back.i, back.j};
-}
-
-namespace {
 
 // `place`: node of `from` at a node of the result.
 template <class Place>
@@ -81,18 +33,6 @@ Field moved(const Field& from, Place place) {
   });
   return result;
 }
-
-}  // namespace
-
-Field LatticeIsometry::to_lower(const Field& own) const {
-  return moved(own, [this](Node node) { return to_upper(node); });
-}
-
-Field LatticeIsometry::to_upper(const Field& lower) const {
-  return moved(lower, [this](Node node) { return to_lower(node); });
-}
-
-namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
@@ -142,6 +82,59 @@ Field turned_field(const Field& field, const Grid& grid, double angle, double ou
 }
 
 }  // namespace
+
+LatticeIsometry::LatticeIsometry(int nx, int ny) : nx_(nx), ny_(ny) {}
+
+LatticeIsometry::Node LatticeIsometry::turn(Node node, int quarters) const {
+  if (quarters == 1) return {ny_ - 1 - node.j, node.i};
+  if (quarters == 2) return {nx_ - 1 - node.i, ny_ - 1 - node.j};
+  if (quarters == 3) return {node.j, nx_ - 1 - node.i};
+  return node;
+}
+
+LatticeIsometry LatticeIsometry::turned(int quarters) const {
+  const int turns = modulo(quarters, 4);
+  if (turns % 2 != 0 && nx_ != ny_)
+    refuse("a turn by " + std::to_string(turns * 90) + " deg does not fit a grid of " + std::to_string(nx_) +
+               " x " + std::to_string(ny_) + " cells",
+           "turn it by 180 deg, or use a square tile");
+  LatticeIsometry result = *this;
+  result.quarters_ = modulo(quarters_ + turns, 4);
+  // turn ∘ shift(s) = shift(R s) ∘ turn
+  int x = shift_x_, y = shift_y_;
+  for (int turn = 0; turn < turns; ++turn) x = -std::exchange(y, x);
+  result.shift_x_ = modulo(x, nx_);
+  result.shift_y_ = modulo(y, ny_);
+  return result;
+}
+
+LatticeIsometry LatticeIsometry::shifted(int cells_x, int cells_y) const {
+  LatticeIsometry result = *this;
+  result.shift_x_ = modulo(static_cast<long long>(shift_x_) + cells_x, nx_);
+  result.shift_y_ = modulo(static_cast<long long>(shift_y_) + cells_y, ny_);
+  return result;
+}
+
+LatticeIsometry::Node LatticeIsometry::to_lower(Node own) const {
+  const Node turned = turn({nx_ - 1 - own.i, own.j}, quarters_);
+  return {modulo(static_cast<long long>(turned.i) + shift_x_, nx_),
+          modulo(static_cast<long long>(turned.j) + shift_y_, ny_)};
+}
+
+LatticeIsometry::Node LatticeIsometry::to_upper(Node lower) const {
+  const Node back = turn({modulo(static_cast<long long>(lower.i) - shift_x_, nx_),
+                          modulo(static_cast<long long>(lower.j) - shift_y_, ny_)},
+                         (4 - quarters_) % 4);
+  return {nx_ - 1 - back.i, back.j};
+}
+
+Field LatticeIsometry::to_lower(const Field& own) const {
+  return moved(own, [this](Node node) { return to_upper(node); });
+}
+
+Field LatticeIsometry::to_upper(const Field& lower) const {
+  return moved(lower, [this](Node node) { return to_lower(node); });
+}
 
 Pose::Pose(const LatticeIsometry& lattice)
     : lattice_(lattice), angle_(std::remainder(lattice.quarters() * quarter, 4 * quarter)) {}

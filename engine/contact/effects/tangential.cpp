@@ -37,20 +37,6 @@ Sums sums_of(const ContactGeometry& geometry) {
   return sums;
 }
 
-}  // namespace
-
-double mindlin_ratio(const ContactGeometry& geometry) {
-  const Sums sums = sums_of(geometry);
-  return sums.tangential / sums.normal;
-}
-
-double dundurs_beta(const ContactGeometry& geometry) {
-  const Sums sums = sums_of(geometry);
-  return sums.mixed / sums.normal;
-}
-
-namespace {
-
 void check_tangential(const std::any&, const Scene& scene) {
   if (!scene.elasticity.model().shear)
     refuse(
@@ -86,6 +72,16 @@ void plan_tangential(const std::any& given, const ContactGeometry& geometry, Pla
 }
 
 }  // namespace
+
+double mindlin_ratio(const ContactGeometry& geometry) {
+  const Sums sums = sums_of(geometry);
+  return sums.tangential / sums.normal;
+}
+
+double dundurs_beta(const ContactGeometry& geometry) {
+  const Sums sums = sums_of(geometry);
+  return sums.mixed / sums.normal;
+}
 
 const Effect& tangential_effect() {
   using O = TangentialOptions;

@@ -90,32 +90,6 @@ class SlopesOfRows {
   double hx_, hy_;
 };
 
-}  // namespace
-
-ArealSlopes areal_slopes(const Surface& surface) {
-  const SlopesOfRows slopes(surface);
-  Array<SlopeSums> rows(static_cast<std::size_t>(surface.grid().ny));
-  for_each_row(surface.grid().ny, [&](int j) { rows[static_cast<std::size_t>(j)] = slopes.row(j); });
-  std::array<double, terms> total{}, number{};
-  Array<double> column(rows.size());
-  const auto sum_of = [&](auto member, std::size_t t) {
-    std::ranges::transform(rows, column.begin(), [&](const SlopeSums& row) { return (row.*member)[t]; });
-    return block_sum(column);
-  };
-  for (std::size_t t = 0; t < terms; ++t)
-    total[t] = sum_of(&SlopeSums::sum, t), number[t] = sum_of(&SlopeSums::count, t);
-  const auto mean_square = [&](Term term) { return number[term] > 0 ? total[term] / number[term] : 0; };
-  ArealSlopes result;
-  if (number[edges_x] > 0 || number[edges_y] > 0)
-    result.Sdq = std::sqrt(mean_square(edges_x) + mean_square(edges_y));
-  if (number[crosses] > 0) result.Sdq_seven = std::sqrt(mean_square(crosses));
-  if (number[cells] > 0) result.Sdr = mean_square(cells);
-  result.cells = static_cast<std::size_t>(number[cells]);
-  return result;
-}
-
-namespace {
-
 constexpr int tiles_a_side = 4;
 constexpr double lengths_a_tile = 10;  // autocorrelation lengths
 
@@ -152,7 +126,85 @@ std::optional<Surface> tile(const Surface& map, int i0, int j0, int nx, int ny) 
   return Surface::with_holes(make_grid(nx, ny, nx * grid.hx(), ny * grid.hy()), std::move(heights));
 }
 
+constexpr int half_degrees = 360;
+constexpr double least_cycles = 3;  // shortest waves along the shorter side
+
+// Bins of waves (x, y), y >= 0, by cross products, without arc tangents.
+class Bins {
+ public:
+  Bins() {
+    for (int k = 0; k < half_degrees; ++k) {
+      const double angle = (k + 0.5) * std::numbers::pi / half_degrees;
+      borders_[static_cast<std::size_t>(k)] = {elementary::cos(angle), elementary::sin(angle)};
+    }
+  }
+  int of(double x, double y) const {
+    const auto passed = [&](const Border& b) { return y * b.cosine - x * b.sine >= 0; };
+    const auto next = std::ranges::partition_point(borders_, passed);
+    return static_cast<int>(next - borders_.begin()) % half_degrees;
+  }
+
+ private:
+  struct Border {
+    double cosine, sine;
+  };
+  std::array<Border, half_degrees> borders_{};
+};
+
+// After an exception, the next use tries again.
+template <class T>
+class MadeOnce {
+ public:
+  template <class Make>
+  const T& get(const Make& make) {
+    std::call_once(once_, [&] { value_.emplace(make()); });
+    return *value_;
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<T> value_;
+};
+
+Surface prepared_map(const Surface& surface, const ArealPreparation& preparation) {
+  Surface result = surface;
+  if (preparation.F) result = levelled(result, *preparation.F);
+  if (preparation.S) result = gaussian_filtered(result, {.short_wave = preparation.S, .long_wave = {}});
+  if (preparation.L) result = gaussian_filtered(result, {.short_wave = {}, .long_wave = preparation.L});
+  return result;
+}
+
+// Subtracting a plane leaves a few units in the last place.
+bool rounding_alone(const Surface& before, const Surface& after, const ArealPreparation& preparation) {
+  if (!preparation.F && !preparation.S && !preparation.L) return after.peak_to_valley() == 0;
+  const Range r = before.height_range();
+  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
+  return after.peak_to_valley() <= last_places * std::max(std::abs(r.min), std::abs(r.max));
+}
+
 }  // namespace
+
+ArealSlopes areal_slopes(const Surface& surface) {
+  const SlopesOfRows slopes(surface);
+  Array<SlopeSums> rows(static_cast<std::size_t>(surface.grid().ny));
+  for_each_row(surface.grid().ny, [&](int j) { rows[static_cast<std::size_t>(j)] = slopes.row(j); });
+  std::array<double, terms> total{}, number{};
+  Array<double> column(rows.size());
+  const auto sum_of = [&](auto member, std::size_t t) {
+    std::ranges::transform(rows, column.begin(), [&](const SlopeSums& row) { return (row.*member)[t]; });
+    return block_sum(column);
+  };
+  for (std::size_t t = 0; t < terms; ++t)
+    total[t] = sum_of(&SlopeSums::sum, t), number[t] = sum_of(&SlopeSums::count, t);
+  const auto mean_square = [&](Term term) { return number[term] > 0 ? total[term] / number[term] : 0; };
+  ArealSlopes result;
+  if (number[edges_x] > 0 || number[edges_y] > 0)
+    result.Sdq = std::sqrt(mean_square(edges_x) + mean_square(edges_y));
+  if (number[crosses] > 0) result.Sdq_seven = std::sqrt(mean_square(crosses));
+  if (number[cells] > 0) result.Sdr = mean_square(cells);
+  result.cells = static_cast<std::size_t>(number[cells]);
+  return result;
+}
 
 ArealUncertainty areal_uncertainty(const Surface& map, std::optional<double> Sal) {
   ArealUncertainty result;
@@ -192,35 +244,6 @@ ArealUncertainty areal_uncertainty(const Surface& map, std::optional<double> Sal
   for (std::size_t k = 0; k < values.size(); ++k) result.*uncertain[k].u = standard_uncertainty(values[k]);
   return result;
 }
-
-namespace {
-
-constexpr int half_degrees = 360;
-constexpr double least_cycles = 3;  // shortest waves along the shorter side
-
-// Bins of waves (x, y), y >= 0, by cross products, without arc tangents.
-class Bins {
- public:
-  Bins() {
-    for (int k = 0; k < half_degrees; ++k) {
-      const double angle = (k + 0.5) * std::numbers::pi / half_degrees;
-      borders_[static_cast<std::size_t>(k)] = {elementary::cos(angle), elementary::sin(angle)};
-    }
-  }
-  int of(double x, double y) const {
-    const auto passed = [&](const Border& b) { return y * b.cosine - x * b.sine >= 0; };
-    const auto next = std::ranges::partition_point(borders_, passed);
-    return static_cast<int>(next - borders_.begin()) % half_degrees;
-  }
-
- private:
-  struct Border {
-    double cosine, sine;
-  };
-  std::array<Border, half_degrees> borders_{};
-};
-
-}  // namespace
 
 TextureDirection texture_direction(const Surface& surface) {
   const Grid& grid = surface.grid();
@@ -273,41 +296,6 @@ TextureDirection texture_direction(const Surface& surface) {
   result.share = *greatest / total;
   return result;
 }
-
-namespace {
-
-// After an exception, the next use tries again.
-template <class T>
-class MadeOnce {
- public:
-  template <class Make>
-  const T& get(const Make& make) {
-    std::call_once(once_, [&] { value_.emplace(make()); });
-    return *value_;
-  }
-
- private:
-  std::once_flag once_;
-  std::optional<T> value_;
-};
-
-Surface prepared_map(const Surface& surface, const ArealPreparation& preparation) {
-  Surface result = surface;
-  if (preparation.F) result = levelled(result, *preparation.F);
-  if (preparation.S) result = gaussian_filtered(result, {.short_wave = preparation.S, .long_wave = {}});
-  if (preparation.L) result = gaussian_filtered(result, {.short_wave = {}, .long_wave = preparation.L});
-  return result;
-}
-
-// Subtracting a plane leaves a few units in the last place.
-bool rounding_alone(const Surface& before, const Surface& after, const ArealPreparation& preparation) {
-  if (!preparation.F && !preparation.S && !preparation.L) return after.peak_to_valley() == 0;
-  const Range r = before.height_range();
-  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
-  return after.peak_to_valley() <= last_places * std::max(std::abs(r.min), std::abs(r.max));
-}
-
-}  // namespace
 
 struct ArealParameters::Groups {
   Surface map;

@@ -250,6 +250,34 @@ Sums total_of(const TileSums& of_tiles) {
   return total;
 }
 
+// One Newton step without the tile, with the biweight's curvature ψ': a new refinement to first order.
+PoseUncertainty jackknifed(const Problem& problem, double scale, double tuning) {
+  const TileSums of_tiles = problem.sums(std::max(scale, 1e-9), tuning);
+  const Sums total = total_of(of_tiles);
+  std::vector<Vector6> changes;
+  for (const Sums& tile : of_tiles) {
+    if (tile.count == 0) continue;
+    Normal curvature = total.curvature, weighted = total.weighted;
+    curvature -= tile.curvature;
+    weighted -= tile.weighted;
+    Vector6 right = total.right, change{};
+    for (std::size_t k = 0; k < right.size(); ++k) right[k] -= tile.right[k];
+    if (!solve(curvature, right, change) && !solve(weighted, right, change)) return {};
+    changes.push_back(change);
+  }
+  if (changes.size() < 4) return {};
+  const auto n = static_cast<double>(changes.size());
+  Vector6 u{};
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    double mean = 0, squares = 0;
+    for (const Vector6& change : changes) mean += change[k] / n;
+    for (const Vector6& change : changes) squares += (change[k] - mean) * (change[k] - mean);
+    u[k] = std::sqrt((n - 1) / n * squares);
+  }
+  const double r = problem.radius();
+  return {true, {u[0], u[1], u[2] / r}, {u[3], u[4] / r, u[5] / r}};
+}
+
 }  // namespace
 
 MapPair::MapPair(const SmoothMap& before, SmoothMap after, double share)
@@ -333,38 +361,6 @@ Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementO
   const std::vector<double> weakest = singular_values(complement).v.back();
   return {length * weakest[0], length * weakest[1], length * weakest[2] / problem.radius()};
 }
-
-namespace {
-
-// One Newton step without the tile, with the biweight's curvature ψ': a new refinement to first order.
-PoseUncertainty jackknifed(const Problem& problem, double scale, double tuning) {
-  const TileSums of_tiles = problem.sums(std::max(scale, 1e-9), tuning);
-  const Sums total = total_of(of_tiles);
-  std::vector<Vector6> changes;
-  for (const Sums& tile : of_tiles) {
-    if (tile.count == 0) continue;
-    Normal curvature = total.curvature, weighted = total.weighted;
-    curvature -= tile.curvature;
-    weighted -= tile.weighted;
-    Vector6 right = total.right, change{};
-    for (std::size_t k = 0; k < right.size(); ++k) right[k] -= tile.right[k];
-    if (!solve(curvature, right, change) && !solve(weighted, right, change)) return {};
-    changes.push_back(change);
-  }
-  if (changes.size() < 4) return {};
-  const auto n = static_cast<double>(changes.size());
-  Vector6 u{};
-  for (std::size_t k = 0; k < u.size(); ++k) {
-    double mean = 0, squares = 0;
-    for (const Vector6& change : changes) mean += change[k] / n;
-    for (const Vector6& change : changes) squares += (change[k] - mean) * (change[k] - mean);
-    u[k] = std::sqrt((n - 1) / n * squares);
-  }
-  const double r = problem.radius();
-  return {true, {u[0], u[1], u[2] / r}, {u[3], u[4] / r, u[5] / r}};
-}
-
-}  // namespace
 
 PoseUncertainty jackknifed(const MapPair& maps, const Refined& found, const RefinementOptions& options) {
   Problem problem(maps, options.stride);

@@ -43,6 +43,21 @@ MadeHeights heights_of(const SelfAffineOptions& options, const Grid& grid, const
   return made;
 }
 
+// Relative tolerance for a wave on a bound.
+constexpr double on_the_bound = 1e-12;
+
+void check_scale(const SelfAffineOptions& options) {
+  const int given =
+      int{options.rms_height.has_value()} + int{options.rms_slope.has_value()} + int{options.ra.has_value()};
+  if (given != 1)
+    refuse(given == 0 ? "the surface has no height: none of `rms_height`, `rms_slope`, `ra` is given"
+                      : "the height of the surface is given more than once",
+           "give exactly one of `rms_height`, `rms_slope`, `ra`");
+  require_positive("rms_height", options.rms_height);
+  require_positive("rms_slope", options.rms_slope);
+  require_positive("ra", options.ra);
+}
+
 }  // namespace
 
 void require_makeable(const SelfAffineOptions& options) {
@@ -79,25 +94,6 @@ Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor) 
         return self_affine_surface(on_other_cells, watching);
       });
 }
-
-namespace {
-
-// Relative tolerance for a wave on a bound.
-constexpr double on_the_bound = 1e-12;
-
-void check_scale(const SelfAffineOptions& options) {
-  const int given =
-      int{options.rms_height.has_value()} + int{options.rms_slope.has_value()} + int{options.ra.has_value()};
-  if (given != 1)
-    refuse(given == 0 ? "the surface has no height: none of `rms_height`, `rms_slope`, `ra` is given"
-                      : "the height of the surface is given more than once",
-           "give exactly one of `rms_height`, `rms_slope`, `ra`");
-  require_positive("rms_height", options.rms_height);
-  require_positive("rms_slope", options.rms_slope);
-  require_positive("ra", options.ra);
-}
-
-}  // namespace
 
 SelfAffineBand checked_band(const SelfAffineOptions& options, const Grid& grid) {
   const double side = std::max(grid.size_x, grid.size_y);

@@ -157,62 +157,6 @@ void add_tile(const double* left, std::int64_t left_stride, const double* right,
     std::copy_n(larger.data() + std::ptrdiff_t{b} * all_rows, rows, heights + b * stride);
 }
 
-}  // namespace
-
-Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monitor& monitor,
-                         std::string_view what) {
-  const Array<Standing> all = standing_waves(waves);
-  Array<double> along_x(static_cast<std::size_t>(nx)), along_y(static_cast<std::size_t>(ny));
-  const std::size_t axis_waves = sum_axis_waves(all, along_x, along_y);
-  const std::span<const Standing> oblique = std::span(all).subspan(axis_waves);
-
-  const auto count = static_cast<std::int64_t>(oblique.size());
-  const std::int64_t most = waves_at_once(nx, ny);
-  const std::int64_t passes = std::max<std::int64_t>((count + most - 1) / most, 1);
-  const std::int64_t width = (count + passes - 1) / passes;
-
-  Field field(nx, ny);
-  const std::int64_t stride_x = whole_steps(nx, table_product::row_step),
-                     stride_y = whole_steps(ny, table_product::column_step);
-  Array<double> table_x(static_cast<std::size_t>(2 * width * stride_x)),
-      table_y(static_cast<std::size_t>(2 * width * stride_y));
-  const std::int64_t tiles_x = (nx + tile - 1) / tile, tiles_y = (ny + tile - 1) / tile;
-  const std::int64_t tiles = tiles_x * tiles_y;
-  Task task(monitor, what, passes * tiles);
-
-  for (std::int64_t pass = 0; pass < passes; ++pass) {
-    const std::int64_t first = pass * width, here = std::min(width, count - first);
-    parallel_for(here, [&](std::int64_t k) {
-      const Standing& w = oblique[static_cast<std::size_t>(first + k)];
-      double* x = table_x.data() + 2 * k * stride_x;
-      double* y = table_y.data() + 2 * k * stride_y;
-      fill_rows(w.step_x, nx, {1, 0}, x, {0, 1}, x + stride_x);
-      fill_rows(w.step_y, ny, {w.cc, w.cs}, y, {w.sc, w.ss}, y + stride_y);
-    });
-    for (std::int64_t band = 0; band < tiles; band += tiles_between_looks) {
-      const std::int64_t in_band = std::min(tiles_between_looks, tiles - band);
-      parallel_for(in_band, [&](std::int64_t t) {
-        const std::int64_t i = (band + t) % tiles_x * tile, j = (band + t) / tiles_x * tile;
-        const std::int64_t ni = std::min<std::int64_t>(tile, nx - i),
-                           nj = std::min<std::int64_t>(tile, ny - j);
-        // Column j of the product is row j of the field.
-        if (pass == 0)
-          for (std::int64_t b = 0; b < nj; ++b)
-            for (std::int64_t a = 0; a < ni; ++a)
-              field.data()[(j + b) * nx + i + a] =
-                  along_x[static_cast<std::size_t>(i + a)] + along_y[static_cast<std::size_t>(j + b)];
-        if (here > 0)
-          add_tile(table_x.data() + i, stride_x, table_y.data() + j, stride_y, static_cast<int>(2 * here),
-                   field.data() + j * nx + i, nx, static_cast<int>(ni), static_cast<int>(nj));
-      });
-      task.advance(in_band);
-    }
-  }
-  return field;
-}
-
-namespace {
-
 [[noreturn]] void refuse_value(const char* key, double found, const char* wanted) {
   refuse(quoted(key) + " is " + format_exact(found), wanted);
 }
@@ -334,6 +278,58 @@ Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
 }
 
 }  // namespace
+
+Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monitor& monitor,
+                         std::string_view what) {
+  const Array<Standing> all = standing_waves(waves);
+  Array<double> along_x(static_cast<std::size_t>(nx)), along_y(static_cast<std::size_t>(ny));
+  const std::size_t axis_waves = sum_axis_waves(all, along_x, along_y);
+  const std::span<const Standing> oblique = std::span(all).subspan(axis_waves);
+
+  const auto count = static_cast<std::int64_t>(oblique.size());
+  const std::int64_t most = waves_at_once(nx, ny);
+  const std::int64_t passes = std::max<std::int64_t>((count + most - 1) / most, 1);
+  const std::int64_t width = (count + passes - 1) / passes;
+
+  Field field(nx, ny);
+  const std::int64_t stride_x = whole_steps(nx, table_product::row_step),
+                     stride_y = whole_steps(ny, table_product::column_step);
+  Array<double> table_x(static_cast<std::size_t>(2 * width * stride_x)),
+      table_y(static_cast<std::size_t>(2 * width * stride_y));
+  const std::int64_t tiles_x = (nx + tile - 1) / tile, tiles_y = (ny + tile - 1) / tile;
+  const std::int64_t tiles = tiles_x * tiles_y;
+  Task task(monitor, what, passes * tiles);
+
+  for (std::int64_t pass = 0; pass < passes; ++pass) {
+    const std::int64_t first = pass * width, here = std::min(width, count - first);
+    parallel_for(here, [&](std::int64_t k) {
+      const Standing& w = oblique[static_cast<std::size_t>(first + k)];
+      double* x = table_x.data() + 2 * k * stride_x;
+      double* y = table_y.data() + 2 * k * stride_y;
+      fill_rows(w.step_x, nx, {1, 0}, x, {0, 1}, x + stride_x);
+      fill_rows(w.step_y, ny, {w.cc, w.cs}, y, {w.sc, w.ss}, y + stride_y);
+    });
+    for (std::int64_t band = 0; band < tiles; band += tiles_between_looks) {
+      const std::int64_t in_band = std::min(tiles_between_looks, tiles - band);
+      parallel_for(in_band, [&](std::int64_t t) {
+        const std::int64_t i = (band + t) % tiles_x * tile, j = (band + t) / tiles_x * tile;
+        const std::int64_t ni = std::min<std::int64_t>(tile, nx - i),
+                           nj = std::min<std::int64_t>(tile, ny - j);
+        // Column j of the product is row j of the field.
+        if (pass == 0)
+          for (std::int64_t b = 0; b < nj; ++b)
+            for (std::int64_t a = 0; a < ni; ++a)
+              field.data()[(j + b) * nx + i + a] =
+                  along_x[static_cast<std::size_t>(i + a)] + along_y[static_cast<std::size_t>(j + b)];
+        if (here > 0)
+          add_tile(table_x.data() + i, stride_x, table_y.data() + j, stride_y, static_cast<int>(2 * here),
+                   field.data() + j * nx + i, nx, static_cast<int>(ni), static_cast<int>(nj));
+      });
+      task.advance(in_band);
+    }
+  }
+  return field;
+}
 
 double seeded_phase_turns(std::uint64_t seed, int M, int m, int n) {
   const auto k =

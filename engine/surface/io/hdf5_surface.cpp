@@ -25,65 +25,6 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-}  // namespace
-
-std::filesystem::path xdmf_path(const std::filesystem::path& hdf5) {
-  std::filesystem::path path = hdf5;
-  return path.replace_extension(".xdmf");
-}
-
-bool has_xdmf_beside(const std::filesystem::path& file) {
-  const std::string extension = file_extension(file.string());
-  return extension == "h5" || extension == "hdf5";
-}
-
-std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,
-                      const std::filesystem::path& hdf5) {
-  const std::string dimensions = "1 " + std::to_string(grid.ny) + " " + std::to_string(grid.nx);
-  const auto item = [](const std::string& numbers) {
-    return "        <DataItem Format=\"XML\" Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\">" +
-           numbers + "</DataItem>\n";
-  };
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
-      "<Xdmf Version=\"3.0\">\n"
-      "  <Domain>\n"
-      "    <Grid Name=\"" +
-      escaped(name) +
-      "\" GridType=\"Uniform\">\n"
-      "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" +
-      dimensions +
-      "\"/>\n"
-      "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n";
-  // The single layer needs any nonzero spacing.
-  text += item("0 0 0") +
-          item(format_exact(grid.hx()) + " " + format_exact(grid.hy()) + " " + format_exact(grid.hx()));
-  text += "      </Geometry>\n";
-  constexpr std::array types{std::pair{"Float", "8"}, std::pair{"Int", "8"}, std::pair{"UChar", "1"}};
-  for (const Hdf5Array& array : content.arrays) {
-    if (array.shape !=
-        std::vector<std::size_t>{static_cast<std::size_t>(grid.ny), static_cast<std::size_t>(grid.nx)})
-      continue;
-    const auto& [type, bytes] = types[array.values.index()];
-    const std::string shown = array.unit.empty() ? array.name : array.name + " [" + array.unit + "]";
-    text += "      <Attribute Name=\"" + escaped(shown) + "\" AttributeType=\"Scalar\" Center=\"Node\">\n" +
-            "        <DataItem Format=\"HDF\" Dimensions=\"" + dimensions + "\" NumberType=\"" + type +
-            "\" Precision=\"" + bytes + "\">" + escaped(hdf5.filename().string()) + ":/" +
-            escaped(array.name) + "</DataItem>\n      </Attribute>\n";
-  }
-  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
-}
-
-void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
-                         const Hdf5Content& content) {
-  write_hdf5(hdf5, content);
-  AtomicFile beside(xdmf_path(hdf5), FileWords::data);
-  beside.write(xdmf_text(grid, name, content, hdf5));
-  beside.commit();
-}
-
-namespace {
-
 std::string shape_text(const Hdf5Array& array) {
   std::string sides;
   for (const std::size_t side : array.shape) sides += (sides.empty() ? "" : " x ") + std::to_string(side);
@@ -181,6 +122,61 @@ HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, 
 }
 
 }  // namespace
+
+std::filesystem::path xdmf_path(const std::filesystem::path& hdf5) {
+  std::filesystem::path path = hdf5;
+  return path.replace_extension(".xdmf");
+}
+
+bool has_xdmf_beside(const std::filesystem::path& file) {
+  const std::string extension = file_extension(file.string());
+  return extension == "h5" || extension == "hdf5";
+}
+
+std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,
+                      const std::filesystem::path& hdf5) {
+  const std::string dimensions = "1 " + std::to_string(grid.ny) + " " + std::to_string(grid.nx);
+  const auto item = [](const std::string& numbers) {
+    return "        <DataItem Format=\"XML\" Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\">" +
+           numbers + "</DataItem>\n";
+  };
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+      "<Xdmf Version=\"3.0\">\n"
+      "  <Domain>\n"
+      "    <Grid Name=\"" +
+      escaped(name) +
+      "\" GridType=\"Uniform\">\n"
+      "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" +
+      dimensions +
+      "\"/>\n"
+      "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n";
+  // The single layer needs any nonzero spacing.
+  text += item("0 0 0") +
+          item(format_exact(grid.hx()) + " " + format_exact(grid.hy()) + " " + format_exact(grid.hx()));
+  text += "      </Geometry>\n";
+  constexpr std::array types{std::pair{"Float", "8"}, std::pair{"Int", "8"}, std::pair{"UChar", "1"}};
+  for (const Hdf5Array& array : content.arrays) {
+    if (array.shape !=
+        std::vector<std::size_t>{static_cast<std::size_t>(grid.ny), static_cast<std::size_t>(grid.nx)})
+      continue;
+    const auto& [type, bytes] = types[array.values.index()];
+    const std::string shown = array.unit.empty() ? array.name : array.name + " [" + array.unit + "]";
+    text += "      <Attribute Name=\"" + escaped(shown) + "\" AttributeType=\"Scalar\" Center=\"Node\">\n" +
+            "        <DataItem Format=\"HDF\" Dimensions=\"" + dimensions + "\" NumberType=\"" + type +
+            "\" Precision=\"" + bytes + "\">" + escaped(hdf5.filename().string()) + ":/" +
+            escaped(array.name) + "</DataItem>\n      </Attribute>\n";
+  }
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
+                         const Hdf5Content& content) {
+  write_hdf5(hdf5, content);
+  AtomicFile beside(xdmf_path(hdf5), FileWords::data);
+  beside.write(xdmf_text(grid, name, content, hdf5));
+  beside.commit();
+}
 
 Hdf5Array tile_size(const Grid& grid) {
   return owning_array<double>("size", {2}, {grid.size_x, grid.size_y}, "m");

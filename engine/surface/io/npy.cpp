@@ -45,6 +45,38 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
   return {};
 }
 
+bool recognises_npy(const SourceFile& file) { return file.bytes().starts_with(magic); }
+
+HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
+  const NpyHeader header = read_npy_header(file);
+  if (header.shape.empty() || header.shape.size() > 2)
+    refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
+                "a surface has shape (ny, nx), a trace (n,)");
+  const std::uint64_t ny = header.shape.size() == 2 ? header.shape[0] : 1;
+  const std::uint64_t nx = header.shape.back();
+  if (nx == 0 || ny == 0) refuse_file(file, "holds an array without elements");
+  const std::uint64_t present = file.bytes().size() - header.data_at;
+  const std::uint64_t width = header.type.width, room = present / width;
+  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+  if (nx > most || ny > most || nx > room / ny || nx * ny * width != present)
+    refuse_file(file,
+                "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
+                    " numbers of " + std::to_string(width) + " bytes but has " + std::to_string(present) +
+                    " bytes of data",
+                "the file is cut short or its header is wrong");
+  HeightMap map;
+  map.trace = header.shape.size() == 1;
+  const std::string_view data = file.bytes().substr(header.data_at);
+  if (!header.fortran_order) {
+    map.heights = field_of_numbers(header.type, data, nx, ny, monitor);
+    return map;
+  }
+  const Field columns = field_of_numbers(header.type, data, ny, nx, monitor);
+  map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
+  for (std::uint64_t k = 0; k < nx * ny; ++k) map.heights[k] = columns[k % nx * ny + k / nx];
+  return map;
+}
+
 }  // namespace
 
 NpyHeader read_npy_header(const SourceFile& file) {
@@ -103,42 +135,6 @@ std::string npy_header(const std::string& shape) {
   start += static_cast<char>(header.size() >> 8);
   return start + header;
 }
-
-namespace {
-
-bool recognises_npy(const SourceFile& file) { return file.bytes().starts_with(magic); }
-
-HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
-  const NpyHeader header = read_npy_header(file);
-  if (header.shape.empty() || header.shape.size() > 2)
-    refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
-                "a surface has shape (ny, nx), a trace (n,)");
-  const std::uint64_t ny = header.shape.size() == 2 ? header.shape[0] : 1;
-  const std::uint64_t nx = header.shape.back();
-  if (nx == 0 || ny == 0) refuse_file(file, "holds an array without elements");
-  const std::uint64_t present = file.bytes().size() - header.data_at;
-  const std::uint64_t width = header.type.width, room = present / width;
-  constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-  if (nx > most || ny > most || nx > room / ny || nx * ny * width != present)
-    refuse_file(file,
-                "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
-                    " numbers of " + std::to_string(width) + " bytes but has " + std::to_string(present) +
-                    " bytes of data",
-                "the file is cut short or its header is wrong");
-  HeightMap map;
-  map.trace = header.shape.size() == 1;
-  const std::string_view data = file.bytes().substr(header.data_at);
-  if (!header.fortran_order) {
-    map.heights = field_of_numbers(header.type, data, nx, ny, monitor);
-    return map;
-  }
-  const Field columns = field_of_numbers(header.type, data, ny, nx, monitor);
-  map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
-  for (std::uint64_t k = 0; k < nx * ny; ++k) map.heights[k] = columns[k % nx * ny + k / nx];
-  return map;
-}
-
-}  // namespace
 
 extern constexpr Format npy_format{
     "npy",

@@ -350,25 +350,6 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   return result;
 }
 
-}  // namespace
-
-extern constexpr Format x3p_format{
-    "x3p",
-    "a zip archive with main.xml",
-    {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
-     "points, zipped in a folder or not.",
-     "Point clouds, several layers, uneven spacing.",
-     "A file of the public test set of SurfaceTopography, heights and sizes."},
-    {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
-    {"x3p"},
-    recognises_x3p,
-    read_x3p};
-
-// Writes incremental x and y, z in double precision, a fixed date. Missing points are NaN: the valid-points
-// mask of the standard is for integers.
-
-namespace {
-
 // To 21 digits.
 std::string increment(double size, int count) {
   std::array<char, 64> buffer;
@@ -423,6 +404,20 @@ std::string main_xml(const Grid& grid, const std::string& md5) {
 
 }  // namespace
 
+extern constexpr Format x3p_format{
+    "x3p",
+    "a zip archive with main.xml",
+    {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
+     "points, zipped in a folder or not.",
+     "Point clouds, several layers, uneven spacing.",
+     "A file of the public test set of SurfaceTopography, heights and sizes."},
+    {FirstLine::bottom, "ISO 25178-72 gives coordinates: y is the row times its increment."},
+    {"x3p"},
+    recognises_x3p,
+    read_x3p};
+
+// Writes incremental x and y, z in double precision, a fixed date. Missing points are NaN: the valid-points
+// mask of the standard is for integers.
 // Throws Error{bad_file}. Increments have more digits than a double: the size reads back exactly.
 void write_x3p(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");

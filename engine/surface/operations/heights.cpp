@@ -61,6 +61,39 @@ double cut_level(const Range& range, double fraction) {
   return fraction == 1 ? range.min : range.max - fraction * range.span();
 }
 
+void require_equal_grids(const Grid& a, const Grid& b, const char* done) {
+  if (a.nx != b.nx || a.ny != b.ny)
+    refuse("surfaces of " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " and " +
+               std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be " + done,
+           "bring one to the cells of the other with `resampled`");
+  const auto differ = [](double u, double v) { return std::abs(u - v) > 1e-9 * std::max(u, v); };
+  if (differ(a.size_x, b.size_x) || differ(a.size_y, b.size_y))
+    refuse("surfaces of " + metres(a.size_x) + " x " + metres(a.size_y) + " and " + metres(b.size_x) + " x " +
+               metres(b.size_y) + " cannot be " + done,
+           "bring both to one size with `cropped`, then to the same cells with `resampled`");
+}
+
+template <class Combine>
+Surface combined(const Surface& first, const Surface& second, const char* done, const Combine& combine,
+                 Surface (*again)(const Surface&, const Surface&)) {
+  require_equal_grids(first.grid(), second.grid(), done);
+  Field heights = first.measured_heights();
+  const Field& others = second.measured_heights();
+  for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = combine(heights[k], others[k]);
+  const bool holes = !first.complete() || !second.complete();
+  if (holes && known_count(heights.values()) == 0)
+    refuse("the surfaces have no measured point in common",
+           "fill the holes of one first, `surface:filled{ by=\"interpolate\" }`");
+  const Surface result = remade_with(
+      holes, first.grid(), std::move(heights),
+      {.material = first.material(), .periodic = first.traits().periodic && second.traits().periodic});
+  if (!first.recipe() || !second.recipe()) return result;
+  return result.made_by(
+      [one = first.recipe(), other = second.recipe(), again](int nx, int ny, Monitor& monitor) {
+        return again((*one)(nx, ny, monitor), (*other)(nx, ny, monitor));
+      });
+}
+
 }  // namespace
 
 Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbout about) {
@@ -100,43 +133,6 @@ Surface over(const Surface& surface, double divisor) {
     for (double& h : z.values()) h /= divisor;
   });
 }
-
-namespace {
-
-void require_equal_grids(const Grid& a, const Grid& b, const char* done) {
-  if (a.nx != b.nx || a.ny != b.ny)
-    refuse("surfaces of " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " and " +
-               std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be " + done,
-           "bring one to the cells of the other with `resampled`");
-  const auto differ = [](double u, double v) { return std::abs(u - v) > 1e-9 * std::max(u, v); };
-  if (differ(a.size_x, b.size_x) || differ(a.size_y, b.size_y))
-    refuse("surfaces of " + metres(a.size_x) + " x " + metres(a.size_y) + " and " + metres(b.size_x) + " x " +
-               metres(b.size_y) + " cannot be " + done,
-           "bring both to one size with `cropped`, then to the same cells with `resampled`");
-}
-
-template <class Combine>
-Surface combined(const Surface& first, const Surface& second, const char* done, const Combine& combine,
-                 Surface (*again)(const Surface&, const Surface&)) {
-  require_equal_grids(first.grid(), second.grid(), done);
-  Field heights = first.measured_heights();
-  const Field& others = second.measured_heights();
-  for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = combine(heights[k], others[k]);
-  const bool holes = !first.complete() || !second.complete();
-  if (holes && known_count(heights.values()) == 0)
-    refuse("the surfaces have no measured point in common",
-           "fill the holes of one first, `surface:filled{ by=\"interpolate\" }`");
-  const Surface result = remade_with(
-      holes, first.grid(), std::move(heights),
-      {.material = first.material(), .periodic = first.traits().periodic && second.traits().periodic});
-  if (!first.recipe() || !second.recipe()) return result;
-  return result.made_by(
-      [one = first.recipe(), other = second.recipe(), again](int nx, int ny, Monitor& monitor) {
-        return again((*one)(nx, ny, monitor), (*other)(nx, ny, monitor));
-      });
-}
-
-}  // namespace
 
 Surface plus(const Surface& first, const Surface& second) {
   return combined(first, second, "added", std::plus<>(), plus);

@@ -77,6 +77,45 @@ SlabSurface finish(Team& team, const Grid& grid, std::shared_ptr<Array<double>> 
   return surface;
 }
 
+struct SlabFile {
+  NpyHeader header;
+  int nx = 0, ny = 0;
+};
+
+SlabFile open_npy(const std::string& path, std::ifstream& stream) {
+  std::error_code failure;
+  stream.open(path, std::ios::binary);
+  if (!stream || !std::filesystem::is_regular_file(path, failure))
+    throw Error(ErrorCode::bad_file, "there is no file " + file_name(path) + " that can be read");
+  constexpr std::size_t head = std::size_t{1} << 17;
+  std::string bytes(head, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(head));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  stream.clear();
+  const SourceFile file(path, bytes);
+  SlabFile found;
+  found.header = read_npy_header(file);
+  const NpyHeader& header = found.header;
+  if (header.shape.size() != 2)
+    refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
+                "a surface has shape (ny, nx)");
+  if (header.fortran_order)
+    refuse_file(file, "is stored by columns, and ranks read rows", "save it with numpy.ascontiguousarray");
+  const std::uint64_t ny = header.shape[0], nx = header.shape[1];
+  const std::uint64_t present = std::filesystem::file_size(path, failure) - header.data_at;
+  constexpr std::uint64_t most = max_cells;
+  if (nx < 1 || ny < 1 || nx > most || ny > most || nx * ny * header.type.width != present)
+    refuse_file(file,
+                "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
+                    " numbers of " + std::to_string(header.type.width) + " bytes but has " +
+                    std::to_string(present) + " bytes of data",
+                "the file is cut short or its header is wrong; a side has at most " +
+                    std::to_string(max_cells) + " cells");
+  found.nx = static_cast<int>(nx);
+  found.ny = static_cast<int>(ny);
+  return found;
+}
+
 }  // namespace
 
 SlabSurface slab_surface(Team& team, const Grid& asked, const SlabRow& row, Monitor& monitor) {
@@ -144,49 +183,6 @@ SlabSurface slab_self_affine(Team& team, const SelfAffineOptions& options, Monit
   team.agree();
   return finish(team, grid, std::move(heights));
 }
-
-namespace {
-
-struct SlabFile {
-  NpyHeader header;
-  int nx = 0, ny = 0;
-};
-
-SlabFile open_npy(const std::string& path, std::ifstream& stream) {
-  std::error_code failure;
-  stream.open(path, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(path, failure))
-    throw Error(ErrorCode::bad_file, "there is no file " + file_name(path) + " that can be read");
-  constexpr std::size_t head = std::size_t{1} << 17;
-  std::string bytes(head, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(head));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  stream.clear();
-  const SourceFile file(path, bytes);
-  SlabFile found;
-  found.header = read_npy_header(file);
-  const NpyHeader& header = found.header;
-  if (header.shape.size() != 2)
-    refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
-                "a surface has shape (ny, nx)");
-  if (header.fortran_order)
-    refuse_file(file, "is stored by columns, and ranks read rows", "save it with numpy.ascontiguousarray");
-  const std::uint64_t ny = header.shape[0], nx = header.shape[1];
-  const std::uint64_t present = std::filesystem::file_size(path, failure) - header.data_at;
-  constexpr std::uint64_t most = max_cells;
-  if (nx < 1 || ny < 1 || nx > most || ny > most || nx * ny * header.type.width != present)
-    refuse_file(file,
-                "says in its header that it holds " + std::to_string(ny) + " x " + std::to_string(nx) +
-                    " numbers of " + std::to_string(header.type.width) + " bytes but has " +
-                    std::to_string(present) + " bytes of data",
-                "the file is cut short or its header is wrong; a side has at most " +
-                    std::to_string(max_cells) + " cells");
-  found.nx = static_cast<int>(nx);
-  found.ny = static_cast<int>(ny);
-  return found;
-}
-
-}  // namespace
 
 SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions& options, Monitor& monitor) {
   if (!options.size_x || !options.size_y)

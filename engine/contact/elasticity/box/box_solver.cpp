@@ -47,6 +47,48 @@ std::shared_ptr<const SortedDrops> sorted_drops(const ContactGeometry& geometry)
                               : std::make_shared<const SortedDrops>(geometry.combined().values());
 }
 
+struct Element {
+  double depth, yield, pressure;
+  double elastic, plastic;  // parts of the shortening, m
+};
+
+Element element(const ElementLaw& law, const RestingPlane& plane, double drop, double yield) {
+  const double pressure = plane.pressure(law, drop, yield);
+  return {plane.high - drop, yield, pressure, pressure / law.stiffness, plane.plastic_part(law, drop, yield)};
+}
+
+template <class Test>
+std::int64_t count(const YieldingElements& elements, const RestingPlane& plane, Test test) {
+  std::int64_t number = 0;
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    if (test(element(elements.law(), plane, elements.drop(k), elements.yield(k)))) ++number;
+  return number;
+}
+
+// At least 0.
+template <class Function>
+double greatest(const YieldingElements& elements, const RestingPlane& plane, Function function) {
+  double most = 0;
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    most = std::max(most, function(element(elements.law(), plane, elements.drop(k), elements.yield(k))));
+  return most;
+}
+
+bool touches(const Element& e) { return e.pressure > 0; }
+bool yields(const Element& e) { return e.pressure > 0 && e.pressure >= e.yield; }
+double pressure_of(const Element& e) { return e.pressure; }
+
+Solution::Numbers numbers_of(const YieldingElements& elements, const RestingPlane& plane, double pressure,
+                             double load) {
+  return {.load = load,
+          .pressure = pressure,
+          .approach = std::max(0.0, plane.high),
+          .peak_pressure = greatest(elements, plane, pressure_of),
+          .contacts = count(elements, plane, touches),
+          .yielded = count(elements, plane, yields),
+          .solver = "closed form (sorted elements)"};
+}
+
 }  // namespace
 
 class BoxSolver::UnderLoad final : public BoxSolution {
@@ -248,52 +290,6 @@ std::shared_ptr<const YieldingElements> YieldingBoxSolver::elements(const YieldL
   }
   return std::make_shared<const YieldingElements>(alike_->law(), below, yields);
 }
-
-namespace {
-
-struct Element {
-  double depth, yield, pressure;
-  double elastic, plastic;  // parts of the shortening, m
-};
-
-Element element(const ElementLaw& law, const RestingPlane& plane, double drop, double yield) {
-  const double pressure = plane.pressure(law, drop, yield);
-  return {plane.high - drop, yield, pressure, pressure / law.stiffness, plane.plastic_part(law, drop, yield)};
-}
-
-template <class Test>
-std::int64_t count(const YieldingElements& elements, const RestingPlane& plane, Test test) {
-  std::int64_t number = 0;
-  for (std::size_t k = 0; k < elements.size(); ++k)
-    if (test(element(elements.law(), plane, elements.drop(k), elements.yield(k)))) ++number;
-  return number;
-}
-
-// At least 0.
-template <class Function>
-double greatest(const YieldingElements& elements, const RestingPlane& plane, Function function) {
-  double most = 0;
-  for (std::size_t k = 0; k < elements.size(); ++k)
-    most = std::max(most, function(element(elements.law(), plane, elements.drop(k), elements.yield(k))));
-  return most;
-}
-
-bool touches(const Element& e) { return e.pressure > 0; }
-bool yields(const Element& e) { return e.pressure > 0 && e.pressure >= e.yield; }
-double pressure_of(const Element& e) { return e.pressure; }
-
-Solution::Numbers numbers_of(const YieldingElements& elements, const RestingPlane& plane, double pressure,
-                             double load) {
-  return {.load = load,
-          .pressure = pressure,
-          .approach = std::max(0.0, plane.high),
-          .peak_pressure = greatest(elements, plane, pressure_of),
-          .contacts = count(elements, plane, touches),
-          .yielded = count(elements, plane, yields),
-          .solver = "closed form (sorted elements)"};
-}
-
-}  // namespace
 
 class YieldingBoxSolver::UnderLoad final : public BoxSolution {
  public:

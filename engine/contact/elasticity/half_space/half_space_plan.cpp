@@ -13,7 +13,6 @@
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -25,6 +24,15 @@ double typical_transforms(Boundary boundary, double aspect) {
   constexpr double longer_than_wide = 4, times_on_long_cells = 2.2;
   const double square = boundary == Boundary::periodic ? of_periodic : of_free;
   return std::max(aspect, 1 / aspect) >= longer_than_wide ? times_on_long_cells * square : square;
+}
+
+std::shared_ptr<const ElasticOperator> make_half_space(const std::any&, const ContactGeometry& geometry) {
+  auto half_space = std::make_shared<HalfSpaceOperator>(HalfSpaceOptions::model(), geometry);
+  half_space->sentence =
+      "half-space, E* " + format_quantity(half_space->modulus, dimension::pressure) +
+      (geometry.boundary() == Boundary::periodic ? ", Fourier multiplier 2/(E*|q|)"
+                                                 : ", Love kernel on a tile padded to twice its sides");
+  return half_space;
 }
 
 }  // namespace
@@ -113,19 +121,6 @@ std::shared_ptr<const Solver> HalfSpaceOperator::solver(
   return plan.attracts() ? make_adhesive_solver(plan, std::move(geometry))
                          : make_half_space_solver(plan, std::move(geometry));
 }
-
-namespace {
-
-std::shared_ptr<const ElasticOperator> make_half_space(const std::any&, const ContactGeometry& geometry) {
-  auto half_space = std::make_shared<HalfSpaceOperator>(HalfSpaceOptions::model(), geometry);
-  half_space->sentence =
-      "half-space, E* " + format_quantity(half_space->modulus, dimension::pressure) +
-      (geometry.boundary() == Boundary::periodic ? ", Fourier multiplier 2/(E*|q|)"
-                                                 : ", Love kernel on a tile padded to twice its sides");
-  return half_space;
-}
-
-}  // namespace
 
 const ElasticModel& HalfSpaceOptions::model() {
   static const ElasticModel record{

@@ -123,39 +123,6 @@ void add(Digester& digester, const HalfSpaceProblem& problem) {
         .add(std::span<const double>(share->parameters));
 }
 
-}  // namespace
-
-Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
-                                        const HalfSpaceAnswer* start, Monitor& monitor,
-                                        const std::function<HalfSpaceAnswer()>& solve) {
-  const auto key = [&] {
-    Digester digester;
-    digester.add(half_space_form.call);
-    add(digester, problem);
-    if (start != nullptr) digester.add("from").add(start->pressure.values()).add(start->gap.values());
-    return digester.add(by).add(value).hex();
-  };
-  return recall_or(monitor, half_space_form, key, solve);
-}
-
-Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::string_view by, double value,
-                                        const AdhesiveAnswer* start, Monitor& monitor,
-                                        const std::function<AdhesiveAnswer()>& solve) {
-  const auto key = [&] {
-    Digester digester;
-    digester.add(adhesive_form.call);
-    add(digester, problem.contact);
-    for (const GapTerm& term : problem.attraction)
-      digester.add(term.effect).add(static_cast<int>(term.law)).add(term.work).add(term.range);
-    if (start != nullptr)
-      digester.add("from").add(start->contact.pressure.values()).add(start->attraction.values());
-    return digester.add(by).add(value).hex();
-  };
-  return recall_or(monitor, adhesive_form, key, solve);
-}
-
-namespace {
-
 // As planned and placed; without rms height and yield.
 HalfSpaceProblem problem_of(const Plan& plan, const std::shared_ptr<const ContactGeometry>& geometry) {
   HalfSpaceProblem problem;
@@ -376,15 +343,6 @@ State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswe
   return State(std::move(solution), elasticity_alone(solved.cost));
 }
 
-}  // namespace
-
-std::shared_ptr<const Solver> make_half_space_solver(const Plan& plan,
-                                                     std::shared_ptr<const ContactGeometry> geometry) {
-  return std::make_shared<const HalfSpaceSolver>(plan, std::move(geometry));
-}
-
-namespace {
-
 double rms_height_of(std::span<const double> heights) {
   const double middle = mean(heights);
   return std::sqrt(over_nodes<1>(heights.size(),
@@ -550,6 +508,40 @@ StateCost AdhesiveSolver::parted(const Cost& whole, const Cost& contacts,
 }
 
 }  // namespace
+
+Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
+                                        const HalfSpaceAnswer* start, Monitor& monitor,
+                                        const std::function<HalfSpaceAnswer()>& solve) {
+  const auto key = [&] {
+    Digester digester;
+    digester.add(half_space_form.call);
+    add(digester, problem);
+    if (start != nullptr) digester.add("from").add(start->pressure.values()).add(start->gap.values());
+    return digester.add(by).add(value).hex();
+  };
+  return recall_or(monitor, half_space_form, key, solve);
+}
+
+Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::string_view by, double value,
+                                        const AdhesiveAnswer* start, Monitor& monitor,
+                                        const std::function<AdhesiveAnswer()>& solve) {
+  const auto key = [&] {
+    Digester digester;
+    digester.add(adhesive_form.call);
+    add(digester, problem.contact);
+    for (const GapTerm& term : problem.attraction)
+      digester.add(term.effect).add(static_cast<int>(term.law)).add(term.work).add(term.range);
+    if (start != nullptr)
+      digester.add("from").add(start->contact.pressure.values()).add(start->attraction.values());
+    return digester.add(by).add(value).hex();
+  };
+  return recall_or(monitor, adhesive_form, key, solve);
+}
+
+std::shared_ptr<const Solver> make_half_space_solver(const Plan& plan,
+                                                     std::shared_ptr<const ContactGeometry> geometry) {
+  return std::make_shared<const HalfSpaceSolver>(plan, std::move(geometry));
+}
 
 std::shared_ptr<const Solver> make_adhesive_solver(const Plan& plan,
                                                    std::shared_ptr<const ContactGeometry> geometry) {

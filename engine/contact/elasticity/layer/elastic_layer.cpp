@@ -43,25 +43,6 @@ double frictionless_share(double x) {
   return missing * (missing / (-elementary::expm1(-4 * x) + 4 * x * elementary::exp(-2 * x)));
 }
 
-}  // namespace
-
-double layer_share(double x, double poisson, LayerBase base) {
-  if (!(x > 0)) return 0;
-  if (2 * x > deep) return 1;
-  return base == LayerBase::bonded ? bonded_share(2 * x, poisson) : frictionless_share(x);
-}
-
-double uniform_share(double poisson) { return (1 - 2 * poisson) / ((1 - poisson) * (1 - poisson)); }
-
-WaveShare wave_share(const ElasticLayer& layer) {
-  return {[poisson = layer.poisson, base = layer.base](double x) { return layer_share(x, poisson, base); },
-          layer.thickness,
-          uniform_share(layer.poisson),
-          {layer.poisson, static_cast<double>(layer.base)}};
-}
-
-namespace {
-
 std::string material_found(const Material* material) {
   if (material == nullptr) return "has no material";
   if (material->rigid) return "is rigid";
@@ -100,6 +81,21 @@ std::shared_ptr<const ElasticOperator> make_layer(const std::any& given, const C
 }
 
 }  // namespace
+
+double layer_share(double x, double poisson, LayerBase base) {
+  if (!(x > 0)) return 0;
+  if (2 * x > deep) return 1;
+  return base == LayerBase::bonded ? bonded_share(2 * x, poisson) : frictionless_share(x);
+}
+
+double uniform_share(double poisson) { return (1 - 2 * poisson) / ((1 - poisson) * (1 - poisson)); }
+
+WaveShare wave_share(const ElasticLayer& layer) {
+  return {[poisson = layer.poisson, base = layer.base](double x) { return layer_share(x, poisson, base); },
+          layer.thickness,
+          uniform_share(layer.poisson),
+          {layer.poisson, static_cast<double>(layer.base)}};
+}
 
 const ElasticModel& LayerOptions::model() {
   using O = LayerOptions;

@@ -40,71 +40,6 @@ void gather_back(RowOf below, RowOf here, RowOf above, int nx, double* to) {
   if (nx > 1) at(nx - 1, nx - 2, 0);
 }
 
-}  // namespace
-
-SlabPreconditioner::SlabPreconditioner(SlabLevel& level)
-    : level_(level), rim_(rim_rows(level.team, level.slab, sweeps)) {
-  level.team.work([&] {
-    const Slab& slab = level.slab;
-    const std::size_t rows = static_cast<std::size_t>(slab.rows() + 2 * sweeps);
-    field_.resize(rows * slab.width());
-    mask_.resize(rows * slab.width());
-    before_.resize(slab.width() * sweeps);
-    fresh_.resize(slab.width());
-  });
-  level.team.agree();
-}
-
-void SlabPreconditioner::set_free(std::span<const std::uint8_t> free) {
-  std::copy(free.begin(), free.end(), mask_.begin() + static_cast<std::ptrdiff_t>(offset()));
-  exchange_rim(mask_);
-}
-
-template <class Number>
-void SlabPreconditioner::exchange_rim(Array<Number>& field) {
-  const std::size_t width = level_.slab.width();
-  const std::size_t after = offset() + level_.nodes();
-  rim_.run(
-      [&](int j, double* to) {
-        std::copy_n(field.data() + offset() + static_cast<std::size_t>(j) * width, width, to);
-      },
-      [&](std::size_t k, const double* row) {
-        const std::size_t at = k < sweeps ? k * width : after + (k - sweeps) * width;
-        std::transform(row, row + width, field.data() + at,
-                       [](double value) { return static_cast<Number>(value); });
-      });
-}
-template void SlabPreconditioner::exchange_rim(Array<double>&);
-
-// Sweep s processes row j = t − s at step t: the row above has passed sweep s − 1, `before_` has the row
-// below before sweep s.
-void SlabPreconditioner::sweep(bool adjoint) {
-  const Slab& slab = level_.slab;
-  const int rows = slab.rows() + 2 * sweeps, nx = slab.nx;
-  if (slab.rows() == 0) return;
-  const auto row = [&](int j) { return field_.data() + static_cast<std::size_t>(j) * slab.width(); };
-  const auto mask = [&](int j) { return mask_.data() + static_cast<std::size_t>(j) * slab.width(); };
-  const auto before = [&](int s) { return before_.data() + static_cast<std::size_t>(s - 1) * slab.width(); };
-  for (int t = 1; t < rows + sweeps; ++t) {
-    for (int s = 1; s <= sweeps; ++s) {
-      const int j = t - s;
-      // Later sweeps do not read this row.
-      if (j < s || j >= rows - s) {
-        if (j == s - 1) std::copy_n(row(j), nx, before(s));
-        continue;
-      }
-      if (adjoint)
-        gather_back({before(s), mask(j - 1)}, {row(j), mask(j)}, {row(j + 1), mask(j + 1)}, nx,
-                    fresh_.data());
-      else
-        extend(before(s), row(j), row(j + 1), mask(j), nx, fresh_.data());
-      std::copy_n(row(j), nx, before(s));
-      std::copy_n(fresh_.data(), nx, row(j));
-    }
-  }
-}
-
-namespace {
 using namespace descent_rules;
 
 constexpr int steps_a_slab_pass = 2;  // applications of K
@@ -348,7 +283,70 @@ bool SlabDescent::run() {
     std::swap(f_.free, f_.old_free);
   }
 }
+
 }  // namespace
+
+SlabPreconditioner::SlabPreconditioner(SlabLevel& level)
+    : level_(level), rim_(rim_rows(level.team, level.slab, sweeps)) {
+  level.team.work([&] {
+    const Slab& slab = level.slab;
+    const std::size_t rows = static_cast<std::size_t>(slab.rows() + 2 * sweeps);
+    field_.resize(rows * slab.width());
+    mask_.resize(rows * slab.width());
+    before_.resize(slab.width() * sweeps);
+    fresh_.resize(slab.width());
+  });
+  level.team.agree();
+}
+
+void SlabPreconditioner::set_free(std::span<const std::uint8_t> free) {
+  std::copy(free.begin(), free.end(), mask_.begin() + static_cast<std::ptrdiff_t>(offset()));
+  exchange_rim(mask_);
+}
+
+template <class Number>
+void SlabPreconditioner::exchange_rim(Array<Number>& field) {
+  const std::size_t width = level_.slab.width();
+  const std::size_t after = offset() + level_.nodes();
+  rim_.run(
+      [&](int j, double* to) {
+        std::copy_n(field.data() + offset() + static_cast<std::size_t>(j) * width, width, to);
+      },
+      [&](std::size_t k, const double* row) {
+        const std::size_t at = k < sweeps ? k * width : after + (k - sweeps) * width;
+        std::transform(row, row + width, field.data() + at,
+                       [](double value) { return static_cast<Number>(value); });
+      });
+}
+template void SlabPreconditioner::exchange_rim(Array<double>&);
+
+// Sweep s processes row j = t − s at step t: the row above has passed sweep s − 1, `before_` has the row
+// below before sweep s.
+void SlabPreconditioner::sweep(bool adjoint) {
+  const Slab& slab = level_.slab;
+  const int rows = slab.rows() + 2 * sweeps, nx = slab.nx;
+  if (slab.rows() == 0) return;
+  const auto row = [&](int j) { return field_.data() + static_cast<std::size_t>(j) * slab.width(); };
+  const auto mask = [&](int j) { return mask_.data() + static_cast<std::size_t>(j) * slab.width(); };
+  const auto before = [&](int s) { return before_.data() + static_cast<std::size_t>(s - 1) * slab.width(); };
+  for (int t = 1; t < rows + sweeps; ++t) {
+    for (int s = 1; s <= sweeps; ++s) {
+      const int j = t - s;
+      // Later sweeps do not read this row.
+      if (j < s || j >= rows - s) {
+        if (j == s - 1) std::copy_n(row(j), nx, before(s));
+        continue;
+      }
+      if (adjoint)
+        gather_back({before(s), mask(j - 1)}, {row(j), mask(j)}, {row(j + 1), mask(j + 1)}, nx,
+                    fresh_.data());
+      else
+        extend(before(s), row(j), row(j + 1), mask(j), nx, fresh_.data());
+      std::copy_n(row(j), nx, before(s));
+      std::copy_n(fresh_.data(), nx, row(j));
+    }
+  }
+}
 
 SlabFields::SlabFields(Team& team, std::size_t nodes) : DescentFields(0) {
   team.work([&] {

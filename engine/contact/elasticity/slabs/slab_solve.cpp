@@ -187,6 +187,87 @@ CellAnswer nested_descent(Team& team, const CellProblem& problem, std::span<cons
   return answer;
 }
 
+constexpr int most_solves = 60;
+constexpr double least_nodes = 64 * 64;
+
+// Heights keep their origin.
+std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactProblem& problem) {
+  const SlabSurface& fine = problem.surface;
+  if (fine.slab.all_nodes() <= least_nodes) return {};
+  const auto next = coarser({fine.grid.nx, fine.grid.ny, fine.grid.hy() / fine.grid.hx()});
+  if (!next) return {};
+  SlabContactProblem result = problem;
+  SlabSurface& surface = result.surface;
+  surface.grid.nx = next->shape.nx;
+  surface.grid.ny = next->shape.ny;
+  surface.slab = team.slab(next->shape.nx, next->shape.ny);
+  Array<double> heights = restrict_slabs(team, fine.slab, *next, *fine.heights);
+  std::array<double, 2> own{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const double h : heights) own = {std::min(own[0], h), std::min(own[1], -h)};
+  team.work([&] { surface.heights = std::make_shared<const Array<double>>(std::move(heights)); });
+  const auto ends = team.reduce<0, 2>(own);
+  surface.valley = ends[0];
+  surface.peak = -ends[1];
+  result.best_effort = true;
+  return result;
+}
+
+struct Root {
+  double logarithm = 0;  // of the load
+  double slope = 0;      // d approach / d ln load; 0 if unknown
+};
+
+struct Found {
+  SlabContactAnswer answer;
+  Root root;
+  bool reached = false;
+};
+
+// `target`: approach [m] from first touch at `peak`.
+Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
+             double accuracy, Monitor& monitor) {
+  SlabContactProblem now = problem;
+  now.best_effort = true;
+  const double share = std::min(1.0, target / problem.surface.rms);
+  now.tolerance = std::max(1e-13, 0.2 * std::min(problem.tolerance, accuracy) * share);
+  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without cap
+  double low = -infinity, high = infinity, low_excess = 0, high_excess = 0;
+  Found found;
+  double x = std::min(root.logarithm, highest), last_x = x, last_excess = 0;
+  for (int solve = 0; solve < most_solves; ++solve) {
+    found.answer =
+        solve_slabs_at_pressure(team, now, elementary::exp(x), solve > 0 ? &found.answer : nullptr, monitor);
+    const double excess = found.answer.offset + peak - target;
+    if (solve > 0 && x != last_x) {
+      const double slope = (excess - last_excess) / (x - last_x);
+      if (slope > 0) root.slope = slope;
+    }
+    root.logarithm = x;
+    if (std::abs(excess) <= accuracy * target) {
+      found.reached = true;
+      break;
+    }
+    (excess < 0 ? low : high) = x;
+    (excess < 0 ? low_excess : high_excess) = excess;
+    last_x = x;
+    last_excess = excess;
+    if (excess < 0 && x >= highest) break;
+    constexpr double furthest = 3;
+    double next =
+        root.slope > 0 ? x - std::clamp(excess / root.slope, -furthest, furthest) : x + (excess < 0 ? 1 : -1);
+    if (std::isfinite(low) && std::isfinite(high)) {
+      const double margin = 1e-3 * (high - low);
+      if (!(next > low && next < high)) next = low - low_excess * (high - low) / (high_excess - low_excess);
+      next = solve % 4 == 3 ? 0.5 * (low + high) : std::clamp(next, low + margin, high - margin);
+      if (high - low < 1e-14 * std::abs(high)) break;
+    }
+    x = std::min(next, highest);
+    if (std::abs(x) > 600) break;
+  }
+  found.root = root;
+  return found;
+}
+
 }  // namespace
 
 SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& problem, double mean_pressure,
@@ -277,91 +358,6 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
 
 // Load of a given approach: bracketed secant over ln(load), on the next coarser grid, then on the finest,
 // each solve from the last.
-namespace {
-
-constexpr int most_solves = 60;
-constexpr double least_nodes = 64 * 64;
-
-// Heights keep their origin.
-std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactProblem& problem) {
-  const SlabSurface& fine = problem.surface;
-  if (fine.slab.all_nodes() <= least_nodes) return {};
-  const auto next = coarser({fine.grid.nx, fine.grid.ny, fine.grid.hy() / fine.grid.hx()});
-  if (!next) return {};
-  SlabContactProblem result = problem;
-  SlabSurface& surface = result.surface;
-  surface.grid.nx = next->shape.nx;
-  surface.grid.ny = next->shape.ny;
-  surface.slab = team.slab(next->shape.nx, next->shape.ny);
-  Array<double> heights = restrict_slabs(team, fine.slab, *next, *fine.heights);
-  std::array<double, 2> own{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  for (const double h : heights) own = {std::min(own[0], h), std::min(own[1], -h)};
-  team.work([&] { surface.heights = std::make_shared<const Array<double>>(std::move(heights)); });
-  const auto ends = team.reduce<0, 2>(own);
-  surface.valley = ends[0];
-  surface.peak = -ends[1];
-  result.best_effort = true;
-  return result;
-}
-
-struct Root {
-  double logarithm = 0;  // of the load
-  double slope = 0;      // d approach / d ln load; 0 if unknown
-};
-
-struct Found {
-  SlabContactAnswer answer;
-  Root root;
-  bool reached = false;
-};
-
-// `target`: approach [m] from first touch at `peak`.
-Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
-             double accuracy, Monitor& monitor) {
-  SlabContactProblem now = problem;
-  now.best_effort = true;
-  const double share = std::min(1.0, target / problem.surface.rms);
-  now.tolerance = std::max(1e-13, 0.2 * std::min(problem.tolerance, accuracy) * share);
-  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without cap
-  double low = -infinity, high = infinity, low_excess = 0, high_excess = 0;
-  Found found;
-  double x = std::min(root.logarithm, highest), last_x = x, last_excess = 0;
-  for (int solve = 0; solve < most_solves; ++solve) {
-    found.answer =
-        solve_slabs_at_pressure(team, now, elementary::exp(x), solve > 0 ? &found.answer : nullptr, monitor);
-    const double excess = found.answer.offset + peak - target;
-    if (solve > 0 && x != last_x) {
-      const double slope = (excess - last_excess) / (x - last_x);
-      if (slope > 0) root.slope = slope;
-    }
-    root.logarithm = x;
-    if (std::abs(excess) <= accuracy * target) {
-      found.reached = true;
-      break;
-    }
-    (excess < 0 ? low : high) = x;
-    (excess < 0 ? low_excess : high_excess) = excess;
-    last_x = x;
-    last_excess = excess;
-    if (excess < 0 && x >= highest) break;
-    constexpr double furthest = 3;
-    double next =
-        root.slope > 0 ? x - std::clamp(excess / root.slope, -furthest, furthest) : x + (excess < 0 ? 1 : -1);
-    if (std::isfinite(low) && std::isfinite(high)) {
-      const double margin = 1e-3 * (high - low);
-      if (!(next > low && next < high)) next = low - low_excess * (high - low) / (high_excess - low_excess);
-      next = solve % 4 == 3 ? 0.5 * (low + high) : std::clamp(next, low + margin, high - margin);
-      if (high - low < 1e-14 * std::abs(high)) break;
-    }
-    x = std::min(next, highest);
-    if (std::abs(x) > 600) break;
-  }
-  found.root = root;
-  return found;
-}
-
-}  // namespace
-
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))

@@ -183,6 +183,17 @@ HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
               "if it is another format, name it with `format`");
 }
 
+std::string sdf_header(const Grid& grid) {
+  std::string bytes = "bISO-1.0Asperity  ";
+  // Fixed dates: equal bytes.
+  for (int k = 0; k < 2; ++k) bytes += "010119700000";
+  for (const int number : {grid.nx, grid.ny}) bytes += raw_bytes(static_cast<std::uint16_t>(number));
+  // hx, hy and unit of height in m; a negative resolution means unknown.
+  for (const double number : {grid.hx(), grid.hy(), 1.0, -1.0}) bytes += raw_bytes(number);
+  for (const int number : {0, 7, 0}) bytes += raw_bytes(static_cast<std::uint8_t>(number));
+  return bytes;
+}
+
 }  // namespace
 
 extern constexpr Format sdf_format{
@@ -199,22 +210,6 @@ extern constexpr Format sdf_format{
 
 // Writes binary SDF (bISO-1.0): heights in metres as doubles, missing points NaN. A size, stored as spacing,
 // may differ in the last digit, and a map of one line reads back as a trace.
-
-namespace {
-
-std::string sdf_header(const Grid& grid) {
-  std::string bytes = "bISO-1.0Asperity  ";
-  // Fixed dates: equal bytes.
-  for (int k = 0; k < 2; ++k) bytes += "010119700000";
-  for (const int number : {grid.nx, grid.ny}) bytes += raw_bytes(static_cast<std::uint16_t>(number));
-  // hx, hy and unit of height in m; a negative resolution means unknown.
-  for (const double number : {grid.hx(), grid.hy(), 1.0, -1.0}) bytes += raw_bytes(number);
-  for (const int number : {0, 7, 0}) bytes += raw_bytes(static_cast<std::uint8_t>(number));
-  return bytes;
-}
-
-}  // namespace
-
 // Throws Error{bad_value} above 65535 points a side, Error{bad_file}.
 void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor) {
   const Grid& grid = surface.grid();

@@ -18,7 +18,6 @@
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"
-#include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/hdf5_reader/binary_cursor.hpp"
 #include "engine/surface/surface.hpp"
@@ -195,26 +194,6 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   return map;
 }
 
-}  // namespace
-
-extern constexpr Format sur_format{
-    "sur",
-    "DIGITAL SURF at the start",
-    {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
-     "not.",
-     "Files of Apple computers, binary images and other studiables.",
-     "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
-     "points; compressed: files of surfalize's writer."},
-    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
-    {"sur", "pro"},
-    recognises_sur,
-    read_sur};
-
-// Heights are rounded to steps of (greatest height) / 2^30, or range / 2^31 far from zero; sizes to single
-// precision. A map of one line reads back as a trace.
-
-namespace {
-
 constexpr double millimetre = 1e-3;
 // Half the range of 32 bits.
 constexpr double sur_greatest = 1073741824.0;
@@ -306,6 +285,21 @@ std::string sur_header(const Surface& surface, const SurSteps& steps, std::int32
 
 }  // namespace
 
+extern constexpr Format sur_format{
+    "sur",
+    "DIGITAL SURF at the start",
+    {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
+     "not.",
+     "Files of Apple computers, binary images and other studiables.",
+     "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
+     "points; compressed: files of surfalize's writer."},
+    {FirstLine::top, "Gwyddion's reader shows the first line at the top."},
+    {"sur", "pro"},
+    recognises_sur,
+    read_sur};
+
+// Heights are rounded to steps of (greatest height) / 2^30, or range / 2^31 far from zero; sizes to single
+// precision. A map of one line reads back as a trace.
 // Throws Error{bad_value} if sizes or heights exceed single precision, Error{bad_file}.
 void write_sur(const Surface& surface, const std::string& path, Monitor& monitor) {
   const Grid& grid = surface.grid();

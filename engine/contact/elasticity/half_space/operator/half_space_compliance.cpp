@@ -93,44 +93,6 @@ double corner(double x, double y) {
   return first + second;
 }
 
-}  // namespace
-
-LoveKernel::LoveKernel(double aspect)
-    : aspect_(aspect), far_(elementary::pow(100 * std::max(1.0, aspect), 2)) {}
-
-double LoveKernel::operator()(double i, double j) const {
-  i = std::abs(i);
-  j = std::abs(j);
-  const double x = i, y = j * aspect_;
-  if (x * x + y * y > far_) return far(x, y);
-  const double a = 0.5, b = 0.5 * aspect_;
-  double integral = 0;
-  if (i >= 1 && i >= j)
-    integral = integrate(x, a, y, b);
-  else if (j >= 1)
-    integral = integrate(y, b, x, a);
-  else
-    integral = corner(x + a, y + b) - corner(x - a, y + b) - corner(x + a, y - b) + corner(x - a, y - b);
-  return integral * std::numbers::inv_pi;
-}
-
-// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n. Next term:
-// (half side / R)^6 < 2e-14.
-double LoveKernel::far(double x, double y) const {
-  const double xx = x * x, yy = y * y, rr = xx + yy;
-  const double s = 1 / rr;
-  const double u = 0.25 * s, v = 0.25 * aspect_ * aspect_ * s;  // (half side)² / R²
-  const double cc = xx * s, ss = yy * s;                        // cos², sin² of the direction
-  const double second = u * (3 * cc - 1) / 6 + v * (3 * ss - 1) / 6;
-  const double xxxx = (105 * cc * cc - 90 * cc + 9) / 120;
-  const double yyyy = (105 * ss * ss - 90 * ss + 9) / 120;
-  const double xxyy = (105 * cc * ss - 15 * (cc + ss) + 3) / 36;
-  const double fourth = u * u * xxxx + v * v * yyyy + u * v * xxyy;
-  return aspect_ * std::numbers::inv_pi * std::sqrt(s) * (1 + second + fourth);
-}
-
-namespace {
-
 // Convolution of n values without wrap.
 int padded(int n) { return std::max(2, good_fourier_length(2 * n - 1)); }
 
@@ -240,6 +202,40 @@ void padded_tile_multiplier(const ComplianceMultiplier& of_wave, int nx, int ny,
 }
 
 }  // namespace
+
+LoveKernel::LoveKernel(double aspect)
+    : aspect_(aspect), far_(elementary::pow(100 * std::max(1.0, aspect), 2)) {}
+
+double LoveKernel::operator()(double i, double j) const {
+  i = std::abs(i);
+  j = std::abs(j);
+  const double x = i, y = j * aspect_;
+  if (x * x + y * y > far_) return far(x, y);
+  const double a = 0.5, b = 0.5 * aspect_;
+  double integral = 0;
+  if (i >= 1 && i >= j)
+    integral = integrate(x, a, y, b);
+  else if (j >= 1)
+    integral = integrate(y, b, x, a);
+  else
+    integral = corner(x + a, y + b) - corner(x - a, y + b) - corner(x + a, y - b) + corner(x - a, y - b);
+  return integral * std::numbers::inv_pi;
+}
+
+// Taylor series of 1/R to fourth order, with the mean a^2m b^2n / ((2m+1)(2n+1)) of x'^2m y'^2n. Next term:
+// (half side / R)^6 < 2e-14.
+double LoveKernel::far(double x, double y) const {
+  const double xx = x * x, yy = y * y, rr = xx + yy;
+  const double s = 1 / rr;
+  const double u = 0.25 * s, v = 0.25 * aspect_ * aspect_ * s;  // (half side)² / R²
+  const double cc = xx * s, ss = yy * s;                        // cos², sin² of the direction
+  const double second = u * (3 * cc - 1) / 6 + v * (3 * ss - 1) / 6;
+  const double xxxx = (105 * cc * cc - 90 * cc + 9) / 120;
+  const double yyyy = (105 * ss * ss - 90 * ss + 9) / 120;
+  const double xxyy = (105 * cc * ss - 15 * (cc + ss) + 3) / 36;
+  const double fourth = u * u * xxxx + v * v * yyyy + u * v * xxyy;
+  return aspect_ * std::numbers::inv_pi * std::sqrt(s) * (1 + second + fourth);
+}
 
 // The inactive filter keeps only its multiplier.
 struct HalfSpaceCompliance::Parts {

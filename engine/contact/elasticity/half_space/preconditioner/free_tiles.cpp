@@ -76,6 +76,50 @@ inline float at(const SmoothRow<float>& row, std::size_t k) {
   return row.low_share * row.low[k] + row.high_share * row.high[k];
 }
 
+inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
+// Nonzero where sweeps change nodes.
+inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
+  MarkVector bits_of;
+  for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;
+  bound = static_cast<std::int32_t>(one >> (start_bits + first)) & bits_of;
+}
+
+template <bool odd>
+inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, NodeVector& sum) {
+  const float* const neighbours = here + (odd ? -half : half - 1);
+  sum = (*nodes_at(neighbours) + *nodes_at(neighbours + 1)) +
+        (*nodes_at(here - 2 * half) + *nodes_at(here + 2 * half));
+}
+
+template <bool odd>
+void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, float* now) {
+  for (const Group one : groups)
+    for (int first = 0; first < group; first += node_lanes) {
+      float* const at = now + start_of(one) + first;
+      NodeVector sum;
+      add_up<odd>(at, half, sum);
+      MarkVector bound;
+      read_bound(one, first, bound);
+      const NodeVector here = *nodes_at(at);
+      *nodes_at(at) = bound != 0 ? share * sum : here;
+    }
+}
+
+template <bool odd>
+void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
+                const float* __restrict given, float* now) {
+  for (const Group one : groups)
+    for (int first = 0; first < group; first += node_lanes) {
+      const std::size_t at = start_of(one) + static_cast<std::size_t>(first);
+      NodeVector sum;
+      add_up<odd>(now + at, half, sum);
+      MarkVector bound;
+      read_bound(one, first, bound);
+      const NodeVector none = {};
+      *nodes_at(now + at) = bound != 0 ? share * (*nodes_at(given + at) + sum) : none;
+    }
+}
+
 }  // namespace
 
 void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint64_t* words) {
@@ -271,52 +315,6 @@ Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
   bound = (bound | bound >> 4) & 0x00ff;
   return static_cast<Group>(start) | static_cast<Group>(bound << start_bits);
 }
-
-namespace {
-inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
-// Nonzero where sweeps change nodes.
-inline __attribute__((always_inline)) void read_bound(Group one, int first, MarkVector& bound) {
-  MarkVector bits_of;
-  for (int l = 0; l < node_lanes; ++l) bits_of[l] = 1 << l;
-  bound = static_cast<std::int32_t>(one >> (start_bits + first)) & bits_of;
-}
-
-template <bool odd>
-inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, NodeVector& sum) {
-  const float* const neighbours = here + (odd ? -half : half - 1);
-  sum = (*nodes_at(neighbours) + *nodes_at(neighbours + 1)) +
-        (*nodes_at(here - 2 * half) + *nodes_at(here + 2 * half));
-}
-
-template <bool odd>
-void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, float* now) {
-  for (const Group one : groups)
-    for (int first = 0; first < group; first += node_lanes) {
-      float* const at = now + start_of(one) + first;
-      NodeVector sum;
-      add_up<odd>(at, half, sum);
-      MarkVector bound;
-      read_bound(one, first, bound);
-      const NodeVector here = *nodes_at(at);
-      *nodes_at(at) = bound != 0 ? share * sum : here;
-    }
-}
-
-template <bool odd>
-void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
-                const float* __restrict given, float* now) {
-  for (const Group one : groups)
-    for (int first = 0; first < group; first += node_lanes) {
-      const std::size_t at = start_of(one) + static_cast<std::size_t>(first);
-      NodeVector sum;
-      add_up<odd>(now + at, half, sum);
-      MarkVector bound;
-      read_bound(one, first, bound);
-      const NodeVector none = {};
-      *nodes_at(now + at) = bound != 0 ? share * (*nodes_at(given + at) + sum) : none;
-    }
-}
-}  // namespace
 
 void sweep_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share, float* now) {
   odd ? sweep<true>(groups, half, share, now) : sweep<false>(groups, half, share, now);

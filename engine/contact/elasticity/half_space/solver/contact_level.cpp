@@ -27,6 +27,16 @@ double compliance_of_long_waves(const LevelShape& shape) {
 int sweeps_under(const PressureLimit& limit) {
   return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
 }
+
+// Even if possible, for further nesting.
+int coarser_side(int n, Boundary boundary) {
+  if (n < 2 * least_side) return n;
+  if (n % 2 == 0) return n / 2;
+  if (boundary == Boundary::free) return (n + 1) / 2;
+  constexpr int multiple = 4;  // for nesting and fast transforms
+  return (n / 2 + multiple - 1) / multiple * multiple;
+}
+
 }  // namespace
 
 ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
@@ -71,18 +81,6 @@ void ContactLevel::gap_beside(double mean, std::span<const double> p, std::span<
   };
   compliance.apply_in_double(source, sink, g);
 }
-
-namespace {
-// Even if possible, for further nesting.
-int coarser_side(int n, Boundary boundary) {
-  if (n < 2 * least_side) return n;
-  if (n % 2 == 0) return n / 2;
-  if (boundary == Boundary::free) return (n + 1) / 2;
-  constexpr int multiple = 4;  // for nesting and fast transforms
-  return (n / 2 + multiple - 1) / multiple * multiple;
-}
-
-}  // namespace
 
 Between between(double position, int n, Boundary boundary) {
   const double floor = std::floor(position);

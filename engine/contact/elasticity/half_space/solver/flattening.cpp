@@ -63,56 +63,6 @@ bool presses_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& ans
   return approach < few_digits * span.span();
 }
 
-}  // namespace
-
-double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
-  const Field& h = *problem.heights;
-  const Range span = known_range(h.values());
-  if (!(span.span() > 0) || answer.contacts == 0) return 0;
-  if (presses_lightly(problem, answer, span)) {
-    const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
-    return sunk_lightly(problem, answer, approach, span) / span.span();
-  }
-  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
-    const double low = depth(problem, answer, k);
-    v[0] = problem.faces(k) ? low : infinity;
-    v[1] = problem.faces(k) ? -low : infinity;
-  });
-  return 1 - (-ends[1] - ends[0]) / span.span();
-}
-
-std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
-  const Grid& grid = problem.grid;
-  const Field& h = *problem.heights;
-  const YieldLaw& law = problem.yield;
-  if (problem.overhangs || !(problem.rms > 0)) return {};
-  HalfSpaceCompliance compliance(
-      grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic, problem.weight, false,
-      problem.boundary == Boundary::periodic ? multiplier_of(problem) : ComplianceMultiplier{});
-  const double unit = problem.modulus * (problem.rms / grid.hx());  // Pa, of pressures in cell units
-  const double middle = mean(h.values());
-  Array<double> p(h.size());
-  const auto greatest = [&](auto&& value) {
-    return -over_nodes<0, 1>(p.size(), [&](std::size_t k, double* v) { v[0] = -value(k); })[0];
-  };
-  for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });
-  compliance.apply_inverse(p, p);
-  double least = unit * greatest([&](std::size_t k) { return -p[k]; });
-  if (law.hardens()) {
-    const double softer = problem.modulus / (law.hardening * grid.hx());  // 1/K_h in cell units
-    for_nodes(h.size(), [&](std::size_t k) {
-      p[k] = (h[k] - middle) / problem.rms + softer * (law.yields_at(k) / unit);
-    });
-    compliance.apply_inverse(p, p, softer);
-    const double mean_of_it = mean(p);
-    const double yielding =
-        unit * greatest([&](std::size_t k) { return law.yields_at(k) / unit - (p[k] - mean_of_it); });
-    least = std::min(least, yielding);
-  }
-  return least > 0 && std::isfinite(least) ? std::optional(least * (1 + a_little)) : std::nullopt;
-}
-
-namespace {
 using namespace search_rules;
 
 constexpr double rough_tolerance = 1e-2;  // of first solves and on coarser grids
@@ -476,6 +426,53 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
 }
 
 }  // namespace
+
+double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  const Field& h = *problem.heights;
+  const Range span = known_range(h.values());
+  if (!(span.span() > 0) || answer.contacts == 0) return 0;
+  if (presses_lightly(problem, answer, span)) {
+    const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
+    return sunk_lightly(problem, answer, approach, span) / span.span();
+  }
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const double low = depth(problem, answer, k);
+    v[0] = problem.faces(k) ? low : infinity;
+    v[1] = problem.faces(k) ? -low : infinity;
+  });
+  return 1 - (-ends[1] - ends[0]) / span.span();
+}
+
+std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
+  const Grid& grid = problem.grid;
+  const Field& h = *problem.heights;
+  const YieldLaw& law = problem.yield;
+  if (problem.overhangs || !(problem.rms > 0)) return {};
+  HalfSpaceCompliance compliance(
+      grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic, problem.weight, false,
+      problem.boundary == Boundary::periodic ? multiplier_of(problem) : ComplianceMultiplier{});
+  const double unit = problem.modulus * (problem.rms / grid.hx());  // Pa, of pressures in cell units
+  const double middle = mean(h.values());
+  Array<double> p(h.size());
+  const auto greatest = [&](auto&& value) {
+    return -over_nodes<0, 1>(p.size(), [&](std::size_t k, double* v) { v[0] = -value(k); })[0];
+  };
+  for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });
+  compliance.apply_inverse(p, p);
+  double least = unit * greatest([&](std::size_t k) { return -p[k]; });
+  if (law.hardens()) {
+    const double softer = problem.modulus / (law.hardening * grid.hx());  // 1/K_h in cell units
+    for_nodes(h.size(), [&](std::size_t k) {
+      p[k] = (h[k] - middle) / problem.rms + softer * (law.yields_at(k) / unit);
+    });
+    compliance.apply_inverse(p, p, softer);
+    const double mean_of_it = mean(p);
+    const double yielding =
+        unit * greatest([&](std::size_t k) { return law.yields_at(k) / unit - (p[k] - mean_of_it); });
+    least = std::min(least, yielding);
+  }
+  return least > 0 && std::isfinite(least) ? std::optional(least * (1 + a_little)) : std::nullopt;
+}
 
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
   require(fraction >= 0 && fraction <= 1, "flatten", fraction, "", "it is a share from 0 to 1");

@@ -41,19 +41,6 @@ std::string unconverged_hint(const Grid& grid, double reached, double rounding) 
          "on_failure=\"best\"";
 }
 
-}  // namespace
-
-void throw_unconverged(const std::string& what, const Certificate& reached, double tolerance,
-                       int applications, const Grid& grid, double rounding) {
-  throw Error(ErrorCode::not_converged,
-              what + " reached a residual of " + format_short(reached.worst(), message_digits) +
-                  ", above the `tolerance` of " + format_short(tolerance, message_digits) + ", after " +
-                  std::to_string(applications) + " applications of the half-space",
-              unconverged_hint(grid, reached.worst(), rounding));
-}
-
-namespace {
-
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 
 void check(const HalfSpaceProblem& problem, double mean_pressure) {
@@ -172,90 +159,6 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
           multiplier_of(problem, with_mean)};
 }
 
-}  // namespace
-
-double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
-  double lengths = std::abs(answer.approach) + known_range(problem.heights->values()).span();
-  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // w is a difference of pressures
-    lengths += problem.yield.cap / problem.yield.hardening;
-  const double weight =
-      problem.yield.caps() && answer.mean_pressure > 0 ? problem.yield.cap / answer.mean_pressure : 1.0;
-  return rough(problem, answer.mean_pressure) ? rounding_residual(lengths, problem.rms, weight) : 0.0;
-}
-
-double uniform_compliance(const HalfSpaceProblem& problem) {
-  return problem.share ? problem.share->length * problem.share->uniform / problem.modulus : 0;
-}
-
-ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_mean) {
-  if (!problem.share) return {};
-  return in_cells(*problem.share, problem.grid.hx(), with_mean);
-}
-
-double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
-  const Grid& grid = problem.grid;
-  // Love's kernel in its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
-  const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
-  const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
-  const double most = mean_pressure * static_cast<double>(grid.nodes());
-  const double height = known_range(problem.heights->values()).span();
-  return 2 * (height + most * (own + give)) + problem.rms;
-}
-
-Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length) {
-  Certificate c;
-  if (!(sums.load > 0)) {
-    c.load = mean_pressure > 0 ? 1 : 0;
-  } else {
-    c.complementarity = sums.complementarity / sums.load;
-    c.load = std::abs(sums.load / sums.nodes - mean_pressure) / mean_pressure;
-    c.tension = std::max(0.0, -sums.least) / mean_pressure;
-    c.cap = std::isfinite(cap) ? std::max(0.0, sums.greatest - cap) / cap : 0;
-  }
-  c.penetration = std::max(0.0, std::isfinite(sums.least_gap) ? -sums.least_gap : 0.0);
-  if (length > 0) {
-    c.complementarity = std::max(0.0, c.complementarity) / length;
-    c.penetration /= length;
-  }
-  return c;
-}
-
-void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
-  const YieldLaw& law = problem.yield;
-  const double cap = law.caps() ? law.cap : infinity;
-  const Field &p = answer.pressure, &g = answer.gap;
-  const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
-  const bool finite = std::isfinite(cap);
-  const double most = finite ? cap : 0.0;
-  enum { load, contacts, yielded, energy, capped, least_gap, least_below_cap, least, greatest };
-  const auto weigh = [=, &law, hardens = law.hardens(), p = p.values().data(), g = g.values().data()](
-                         std::size_t k, double* v) {
-    const double pressure = p[k], past = hardens ? pressure - law.yields_at(k) : 0.0;
-    const double gap = g[k] + std::max(0.0, past) * per_hardening;
-    v[load] = v[least] = pressure;
-    v[contacts] = pressure > 0 ? 1.0 : 0.0;
-    v[yielded] = past > 0 || pressure >= cap ? 1.0 : 0.0;
-    v[energy] = pressure * gap;
-    v[capped] = (pressure - (gap > 0 ? 0.0 : most)) * gap;
-    v[least_gap] = gap;
-    v[least_below_cap] = pressure < cap ? gap : infinity;
-    v[greatest] = -pressure;
-  };
-  const auto found = over_nodes<5, 4>(p.size(), weigh);
-  answer.contacts = static_cast<std::int64_t>(found[contacts]);
-  answer.yielded = static_cast<std::int64_t>(found[yielded]);
-  answer.peak_pressure = -found[greatest];
-  const double length =
-      rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
-  const double complementarity = finite ? found[capped] : found[energy] - found[least_gap] * found[load];
-  answer.certificate = certificate_of({static_cast<double>(p.size()), found[load], found[least],
-                                       answer.peak_pressure, complementarity, found[least_below_cap]},
-                                      answer.mean_pressure, cap, length);
-  answer.converged = answer.certificate.worst() <= problem.tolerance;
-}
-
-namespace {
-
 HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   HalfSpaceAnswer answer;
   answer.pressure = Field(problem.grid.nx, problem.grid.ny);
@@ -360,7 +263,140 @@ CellAnswer descend(CellProblem& cell, const CellStart& start, Monitor& monitor) 
   return found;
 }
 
+// Each failure multiplies `approach` by 0.3. Only the first solve uses `start`.
+HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
+                                   Monitor& monitor) {
+  constexpr double less = 0.3;
+  constexpr int tries = 5;
+  const int before = start.iterations;
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, ChainEffort::full, monitor);
+  answer.iterations += before;
+  for (int n = 0; n < tries && !answer.converged; ++n) {
+    if (n > 0) approach *= less;
+    const int so_far = answer.iterations;
+    answer = solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
+    answer.iterations += so_far;
+  }
+  return answer;
+}
+
+// For soft hardening, where no descent balances the load: searches its approach. Empty if a solve fails.
+// `begun`: the unconverged answer.
+std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
+                                                  const HalfSpaceAnswer& begun, Monitor& monitor) {
+  constexpr int most_solves = 80, most_applications = 2000;
+  BracketedSecant root(mean_pressure);
+  HalfSpaceAnswer answer = begun;
+  double approach = begun.approach;
+  for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
+    if (answer.iterations - begun.iterations > most_applications) break;
+    answer = solve_about_offset(problem, approach, std::move(answer), monitor);
+    if (!answer.converged) break;
+    const double found = answer.mean_pressure;
+    if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
+      answer.mean_pressure = mean_pressure;
+      answer.solver += ", for the load";
+      certify(problem, answer);
+      if (answer.converged) return answer;
+    }
+    root.take({approach, found}, true);
+    const std::optional<double> next = root.next();
+    if (!next) break;
+    approach = *next;
+  }
+  return {};
+}
+
 }  // namespace
+
+void throw_unconverged(const std::string& what, const Certificate& reached, double tolerance,
+                       int applications, const Grid& grid, double rounding) {
+  throw Error(ErrorCode::not_converged,
+              what + " reached a residual of " + format_short(reached.worst(), message_digits) +
+                  ", above the `tolerance` of " + format_short(tolerance, message_digits) + ", after " +
+                  std::to_string(applications) + " applications of the half-space",
+              unconverged_hint(grid, reached.worst(), rounding));
+}
+
+double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  double lengths = std::abs(answer.approach) + known_range(problem.heights->values()).span();
+  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // w is a difference of pressures
+    lengths += problem.yield.cap / problem.yield.hardening;
+  const double weight =
+      problem.yield.caps() && answer.mean_pressure > 0 ? problem.yield.cap / answer.mean_pressure : 1.0;
+  return rough(problem, answer.mean_pressure) ? rounding_residual(lengths, problem.rms, weight) : 0.0;
+}
+
+double uniform_compliance(const HalfSpaceProblem& problem) {
+  return problem.share ? problem.share->length * problem.share->uniform / problem.modulus : 0;
+}
+
+ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_mean) {
+  if (!problem.share) return {};
+  return in_cells(*problem.share, problem.grid.hx(), with_mean);
+}
+
+double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
+  const Grid& grid = problem.grid;
+  // Love's kernel in its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)); asinh x < x.
+  const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
+  const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
+  const double most = mean_pressure * static_cast<double>(grid.nodes());
+  const double height = known_range(problem.heights->values()).span();
+  return 2 * (height + most * (own + give)) + problem.rms;
+}
+
+Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length) {
+  Certificate c;
+  if (!(sums.load > 0)) {
+    c.load = mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = sums.complementarity / sums.load;
+    c.load = std::abs(sums.load / sums.nodes - mean_pressure) / mean_pressure;
+    c.tension = std::max(0.0, -sums.least) / mean_pressure;
+    c.cap = std::isfinite(cap) ? std::max(0.0, sums.greatest - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(sums.least_gap) ? -sums.least_gap : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  return c;
+}
+
+void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
+  const YieldLaw& law = problem.yield;
+  const double cap = law.caps() ? law.cap : infinity;
+  const Field &p = answer.pressure, &g = answer.gap;
+  const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
+  const bool finite = std::isfinite(cap);
+  const double most = finite ? cap : 0.0;
+  enum { load, contacts, yielded, energy, capped, least_gap, least_below_cap, least, greatest };
+  const auto weigh = [=, &law, hardens = law.hardens(), p = p.values().data(), g = g.values().data()](
+                         std::size_t k, double* v) {
+    const double pressure = p[k], past = hardens ? pressure - law.yields_at(k) : 0.0;
+    const double gap = g[k] + std::max(0.0, past) * per_hardening;
+    v[load] = v[least] = pressure;
+    v[contacts] = pressure > 0 ? 1.0 : 0.0;
+    v[yielded] = past > 0 || pressure >= cap ? 1.0 : 0.0;
+    v[energy] = pressure * gap;
+    v[capped] = (pressure - (gap > 0 ? 0.0 : most)) * gap;
+    v[least_gap] = gap;
+    v[least_below_cap] = pressure < cap ? gap : infinity;
+    v[greatest] = -pressure;
+  };
+  const auto found = over_nodes<5, 4>(p.size(), weigh);
+  answer.contacts = static_cast<std::int64_t>(found[contacts]);
+  answer.yielded = static_cast<std::int64_t>(found[yielded]);
+  answer.peak_pressure = -found[greatest];
+  const double length =
+      rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
+  const double complementarity = finite ? found[capped] : found[energy] - found[least_gap] * found[load];
+  answer.certificate = certificate_of({static_cast<double>(p.size()), found[load], found[least],
+                                       answer.peak_pressure, complementarity, found[least_below_cap]},
+                                      answer.mean_pressure, cap, length);
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
+}
 
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
                                 HalfSpaceAnswer* start, ChainEffort effort, Monitor& monitor) {
@@ -411,54 +447,6 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   answer.converged = answer.converged && converged;
   return answer;
 }
-
-namespace {
-
-// Each failure multiplies `approach` by 0.3. Only the first solve uses `start`.
-HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
-                                   Monitor& monitor) {
-  constexpr double less = 0.3;
-  constexpr int tries = 5;
-  const int before = start.iterations;
-  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, ChainEffort::full, monitor);
-  answer.iterations += before;
-  for (int n = 0; n < tries && !answer.converged; ++n) {
-    if (n > 0) approach *= less;
-    const int so_far = answer.iterations;
-    answer = solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
-    answer.iterations += so_far;
-  }
-  return answer;
-}
-
-// For soft hardening, where no descent balances the load: searches its approach. Empty if a solve fails.
-// `begun`: the unconverged answer.
-std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
-                                                  const HalfSpaceAnswer& begun, Monitor& monitor) {
-  constexpr int most_solves = 80, most_applications = 2000;
-  BracketedSecant root(mean_pressure);
-  HalfSpaceAnswer answer = begun;
-  double approach = begun.approach;
-  for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
-    if (answer.iterations - begun.iterations > most_applications) break;
-    answer = solve_about_offset(problem, approach, std::move(answer), monitor);
-    if (!answer.converged) break;
-    const double found = answer.mean_pressure;
-    if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
-      answer.mean_pressure = mean_pressure;
-      answer.solver += ", for the load";
-      certify(problem, answer);
-      if (answer.converged) return answer;
-    }
-    root.take({approach, found}, true);
-    const std::optional<double> next = root.next();
-    if (!next) break;
-    approach = *next;
-  }
-  return {};
-}
-
-}  // namespace
 
 HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_pressure, Monitor& monitor) {
   check(problem, mean_pressure);

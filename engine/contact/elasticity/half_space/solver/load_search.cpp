@@ -15,7 +15,6 @@
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
@@ -62,44 +61,6 @@ HalfSpaceAnswer full_under_more(const HalfSpaceProblem& problem, double least, M
   return full;
 }
 
-}  // namespace
-
-HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
-                                      Monitor& monitor) {
-  int applications = 0;
-  const auto counted = [&](HalfSpaceAnswer found) {
-    applications += found.iterations;
-    return found;
-  };
-  // The certificate multiplies rounding of gaps by hardness / load: more load helps, descents do not.
-  HalfSpaceAnswer answer;
-  if (problem.yield.caps()) {
-    answer = counted(solve_if_full(problem, mean_pressure, monitor));
-    const bool rounding_alone = !answer.converged && !answer.pressure.empty();
-    if (!answer.converged && !rounding_alone) {
-      HalfSpaceProblem brief = problem;
-      brief.brief = brief.best_effort = true;
-      answer = counted(solve_at_pressure(brief, mean_pressure, nullptr, monitor));
-    }
-    if (!answer.converged) answer = counted(full_under_more(problem, mean_pressure, monitor));
-  }
-  if (!answer.converged) answer = counted(solve_at_pressure(problem, mean_pressure, nullptr, monitor));
-  answer.iterations = applications;
-  answer.certificate.load = std::max(answer.certificate.load, missed);
-  return answer;
-}
-
-HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
-  if (const auto most = most_at_the_cap(problem, answer))
-    refuse_infeasible(what + " is not reached: the whole " + (problem.overhangs ? "overlap" : "tile") +
-                          " is at its hardness at " + metres(*most),
-                      "give less, or press by `pressure`");
-  if (answer.converged || problem.best_effort) return answer;
-  throw_unconverged(what, answer.certificate, problem.tolerance, answer.iterations, problem.grid,
-                    rounding_residual(problem, answer));
-}
-
-namespace {
 using namespace search_rules;
 
 BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtByLoad& sought) {
@@ -410,6 +371,41 @@ HalfSpaceAnswer LoadSearch::run() {
 }
 
 }  // namespace
+
+HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
+                                      Monitor& monitor) {
+  int applications = 0;
+  const auto counted = [&](HalfSpaceAnswer found) {
+    applications += found.iterations;
+    return found;
+  };
+  // The certificate multiplies rounding of gaps by hardness / load: more load helps, descents do not.
+  HalfSpaceAnswer answer;
+  if (problem.yield.caps()) {
+    answer = counted(solve_if_full(problem, mean_pressure, monitor));
+    const bool rounding_alone = !answer.converged && !answer.pressure.empty();
+    if (!answer.converged && !rounding_alone) {
+      HalfSpaceProblem brief = problem;
+      brief.brief = brief.best_effort = true;
+      answer = counted(solve_at_pressure(brief, mean_pressure, nullptr, monitor));
+    }
+    if (!answer.converged) answer = counted(full_under_more(problem, mean_pressure, monitor));
+  }
+  if (!answer.converged) answer = counted(solve_at_pressure(problem, mean_pressure, nullptr, monitor));
+  answer.iterations = applications;
+  answer.certificate.load = std::max(answer.certificate.load, missed);
+  return answer;
+}
+
+HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
+  if (const auto most = most_at_the_cap(problem, answer))
+    refuse_infeasible(what + " is not reached: the whole " + (problem.overhangs ? "overlap" : "tile") +
+                          " is at its hardness at " + metres(*most),
+                      "give less, or press by `pressure`");
+  if (answer.converged || problem.best_effort) return answer;
+  throw_unconverged(what, answer.certificate, problem.tolerance, answer.iterations, problem.grid,
+                    rounding_residual(problem, answer));
+}
 
 HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoad& sought,
                               HalfSpaceAnswer begun, Monitor& monitor) {
