@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Common mistakes: bare numbers in another unit, values of another type. Errors name the line and a cure.
-#include <vector>
 
 #include "tests/bindings/lua_test.hpp"
 #include "tests/support/warnings.hpp"

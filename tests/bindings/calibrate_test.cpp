@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.calibrate in scripts: calls of the model, undetermined parameters, refusals.
 #include <string>
-#include <vector>
 
 #include "engine/core/parallel.hpp"
 #include "tests/bindings/lua_test.hpp"

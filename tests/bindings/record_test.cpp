@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/record.hpp"
 
-#include <memory>
-
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::record_test {

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "bindings/lua/ensemble/transfer.hpp"

@@ -2,9 +2,7 @@
 // Plasticity: the plan from the materials, and the plastic volume of each body.
 #include "engine/contact/effects/plasticity.hpp"
 
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"

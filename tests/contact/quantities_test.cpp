@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <set>
-#include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"

@@ -2,7 +2,6 @@
 // Connected regions and outlines against a node-by-node flood fill.
 #include "engine/contact/regions.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "tests/contact/contacts.hpp"

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "engine/core/arithmetic/random.hpp"

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"

@@ -2,8 +2,6 @@
 // Friction as a sum over junctions: Hertz, boxes, caps, refusals.
 #include "engine/friction/junction_law.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

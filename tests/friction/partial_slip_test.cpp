@@ -3,7 +3,6 @@
 #include "engine/friction/partial_slip.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"

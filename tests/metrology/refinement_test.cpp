@@ -7,8 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 #include "engine/core/arithmetic/random.hpp"
 

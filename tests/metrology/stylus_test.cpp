@@ -2,7 +2,6 @@
 #include "engine/metrology/stylus.hpp"
 
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 

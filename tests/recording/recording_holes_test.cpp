@@ -3,7 +3,6 @@
 // no gap.
 #include "engine/recording/recording_marks.hpp"
 
-#include <cmath>
 #include <functional>
 #include <numeric>
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
