@@ -103,9 +103,7 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   if (upper != nullptr)
     there.upper = Surface(grid, Field(grid.nx, grid.ny),
                           {.material = upper->material(), .periodic = true, .aliased_share = {}});
-  there.accuracy = {.tolerance = std::max(scene.accuracy.tolerance, tolerance),
-                    .precision = scene.accuracy.precision,
-                    .on_failure = Accuracy::OnFailure::best};
+  there.accuracy = companion_accuracy(scene.accuracy, tolerance);
   there.effects = scene.effects.of_solve();
 
   const LatticeIsometry flat_pose(grid.nx, grid.ny);
